@@ -1,0 +1,113 @@
+// Results as plain data, in the units of the case.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+
+namespace springfold::analysis {
+
+/// Dimension of a quantity, for labels.
+enum class Unit {
+  none,
+  length,
+  angle,
+  force,
+  moment,
+  energy,
+  stiffness,             ///< force per length
+  rotational_stiffness,  ///< moment per angle
+  lambda,                ///< that of the continuation parameter: see StudyResult::lambda_unit
+};
+
+/// A column of the branch table.
+struct Quantity {
+  std::string name{};  ///< "tool.x", "leg_x.knee", "force", "lambda", ...
+  Unit unit = Unit::none;
+};
+
+enum class EventKind {
+  limit_point,          ///< LP: lambda turns back
+  branch_point,         ///< BP: branches cross
+  switching,            ///< SA: a spring becomes active or is released
+  corner_limit_point,   ///< CL: a switching at which lambda turns back
+  branching_kink,       ///< KB: a switching with more than one way out
+  kinematic_singularity,  ///< KS: closure loses rank
+  user_value,           ///< UZ: a marked value
+  end_of_range,         ///< EP: a limit of the study, or where tracing stopped
+  unresolved,           ///< UR: something happens here that could not be resolved
+};
+
+/// "LP", "BP", "SA", "CL", "KB", "KS", "UZ", "EP", "UR".
+std::string code_of(EventKind kind);
+
+/// One row of the branch table: a point of the branch.
+struct Sample {
+  std::vector<double> values{};  ///< in the order of StudyResult::quantities; NaN: undefined here
+  std::string piece{};           ///< segment number of every spring with breakpoints, "0.1.0"
+  std::string event{};           ///< label of the event at this point ("LP1"), or empty
+};
+
+/// A special point. All values are those of the located point itself.
+struct Event {
+  EventKind kind = EventKind::user_value;
+  std::string label{};   ///< "LP1": code and number, counted along the branch from its first row
+  std::string detail{};  ///< in words: "spring leg_x.knee becomes active"
+  std::size_t row = 0;   ///< its row in Branch::samples; a switching has the rows `row`, `row` + 1
+  Matrix stiffness{};    ///< platform stiffness K_Sigma, d x d, world axes; empty if undefined
+  std::vector<double> rates_before{};  ///< d(values)/ds along the branch, arriving; NaN: undefined
+  std::vector<double> rates_after{};   ///< the same, leaving; differs at a switching only
+};
+
+/// Why one direction of a trace ended, in words, and whether that is as it was asked for.
+struct Stop {
+  std::string reason{};
+  bool complete = true;  ///< false: stopped early or unresolved (exit code 5)
+};
+
+/// One line of the step log.
+struct StepNote {
+  double s = 0;          ///< arc length at which it happened
+  double step = 0;       ///< step length that was tried
+  std::string reason{};  ///< in words: why it was refused or cut
+};
+
+/// One connected curve, from its backward end (first row) to its forward end (last row).
+struct Branch {
+  std::vector<Sample> samples{};
+  std::vector<Event> events{};
+  std::size_t start_row = 0;  ///< row of the start point, s = 0
+  Stop backward{};
+  Stop forward{};
+  std::vector<StepNote> log{};
+};
+
+/// How the start point was found.
+struct StartReport {
+  bool found = false;
+  std::string method{};       ///< in words
+  std::string message{};      ///< why not, if not found
+  int attempts = 0;           ///< multi-start tries used
+  int iterations = 0;         ///< of the solver in the successful attempt
+  std::vector<int> chain_iterations{};  ///< paper's iteration: per chain
+  double residual = 0;        ///< largest scaled residual of the equilibrium equations [-]
+  Matrix stiffness{};         ///< K_Sigma at the start, d x d, world axes; empty if undefined
+  std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
+};
+
+struct StudyResult {
+  std::string study{};               ///< name of the study
+  int run = 1;                       ///< number among the study's varied values
+  std::string label{};               ///< "Kv = 0.01", or empty
+  Unit lambda_unit = Unit::none;
+  std::vector<Quantity> quantities{};
+  StartReport start{};
+  std::vector<Branch> branches{};    ///< empty if no start was found; kind equilibrium: one sample
+  double seconds = 0;                ///< CPU time used; never part of reproducible output
+};
+
+/// All branches complete and the start found.
+bool complete(const StudyResult& result);
+
+}  // namespace springfold::analysis

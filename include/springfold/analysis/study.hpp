@@ -1,0 +1,112 @@
+// What is asked of a mechanism: one study is one curve (or one equilibrium), traced both ways.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+#include "springfold/model/mechanism.hpp"
+
+namespace springfold::analysis {
+
+enum class StudyKind {
+  equilibrium,       ///< the start point only: position, stiffness, indices
+  force_deflection,  ///< the whole branch through the start point
+};
+
+/// What lambda is.
+enum class ControlMode {
+  load,       ///< W = W0 + lambda * direction on the body, pose free
+  pose,       ///< pose = start + lambda * direction, the wrench is the result
+  mixed,      ///< displacement lambda along direction driven, all other pose coordinates force-free
+  actuator,   ///< rho = start + lambda * rate for the named actuators
+  parameter,  ///< lambda is a named parameter of the case
+};
+
+/// How the start point is found.
+enum class StartSolve {
+  pose,       ///< actuators and loads given, the pose is found near its guess
+  actuators,  ///< pose and loads given, the actuator commands that balance them are found
+  wrench,     ///< pose and actuators given, the wrench that holds the body is the result
+};
+
+/// Which iteration finds the equilibrium of the chains.
+enum class StartSolver {
+  newton,       ///< KINSOL's globalised Newton method, exact matrix
+  fixed_point,  ///< the paper's iteration, eq. (6) with its sign corrected; needs a given pose
+};
+
+struct StartOptions {
+  StartSolve solve = StartSolve::pose;
+  StartSolver solver = StartSolver::newton;
+  Vector pose{};                ///< of the study's body; empty: the body's own pose
+  int attempts = 16;            ///< seeded multi-start, the unperturbed guess first
+  std::uint64_t seed = 1;       ///< of the perturbations
+};
+
+/// The branch ends where the named quantity leaves [low, high].
+struct Limit {
+  std::string quantity{};
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// A point is wanted where the named quantity has this value.
+struct Mark {
+  std::string quantity{};
+  double value = 0;
+};
+
+/// One actuator that moves with lambda in control mode `actuator`.
+struct ActuatorRate {
+  std::string actuator{};  ///< "chain.joint"
+  double rate = 1;
+};
+
+/// Step lengths are scaled arc lengths [-]: 1 is one radian or about one size of the mechanism.
+struct TraceSettings {
+  double initial_step = 0.01;
+  double minimum_step = 1e-8;
+  double maximum_step = 0.05;
+  int maximum_points = 5000;   ///< in each direction
+};
+
+struct Study {
+  std::string name{};
+  StudyKind kind = StudyKind::force_deflection;
+  ControlMode control = ControlMode::load;
+  Index body = 1;                          ///< body number, 1 is the first moving one
+  Vector direction{};                      ///< d entries; unit length, see docs/case-file.md
+  Vector constant_load{};                  ///< W0 on the body, d entries; empty: none
+  std::vector<ActuatorRate> actuators{};   ///< control mode actuator
+  std::string parameter{};                 ///< control mode parameter: its name
+  StartOptions start{};
+  std::vector<Limit> until{};
+  std::vector<Mark> marks{};
+  TraceSettings trace{};
+};
+
+/// What a named parameter changes, for control mode `parameter`.
+struct Situation {
+  model::Mechanism mechanism{};
+  Vector constant_load{};
+};
+
+/// The case as a function of one parameter; `value` is where the study starts.
+struct ParameterFamily {
+  std::function<Situation(double)> at{};
+  double value = 0;
+};
+
+/// Every rule that the study breaks for this mechanism, as sentences; empty when usable.
+std::vector<std::string> problems_in(const Study& study, const model::Mechanism& mechanism);
+
+/// Names that `until`, `marks`, plots and expected values may use with this study, in the order of
+/// the columns of the branch table (see docs/results.md).
+std::vector<std::string> quantity_names(const Study& study, const model::Mechanism& mechanism);
+
+}  // namespace springfold::analysis

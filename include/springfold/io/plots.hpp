@@ -1,0 +1,31 @@
+// Figures by gnuplot. Curves are safe on disk before this is called.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+struct PlotOutcome {
+  std::vector<std::filesystem::path> files{};  ///< pictures written (.png and .svg)
+  std::vector<std::string> warnings{};         ///< one per figure that failed, with the reason
+};
+
+struct PlotOptions {
+  std::string gnuplot = "gnuplot";  ///< executable, looked up in PATH unless it has a slash
+  double timeout_seconds = 60;      ///< for one figure
+  std::filesystem::path templates{};  ///< folder with style.gp and force-deflection.gp; empty:
+                                      ///< the installed or the source tree's plots/
+};
+
+/// Draws every figure of the case as PNG and SVG. Never throws for a gnuplot that is missing, fails
+/// or hangs: that becomes a warning.
+PlotOutcome draw_plots(const std::filesystem::path& folder, const Case& the_case,
+                       const std::vector<analysis::StudyResult>& results,
+                       const PlotOptions& options = {});
+
+}  // namespace springfold::io

@@ -1,0 +1,40 @@
+// Branch tables, events, summary and manifest on disk. Data dictionary: docs/results.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// One compared value of the expectations.
+struct Comparison {
+  ExpectedValue expected{};
+  double ours = 0;  ///< NaN: the run or the point does not exist
+  bool holds = false;
+};
+
+std::vector<Comparison> compare(const Expectations& expected,
+                                const std::vector<analysis::StudyResult>& results);
+
+/// The comparisons (grouped) and the notes as a text table; empty when nothing is expected.
+std::string comparison_table(const std::vector<Comparison>& comparisons,
+                             const Expectations& expected);
+
+/// A readable table of all runs: start point, stiffness, special points, stop reasons.
+std::string summary_table(const Case& the_case, const std::vector<analysis::StudyResult>& results);
+
+/// summary.json as text: schema version, runs, events, stop reasons. Same bytes for the same case.
+std::string summary_json(const Case& the_case, const std::vector<analysis::StudyResult>& results);
+
+/// Writes branch CSVs, events.csv, steps.csv, summary.json, manifest.json and timings.json, each to
+/// a temporary name first, then renamed; returns the files written.
+/// @throws std::filesystem::filesystem_error or std::runtime_error when something cannot be written
+std::vector<std::filesystem::path> write_results(const std::filesystem::path& folder,
+                                                 const Case& the_case,
+                                                 const std::vector<analysis::StudyResult>& results);
+
+}  // namespace springfold::io

@@ -1,0 +1,110 @@
+// A mechanism as plain data: bodies joined by serial chains (virtual joint method, paper Section 2).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+#include "springfold/model/se3.hpp"
+#include "springfold/model/spring_law.hpp"
+
+namespace springfold::model {
+
+/// Space in which the chains of a body close.
+enum class TaskSpace {
+  xy,       ///< a point in the plane: (x, y)
+  planar,   ///< a body in the plane: (x, y, phi_z)
+  xyz,      ///< a point in space: (x, y, z)
+  spatial,  ///< a body in space: (x, y, z, rotation vector)
+};
+
+/// Number of pose coordinates: 2, 3, 3, 6.
+constexpr Index dimension(TaskSpace space) {
+  switch (space) {
+    case TaskSpace::xy:
+      return 2;
+    case TaskSpace::planar:
+    case TaskSpace::xyz:
+      return 3;
+    case TaskSpace::spatial:
+      return 6;
+  }
+  return 0;
+}
+
+/// Number of pose coordinates that are lengths: 2, 2, 3, 3. They come first; the rest are angles.
+constexpr Index translations(TaskSpace space) {
+  return space == TaskSpace::xy || space == TaskSpace::planar ? 2 : 3;
+}
+
+enum class JointKind {
+  revolute,   ///< coordinate in rad, right-handed about the axis
+  prismatic,  ///< coordinate in the case's length unit, along the axis
+};
+
+enum class JointRole {
+  passive,    ///< free coordinate, no spring: the paper's q
+  preloaded,  ///< free coordinate with a spring: the paper's vartheta
+  compliant,  ///< virtual spring of a link or drive: the paper's theta
+  actuated,   ///< commanded coordinate rho; with a drive spring, rho + theta in series
+};
+
+/// A constant transformation along the chain: a rigid link.
+struct RigidLink {
+  Pose<double> transform{};
+};
+
+/// One revolute or prismatic joint. Universal and spherical joints are two and three of these.
+struct Joint {
+  std::string name{};  ///< unique in its chain
+  JointKind kind = JointKind::revolute;
+  Vec3<double> axis = Vec3<double>::UnitZ();  ///< unit vector in the frame before the joint
+  JointRole role = JointRole::passive;
+  std::optional<SpringLaw> spring{};  ///< preloaded, compliant: needed; actuated: drive stiffness
+  double initial = 0;                 ///< guess of the free coordinate (theta for a drive spring)
+  double command = 0;                 ///< actuated joints: rho
+};
+
+using Element = std::variant<RigidLink, Joint>;
+
+/// An edge of the graph. Its elements lead from a frame fixed in body `from` to a frame fixed in
+/// body `to`.
+struct Chain {
+  std::string name{};
+  Index from = 0;                    ///< body number, 0 is the base
+  Index to = 1;                      ///< body number
+  Pose<double> from_attachment{};    ///< start of the chain in the frame of `from`
+  Pose<double> to_attachment{};      ///< end of the chain in the frame of `to`
+  std::vector<Element> elements{};
+};
+
+/// A moving body. `pose` is where it is to be looked for first.
+struct Body {
+  std::string name{};
+  TaskSpace task_space = TaskSpace::spatial;
+  /// (x, y), (x, y, phi), (x, y, z) or (x, y, z, rotation vector) in the base frame
+  Vector pose{};
+};
+
+/// Bodies (without the base) and chains. Body number b of a chain is bodies[b - 1].
+struct Mechanism {
+  std::vector<Body> bodies{};
+  std::vector<Chain> chains{};
+};
+
+/// Every rule that the mechanism breaks, as sentences; empty when usable.
+std::vector<std::string> problems_in(const Mechanism& mechanism);
+
+/// Task space in which the chain closes: that of its moving end (both ends have the same, if both
+/// move). @pre problems_in(mechanism).empty()
+TaskSpace task_space_of(const Mechanism& mechanism, const Chain& chain);
+
+/// Has the joint an unknown coordinate: everything but an actuated joint without drive spring.
+bool has_coordinate(const Joint& joint);
+
+/// Name of the joint's unknown coordinate: "knee"; "drive.theta" for the spring of an actuated one.
+std::string coordinate_name(const Joint& joint);
+
+}  // namespace springfold::model

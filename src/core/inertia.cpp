@@ -1,0 +1,88 @@
+#include "springfold/core/inertia.hpp"
+
+#include <lapacke.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace springfold {
+namespace {
+
+/// A = L D L^T with 1x1 and 2x2 blocks in D; LAPACK's packing of it.
+struct Factorisation {
+  Matrix LD{};
+  std::vector<lapack_int> pivots{};
+};
+
+std::optional<Factorisation> factorise(const Matrix& A) {
+  assert(A.rows() == A.cols());
+  if (!A.allFinite()) return std::nullopt;
+  Factorisation f{A, std::vector<lapack_int>(static_cast<std::size_t>(A.rows()))};
+  const auto n = static_cast<lapack_int>(A.rows());
+  // A positive return value means an exactly zero pivot: harmless here, D is still right.
+  Vector work(A.rows());
+  if (n > 0)
+    LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', n, f.LD.data(), n, f.pivots.data(), work.data(), n);
+  return f;
+}
+
+/// Eigenvalues of the diagonal blocks of D.
+std::vector<double> pivot_eigenvalues(const Factorisation& f) {
+  std::vector<double> values;
+  const Index n = f.LD.rows();
+  for (Index i = 0; i < n;) {
+    if (f.pivots[static_cast<std::size_t>(i)] > 0) {
+      values.push_back(f.LD(i, i));
+      i += 1;
+      continue;
+    }
+    const double a = f.LD(i, i), b = f.LD(i + 1, i), c = f.LD(i + 1, i + 1);
+    const double mean = a / 2 + c / 2, radius = std::hypot(a / 2 - c / 2, b);
+    const double large = mean >= 0 ? mean + radius : mean - radius;
+    // The smaller one from the determinant, without cancellation.
+    values.push_back(large);
+    values.push_back(large == 0 ? 0 : (a / large) * c - (b / large) * b);
+    i += 2;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance) {
+  const auto f = factorise(A);
+  if (!f) return std::nullopt;
+  const std::vector<double> values = pivot_eigenvalues(*f);
+  double largest = 0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  Inertia inertia;
+  for (const double v : values) {
+    if (std::abs(v) <= zero_tolerance * largest)
+      ++inertia.zero;
+    else
+      ++(v < 0 ? inertia.negative : inertia.positive);
+  }
+  return inertia;
+}
+
+std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B) {
+  assert(A.rows() == B.rows());
+  const auto f = factorise(A);
+  if (!f || !B.allFinite()) return std::nullopt;
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const double v : pivot_eigenvalues(*f)) {
+    largest = std::max(largest, std::abs(v));
+    smallest = std::min(smallest, std::abs(v));
+  }
+  if (A.rows() > 0 && !(smallest > 1e-15 * largest)) return std::nullopt;
+  Matrix X = B;
+  const auto n = static_cast<lapack_int>(A.rows());
+  if (n > 0)
+    LAPACKE_dsytrs(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(), n,
+                   f->pivots.data(), X.data(), n);
+  return X;
+}
+
+}  // namespace springfold
