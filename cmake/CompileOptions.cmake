@@ -1,0 +1,22 @@
+# Flags of our own targets. Users of the installed package get none of them.
+add_library(springfold_options INTERFACE)
+target_compile_options(springfold_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  # A fused multiply-add rounds once instead of twice: the same case would then give other digits
+  # on another processor.
+  -ffp-contract=off)
+
+if(SPRINGFOLD_WARNINGS_AS_ERRORS)
+  target_compile_options(springfold_options INTERFACE -Werror)
+endif()
+
+if(SPRINGFOLD_SANITIZE)
+  # Everything that is linked together must agree on these, so they go into all targets.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)

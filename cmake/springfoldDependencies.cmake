@@ -1,0 +1,31 @@
+# Third-party libraries that our static libraries need when a program is linked. Read by our own
+# build and by the installed springfoldConfig.cmake, so that both find the same things.
+include(CMakeFindDependencyMacro)
+
+macro(springfold_find)
+  if("${CMAKE_FIND_PACKAGE_NAME}" STREQUAL "springfold")
+    find_dependency(${ARGN})
+  else()
+    find_package(${ARGN} REQUIRED)
+  endif()
+endmacro()
+
+springfold_find(Eigen3 3.4 CONFIG)
+springfold_find(LAPACK)
+springfold_find(SUNDIALS 6.4 COMPONENTS kinsol)
+springfold_find(Boost 1.74 CONFIG COMPONENTS filesystem iostreams system)
+springfold_find(fmt 9 CONFIG)
+springfold_find(muparser CONFIG)
+springfold_find(tomlplusplus CONFIG)
+
+# The C interface of LAPACK has no package file of its own.
+if(NOT TARGET springfold::lapacke)
+  find_path(SPRINGFOLD_LAPACKE_INCLUDE_DIR lapacke.h REQUIRED)
+  find_library(SPRINGFOLD_LAPACKE_LIBRARY lapacke REQUIRED)
+  mark_as_advanced(SPRINGFOLD_LAPACKE_INCLUDE_DIR SPRINGFOLD_LAPACKE_LIBRARY)
+  add_library(springfold::lapacke UNKNOWN IMPORTED)
+  set_target_properties(springfold::lapacke PROPERTIES
+    IMPORTED_LOCATION "${SPRINGFOLD_LAPACKE_LIBRARY}"
+    INTERFACE_INCLUDE_DIRECTORIES "${SPRINGFOLD_LAPACKE_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES LAPACK::LAPACK)
+endif()
