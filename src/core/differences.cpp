@@ -4,8 +4,8 @@
 
 namespace springfold {
 
-std::optional<Vector> six_point_derivative(
-    const std::function<std::optional<Vector>(double)>& f, double p, double h) {
+std::optional<Vector> six_point_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                           double p, double h) {
   constexpr std::array<double, 3> weights{45, -9, 1};
   Vector sum;
   for (std::size_t k = 0; k < weights.size(); ++k) {

@@ -73,17 +73,16 @@ std::size_t CompiledSpring::segment_at(double c) const {
 
 CompiledSpring compile(const SpringLaw& law) {
   return std::visit(
-      Overloaded{[](const LinearSpring& s) {
-                   return from_slopes({{}, {s.stiffness}, s.free, 0});
-                 },
-                 [](const OneSidedSpring& s) {
-                   const bool above = s.side == OneSidedSpring::Side::above;
-                   return from_slopes({{s.from},
-                                       {above ? 0.0 : s.stiffness, above ? s.stiffness : 0.0},
-                                       s.from,
-                                       0});
-                 },
-                 [](const PiecewiseLinearSpring& s) { return from_slopes(s); }},
+      Overloaded{
+          [](const LinearSpring& s) {
+            return from_slopes({{}, {s.stiffness}, s.free, 0});
+          },
+          [](const OneSidedSpring& s) {
+            const bool above = s.side == OneSidedSpring::Side::above;
+            return from_slopes(
+                {{s.from}, {above ? 0.0 : s.stiffness, above ? s.stiffness : 0.0}, s.from, 0});
+          },
+          [](const PiecewiseLinearSpring& s) { return from_slopes(s); }},
       law);
 }
 

@@ -28,15 +28,15 @@ struct Quantity {
 };
 
 enum class EventKind {
-  limit_point,          ///< LP: lambda turns back
-  branch_point,         ///< BP: branches cross
-  switching,            ///< SA: a spring becomes active or is released
-  corner_limit_point,   ///< CL: a switching at which lambda turns back
-  branching_kink,       ///< KB: a switching with more than one way out
+  limit_point,            ///< LP: lambda turns back
+  branch_point,           ///< BP: branches cross
+  switching,              ///< SA: a spring becomes active or is released
+  corner_limit_point,     ///< CL: a switching at which lambda turns back
+  branching_kink,         ///< KB: a switching with more than one way out
   kinematic_singularity,  ///< KS: closure loses rank
-  user_value,           ///< UZ: a marked value
-  end_of_range,         ///< EP: a limit of the study, or where tracing stopped
-  unresolved,           ///< UR: something happens here that could not be resolved
+  user_value,             ///< UZ: a marked value
+  end_of_range,           ///< EP: a limit of the study, or where tracing stopped
+  unresolved,             ///< UR: something happens here that could not be resolved
 };
 
 /// "LP", "BP", "SA", "CL", "KB", "KS", "UZ", "EP", "UR".
@@ -86,25 +86,25 @@ struct Branch {
 /// How the start point was found.
 struct StartReport {
   bool found = false;
-  std::string method{};       ///< in words
-  std::string message{};      ///< why not, if not found
-  int attempts = 0;           ///< multi-start tries used
-  int iterations = 0;         ///< of the solver in the successful attempt
+  std::string method{};                 ///< in words
+  std::string message{};                ///< why not, if not found
+  int attempts = 0;                     ///< multi-start tries used
+  int iterations = 0;                   ///< of the solver in the successful attempt
   std::vector<int> chain_iterations{};  ///< paper's iteration: per chain
-  double residual = 0;        ///< largest scaled residual of the equilibrium equations [-]
-  Matrix stiffness{};         ///< K_Sigma at the start, d x d, world axes; empty if undefined
+  double residual = 0;  ///< largest scaled residual of the equilibrium equations [-]
+  Matrix stiffness{};   ///< K_Sigma at the start, d x d, world axes; empty if undefined
   std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
 };
 
 struct StudyResult {
-  std::string study{};               ///< name of the study
-  int run = 1;                       ///< number among the study's varied values
-  std::string label{};               ///< "Kv = 0.01", or empty
+  std::string study{};  ///< name of the study
+  int run = 1;          ///< number among the study's varied values
+  std::string label{};  ///< "Kv = 0.01", or empty
   Unit lambda_unit = Unit::none;
   std::vector<Quantity> quantities{};
   StartReport start{};
-  std::vector<Branch> branches{};    ///< empty if no start was found; kind equilibrium: one sample
-  double seconds = 0;                ///< CPU time used; never part of reproducible output
+  std::vector<Branch> branches{};  ///< empty if no start was found; kind equilibrium: one sample
+  double seconds = 0;              ///< CPU time used; never part of reproducible output
 };
 
 /// All branches complete and the start found.

@@ -43,9 +43,9 @@ enum class StartSolver {
 struct StartOptions {
   StartSolve solve = StartSolve::pose;
   StartSolver solver = StartSolver::newton;
-  Vector pose{};                ///< of the study's body; empty: the body's own pose
-  int attempts = 16;            ///< seeded multi-start, the unperturbed guess first
-  std::uint64_t seed = 1;       ///< of the perturbations
+  Vector pose{};           ///< of the study's body; empty: the body's own pose
+  int attempts = 16;       ///< seeded multi-start, the unperturbed guess first
+  std::uint64_t seed = 1;  ///< of the perturbations
 };
 
 /// The branch ends where the named quantity leaves [low, high].
@@ -72,18 +72,18 @@ struct TraceSettings {
   double initial_step = 0.01;
   double minimum_step = 1e-8;
   double maximum_step = 0.05;
-  int maximum_points = 5000;   ///< in each direction
+  int maximum_points = 5000;  ///< in each direction
 };
 
 struct Study {
   std::string name{};
   StudyKind kind = StudyKind::force_deflection;
   ControlMode control = ControlMode::load;
-  Index body = 1;                          ///< body number, 1 is the first moving one
-  Vector direction{};                      ///< d entries; unit length, see docs/case-file.md
-  Vector constant_load{};                  ///< W0 on the body, d entries; empty: none
-  std::vector<ActuatorRate> actuators{};   ///< control mode actuator
-  std::string parameter{};                 ///< control mode parameter: its name
+  Index body = 1;                         ///< body number, 1 is the first moving one
+  Vector direction{};                     ///< d entries; unit length, see docs/case-file.md
+  Vector constant_load{};                 ///< W0 on the body, d entries; empty: none
+  std::vector<ActuatorRate> actuators{};  ///< control mode actuator
+  std::string parameter{};                ///< control mode parameter: its name
   StartOptions start{};
   std::vector<Limit> until{};
   std::vector<Mark> marks{};

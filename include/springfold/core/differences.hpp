@@ -14,7 +14,7 @@ namespace springfold {
 ///
 /// with error O(h^6) + O(eps / h): about 1e-13 relative for h = 1e-2 of the scale on which f varies.
 /// @returns nothing when f has no value at one of the six points
-std::optional<Vector> six_point_derivative(
-    const std::function<std::optional<Vector>(double)>& f, double p, double h);
+std::optional<Vector> six_point_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                           double p, double h);
 
 }  // namespace springfold

@@ -42,6 +42,22 @@ using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 template <class S>
 using MatrixOf = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
+namespace detail {
+
+/// One variable as a motion of the world: its first-order twist at the end point, and what the
+/// second-order terms need.
+template <class S>
+struct Motion {
+  Vec3<S> dp = Vec3<S>::Zero();      ///< d(point of the end)/dv
+  Vec3<S> omega = Vec3<S>::Zero();   ///< rotation of the closure's relative rotation
+  Vec3<S> spin = Vec3<S>::Zero();    ///< rotation of everything behind (zero for translations)
+  Vec3<S> origin = Vec3<S>::Zero();  ///< a point on the axis of that rotation
+  int group = 0;                     ///< variables of one rotation vector share a group
+  bool of_end_body = false;
+};
+
+}  // namespace detail
+
 /// Closure e of a chain with n variables v and its derivatives. e = 0 where the chain's end and
 /// the body's attachment coincide; rows as the task space's pose coordinates, world axes, lengths
 /// first; the rotational rows are Log(R_end R_attachment^T).
@@ -50,20 +66,11 @@ struct Closure {
   VectorOf<S> e{};  ///< d
   MatrixOf<S> J{};  ///< d x n, de/dv
   MatrixOf<S> H{};  ///< n x n, d2(F . e)/dv2, symmetric; the paper's H^F where v are coordinates
+
+  std::vector<detail::Motion<S>> motions{};  ///< scratch, kept so that storage is reused
 };
 
 namespace detail {
-
-/// One variable as a motion of the world: its first-order twist at the end point, and what the
-/// second-order terms need.
-template <class S>
-struct Motion {
-  Vec3<S> dp = Vec3<S>::Zero();     ///< d(point of the end)/dv
-  Vec3<S> omega = Vec3<S>::Zero();  ///< rotation of the closure's relative rotation
-  Vec3<S> spin = Vec3<S>::Zero();   ///< rotation of everything behind (zero for translations)
-  int group = 0;                    ///< variables of one rotation vector share a group
-  bool of_end_body = false;
-};
 
 /// Second-order rotation of one rotation vector: sym(dJ_l[:, k]/dphi_j).
 template <class S>
@@ -82,11 +89,9 @@ struct BodyFrame {
 template <class S, class V>
 BodyFrame<S> body_frame(TaskSpace space, const V& t, bool with_second) {
   BodyFrame<S> body;
-  body.pose.p = Vec3<S>(t[0], t[1], space == TaskSpace::xyz || space == TaskSpace::spatial
-                                        ? S(t[2])
-                                        : S(0));
-  if (space == TaskSpace::planar)
-    body.pose.R = rotation_about<S>(Vec3<double>::UnitZ(), S(t[2]));
+  body.pose.p =
+      Vec3<S>(t[0], t[1], space == TaskSpace::xyz || space == TaskSpace::spatial ? S(t[2]) : S(0));
+  if (space == TaskSpace::planar) body.pose.R = rotation_about<S>(Vec3<double>::UnitZ(), S(t[2]));
   if (space == TaskSpace::spatial) {
     const Vec3<S> phi(t[3], t[4], t[5]);
     body.pose.R = exp_rotation(phi);
@@ -137,10 +142,8 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   const Index d = chain.dimension(), n = chain.variable_count(), nj = chain.joint_count();
   assert(v.size() == n);
   const Index lengths = translations(space);
-  thread_local std::vector<detail::Motion<S>> motions;
-  thread_local std::vector<Vec3<S>> origins;
+  auto& motions = out.motions;
   motions.assign(static_cast<std::size_t>(n), {});
-  origins.assign(static_cast<std::size_t>(n), Vec3<S>::Zero());
 
   // Forward: frames of all joints.
   Pose<S> frame;
@@ -154,7 +157,7 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
         m.dp = Vec3<S>::Unit(i);
       else
         m.spin = detail::pose_spin(space, front, i);
-      origins[static_cast<std::size_t>(i)] = front.pose.p;
+      m.origin = front.pose.p;
       m.group = -1;
     }
   }
@@ -167,7 +170,7 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
     m.group = static_cast<int>(j) + 1;
     if (step.revolute) {
       m.spin = axis;
-      origins[static_cast<std::size_t>(i)] = frame.p;
+      m.origin = frame.p;
       frame.R = frame.R * rotation_about<S>(step.axis, S(v[i]));
     } else {
       m.dp = axis;
@@ -199,10 +202,11 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   for (Index i = 0; i < chain.first_to(); ++i) {
     auto& m = motions[static_cast<std::size_t>(i)];
     m.omega = m.spin;
-    const bool turns = i < chain.first_joint()
-                           ? i >= lengths
-                           : chain.joints[static_cast<std::size_t>(i - chain.first_joint())].revolute;
-    if (turns) m.dp = cross<S>(m.spin, frame.p - origins[static_cast<std::size_t>(i)]);
+    const bool turns =
+        i < chain.first_joint()
+            ? i >= lengths
+            : chain.joints[static_cast<std::size_t>(i - chain.first_joint())].revolute;
+    if (turns) m.dp = cross<S>(m.spin, Vec3<S>(frame.p - m.origin));
   }
   const Vec3<S> arm = chain.to_moves ? Vec3<S>(attachment.p - end.pose.p) : Vec3<S>::Zero();
   for (Index i = 0; chain.to_moves && i < d; ++i) {
@@ -246,15 +250,14 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
           const Vec3<S> second = detail::second_rotation(body.dJ_l, static_cast<int>(j - first),
                                                          static_cast<int>(k - first));
           const Vec3<S> r = a.of_end_body ? arm : Vec3<S>(frame.p - front.pose.p);
-          const Vec3<S> ddp = cross<S>(second, r) +
-                              S(0.5) * (cross<S>(a.spin, cross<S>(b.spin, r)) +
-                                        cross<S>(b.spin, cross<S>(a.spin, r)));
+          const Vec3<S> ddp =
+              cross<S>(second, r) + S(0.5) * (cross<S>(a.spin, cross<S>(b.spin, r)) +
+                                              cross<S>(b.spin, cross<S>(a.spin, r)));
           value = a.of_end_body ? -dot<S>(f, ddp) - dot<S>(h, E * second)
                                 : dot<S>(f, ddp) + dot<S>(h, second);
         }
       } else if (!a.of_end_body && !b.of_end_body) {
         value = dot<S>(f, cross<S>(a.spin, b.dp)) + S(0.5) * dot<S>(h, cross<S>(a.spin, b.spin));
-        if (j == k) value = dot<S>(f, cross<S>(a.spin, b.dp));
       } else if (one_body) {  // planar end body: its rotation twice
         value = dot<S>(f, cross<S>(a.spin, b.dp));
       } else {  // a of the chain, b of the end body

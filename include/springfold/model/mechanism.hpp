@@ -73,10 +73,10 @@ using Element = std::variant<RigidLink, Joint>;
 /// body `to`.
 struct Chain {
   std::string name{};
-  Index from = 0;                    ///< body number, 0 is the base
-  Index to = 1;                      ///< body number
-  Pose<double> from_attachment{};    ///< start of the chain in the frame of `from`
-  Pose<double> to_attachment{};      ///< end of the chain in the frame of `to`
+  Index from = 0;                  ///< body number, 0 is the base
+  Index to = 1;                    ///< body number
+  Pose<double> from_attachment{};  ///< start of the chain in the frame of `from`
+  Pose<double> to_attachment{};    ///< end of the chain in the frame of `to`
   std::vector<Element> elements{};
 };
 

@@ -1,0 +1,93 @@
+// Curves as plain data: points, special points, why a trace ended.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+
+namespace springfold::continuation {
+
+/// dF/dx and dF/dlambda at one point, on one piece.
+struct Linearisation {
+  Matrix dF_dx{};       ///< n x n
+  Vector dF_dlambda{};  ///< n
+};
+
+/// Direction in the extended space R^(n+1).
+struct Direction {
+  Vector dx{};
+  double dlambda = 0;
+};
+
+struct CurvePoint {
+  double s = 0;  ///< pseudo arc length from the start of the trace [-], never decreasing
+  Vector x{};
+  double lambda = 0;
+  Direction tangent{};  ///< unit length in the metric, oriented with increasing s
+  Piece piece{};
+  std::optional<Index> negative{};  ///< negative eigenvalues of dF/dx; symmetric problems only;
+                                    ///< empty at a point where one is zero
+};
+
+enum class HitKind {
+  limit_point,     ///< lambda turns back
+  branch_point,    ///< the extended Jacobian loses rank: branches cross
+  kink,            ///< one or more switching surfaces are crossed, one way out
+  corner,          ///< the same, and lambda turns back there
+  branching_kink,  ///< a kink with more than one way out
+  user,            ///< an event of the caller
+  unresolved,      ///< the number of negative eigenvalues changed and no event explains it
+};
+
+/// A located special point: plain data, always with the interval that proves it.
+struct Hit {
+  HitKind kind = HitKind::user;
+  std::string name{};                 ///< the caller's event, or the switches that are crossed
+  CurvePoint point{};                 ///< tangent and piece of the arriving side
+  std::vector<CurvePoint> leaving{};  ///< kinks: every way out, the one that was taken first
+  std::vector<Index> switches{};      ///< kinks: which ones are crossed
+  int multiplicity = 1;               ///< branch points: how many eigenvalues vanish
+  double s_before = 0, s_after = 0;   ///< on the branch, the event lies between these two
+};
+
+enum class StopReason {
+  event,           ///< a stopping event of the caller
+  max_points,      ///< as many points as allowed
+  step_too_small,  ///< the corrector refused every step down to the minimum
+  no_way_out,      ///< at a kink none of the pieces continues the curve
+  several_ways,    ///< at a kink more than one piece continues the curve
+  bad_start,       ///< the start is no point of a curve: no unique tangent, or F is not defined
+  observer,        ///< the caller asked to stop
+};
+
+std::string_view to_string(StopReason reason);
+
+/// Why a step was refused or cut, for the step log.
+struct StepNote {
+  double s = 0;          ///< where the step began
+  double step = 0;       ///< its length
+  std::string reason{};  ///< in words
+};
+
+struct Curve {
+  std::vector<CurvePoint> points{};  ///< accepted points, the start first; no special points
+  std::vector<Hit> hits{};           ///< in the order of s
+  StopReason stop = StopReason::bad_start;
+  std::string stop_detail{};  ///< in words
+  std::vector<StepNote> log{};
+};
+
+enum class EventAction { record, stop };
+
+/// Something worth knowing happens where `value` crosses zero.
+struct Event {
+  std::string name{};
+  std::function<double(const CurvePoint&)> value{};
+  EventAction action = EventAction::record;
+};
+
+}  // namespace springfold::continuation

@@ -1,0 +1,32 @@
+// Special points between two points of a curve, found by re-solving on the curve, never by
+// interpolation.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// A point of the curve at distance ds from `from` along its tangent, without judging the step.
+std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
+
+/// A zero of `value` on the curve between step lengths a and b from `from`.
+struct Located {
+  CurvePoint point{};
+  double before = 0, after = 0;  ///< step lengths of the final bracket
+};
+
+/// Bracketed root finding (TOMS 748) over the step length; every trial is a corrected point.
+/// @pre value has opposite signs at the points of step length a and b
+/// @returns nothing when a trial point cannot be corrected
+std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,
+                              const std::function<double(const CurvePoint&)>& value);
+
+/// Bisects until a count that differs at a and b changes within `tolerance`.
+std::optional<Located> locate_count(const Walker& walker, const CurvePoint& from, double a,
+                                    double b, const std::function<long(const CurvePoint&)>& count,
+                                    double tolerance);
+
+}  // namespace springfold::continuation

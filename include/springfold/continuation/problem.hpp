@@ -1,0 +1,145 @@
+// What the engine wants to know: F(x, lambda) = 0 with F : R^n x R -> R^n, and its derivatives.
+// Nothing else: no robots here.
+#pragma once
+
+#include <concepts>
+#include <string>
+
+#include "springfold/core/types.hpp"
+
+namespace springfold::continuation {
+
+/// A curve of solutions of a smooth F(x, lambda) = 0. Both evaluations return false outside the
+/// domain of F (the engine then shortens the step); they never throw.
+template <class P>
+concept SmoothProblem = requires(const P& problem, const Vector& x, double lambda, Vector& v,
+                                 Matrix& M) {
+  { problem.size() } -> std::convertible_to<Index>;                // n
+  { problem.residual(x, lambda, v) } -> std::same_as<bool>;        // v = F
+  { problem.derivatives(x, lambda, M, v) } -> std::same_as<bool>;  // M = dF/dx, v = dF/dlambda
+};
+
+/// A continuous F that is smooth on both sides of switching surfaces g_j(x, lambda) = 0. Each
+/// evaluation is told which piece is meant and continues it smoothly beyond its surfaces:
+/// piece[j] = +1 is the side g_j > 0.
+template <class P>
+concept PiecewiseSmoothProblem = requires(const P& problem, const Vector& x, double lambda,
+                                          const Piece& piece, Vector& v, Matrix& M, Index j) {
+  { problem.size() } -> std::convertible_to<Index>;
+  { problem.residual(x, lambda, piece, v) } -> std::same_as<bool>;
+  { problem.derivatives(x, lambda, piece, M, v) } -> std::same_as<bool>;
+  { problem.switch_count() } -> std::convertible_to<Index>;  // m
+  { problem.switches(x, lambda, v) } -> std::same_as<bool>;  // v = g, m entries
+  {
+    problem.switch_gradients(x, lambda, M, v)
+    } -> std::same_as<bool>;  // M = dg/dx (m x n), v = dg/dlambda
+};
+
+/// Non-owning view of any problem: lets the engine live in .cpp files. The problem must outlive it.
+///
+/// Optional members of a problem are used where they exist:
+///     bool symmetric() const          dF/dx is symmetric; inertia is then counted
+///     Vector metric() const           n weights >= 0 of the arc length (0: does not enter)
+///     std::string switch_name(Index) const
+class ProblemView {
+ public:
+  template <class P>
+  requires(!std::same_as<P, ProblemView> && (SmoothProblem<P> || PiecewiseSmoothProblem<P>))
+      ProblemView(const P& problem)  // NOLINT: implicit on purpose, like std::string_view
+      : problem_{&problem}, calls_{&calls_of<P>} {}
+
+  Index size() const { return calls_->size(problem_); }
+  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
+    return calls_->residual(problem_, x, lambda, piece, F);
+  }
+  bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
+                   Vector& dF_dlambda) const {
+    return calls_->derivatives(problem_, x, lambda, piece, dF_dx, dF_dlambda);
+  }
+  Index switch_count() const { return calls_->switch_count(problem_); }
+  bool switches(const Vector& x, double lambda, Vector& g) const {
+    return calls_->switches(problem_, x, lambda, g);
+  }
+  bool switch_gradients(const Vector& x, double lambda, Matrix& dg_dx, Vector& dg_dlambda) const {
+    return calls_->switch_gradients(problem_, x, lambda, dg_dx, dg_dlambda);
+  }
+  bool symmetric() const { return calls_->symmetric(problem_); }
+  Vector metric() const { return calls_->metric(problem_); }
+  std::string switch_name(Index j) const { return calls_->switch_name(problem_, j); }
+
+ private:
+  struct Calls {
+    Index (*size)(const void*);
+    bool (*residual)(const void*, const Vector&, double, const Piece&, Vector&);
+    bool (*derivatives)(const void*, const Vector&, double, const Piece&, Matrix&, Vector&);
+    Index (*switch_count)(const void*);
+    bool (*switches)(const void*, const Vector&, double, Vector&);
+    bool (*switch_gradients)(const void*, const Vector&, double, Matrix&, Vector&);
+    bool (*symmetric)(const void*);
+    Vector (*metric)(const void*);
+    std::string (*switch_name)(const void*, Index);
+  };
+
+  template <class P>
+  static const P& as(const void* problem) {
+    return *static_cast<const P*>(problem);
+  }
+
+  template <class P>
+  static constexpr Calls calls_of{
+      [](const void* p) { return static_cast<Index>(as<P>(p).size()); },
+      [](const void* p, const Vector& x, double lambda, const Piece& piece, Vector& F) {
+        if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).residual(x, lambda, piece, F);
+        else
+          return as<P>(p).residual(x, lambda, F);
+      },
+      [](const void* p, const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
+         Vector& dF_dlambda) {
+        if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).derivatives(x, lambda, piece, dF_dx, dF_dlambda);
+        else
+          return as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
+      },
+      [](const void* p) {
+        if constexpr (PiecewiseSmoothProblem<P>)
+          return static_cast<Index>(as<P>(p).switch_count());
+        else
+          return Index{0};
+      },
+      [](const void* p, const Vector& x, double lambda, Vector& g) {
+        if constexpr (PiecewiseSmoothProblem<P>) return as<P>(p).switches(x, lambda, g);
+        g.resize(0);
+        return true;
+      },
+      [](const void* p, const Vector& x, double lambda, Matrix& dg_dx, Vector& dg_dlambda) {
+        if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).switch_gradients(x, lambda, dg_dx, dg_dlambda);
+        dg_dx.resize(0, x.size());
+        dg_dlambda.resize(0);
+        return true;
+      },
+      [](const void* p) {
+        if constexpr (requires { as<P>(p).symmetric(); })
+          return static_cast<bool>(as<P>(p).symmetric());
+        else
+          return false;
+      },
+      [](const void* p) -> Vector {
+        if constexpr (requires { as<P>(p).metric(); })
+          return as<P>(p).metric();
+        else
+          return Vector::Ones(static_cast<Index>(as<P>(p).size()));
+      },
+      [](const void* p, Index j) -> std::string {
+        if constexpr (requires { as<P>(p).switch_name(j); })
+          return as<P>(p).switch_name(j);
+        else
+          return "switch " + std::to_string(j + 1);
+      }};
+
+  const void* problem_;
+  const Calls* calls_;
+};
+
+}  // namespace springfold::continuation

@@ -1,0 +1,43 @@
+// One step along a curve as a function of values: a refused step cannot leave a trace.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "springfold/continuation/newton.hpp"
+
+namespace springfold::continuation {
+
+/// What the engine needs beside the problem while it walks.
+struct Walker {
+  ProblemView problem;
+  Vector weights{};  ///< metric of x
+  TraceOptions options{};
+};
+
+/// How nonlinear the curve was over one step.
+struct StepMeasures {
+  double contraction = 0;  ///< second over first Newton correction [-]
+  double turn = 0;         ///< angle between the tangents [rad]
+  double deviation = 0;    ///< first Newton correction over step length [-]
+};
+
+struct StepResult {
+  std::optional<CurvePoint> point{};  ///< empty: refused
+  StepMeasures measures{};
+  std::string refusal{};  ///< in words
+};
+
+/// A point of the curve near the given one: residual at tolerance, tangent along `reference`,
+/// inertia counted. Corrects within the hyperplane through (x, lambda) across `reference`.
+StepResult point_on_curve(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
+                          const Direction& reference);
+
+/// Predicts along the tangent by ds, corrects, and judges the step by StepOptions. The piece stays
+/// that of `from`, also beyond its switching surfaces.
+StepResult try_step(const Walker& walker, const CurvePoint& from, double ds);
+
+/// Length for the next step from the measures of the last accepted one.
+double next_step_length(double ds, const StepMeasures& measures, const StepOptions& options);
+
+}  // namespace springfold::continuation

@@ -1,0 +1,30 @@
+// The path follower.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "springfold/continuation/curve.hpp"
+#include "springfold/continuation/kink.hpp"
+#include "springfold/continuation/options.hpp"
+#include "springfold/continuation/problem.hpp"
+
+namespace springfold::continuation {
+
+/// Called after every accepted step; returning false stops the trace there.
+using StepObserver = std::function<bool(const CurvePoint&)>;
+
+/// Follows the curve from (x, lambda) along `start`. Special points (limit points, branch points,
+/// switching surfaces, the caller's events) are located by re-solving on the curve; at a switching
+/// surface the step is cut exactly there and the curve goes on in the piece that it enters. A
+/// refused step changes nothing but the step length and the log.
+/// @pre problems_in(options).empty(); (x, lambda) satisfies F = 0 to the residual tolerance
+Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+            const std::vector<Event>& events, const TraceOptions& options,
+            const StepObserver& observer = {});
+
+/// All directions in which a curve leaves the point (x, lambda); piece: where no switch is active.
+Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+               const TraceOptions& options);
+
+}  // namespace springfold::continuation

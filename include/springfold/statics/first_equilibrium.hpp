@@ -1,0 +1,69 @@
+// The first point of a branch: an equilibrium near a rough guess.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "springfold/statics/system.hpp"
+
+namespace springfold::statics {
+
+/// What is unknown besides the chains' coordinates and wrenches.
+enum class StartUnknowns {
+  pose,      ///< pose of all bodies; commands and loads are given
+  commands,  ///< actuator commands; the pose of one body and all loads are given
+  wrench,    ///< the wrench that holds one body at its given pose
+};
+
+struct StartProblem {
+  StartUnknowns unknowns = StartUnknowns::pose;
+  Index body = 1;   ///< body whose pose is given (commands, wrench)
+  Vector z{};       ///< guess of all unknowns; given poses stand in it
+  Inputs inputs{};  ///< commands (guess, if they are unknown) and loads
+  int attempts = 16;
+  std::uint64_t seed = 1;
+};
+
+enum class StartStatus {
+  found,
+  no_assembly,     ///< the chains could not be closed from any attempt
+  no_equilibrium,  ///< the solver converged from no attempt
+  wrong_count,     ///< commands: not as many actuators as pose coordinates
+};
+
+/// A solution, or the best attempt.
+struct FirstEquilibrium {
+  StartStatus status = StartStatus::no_equilibrium;
+  Vector z{};
+  Inputs inputs{};  ///< with commands and the holding wrench as found
+  Piece piece{};
+  int attempts = 0;                     ///< tries used
+  int iterations = 0;                   ///< of the successful try (or the last one)
+  double residual = 0;                  ///< largest entry of the equilibrium residual
+  double moved = 0;                     ///< largest change of a coordinate or pose from the guess
+  std::vector<int> chain_iterations{};  ///< paper's iteration: of every chain, last sweep
+};
+
+/// Closes the chains by damped minimum-norm Newton steps, then solves the equilibrium with KINSOL
+/// (Newton with line search, exact matrix), then corrects to full precision. If that fails, again
+/// from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
+/// order one.
+FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
+
+/// One chain at a given pose by the paper's fixed-point iteration, eq. (6), with the sign of the
+/// preload corrected: eps = t - g + J_q q + J_theta (theta - theta_0).
+struct ChainIteration {
+  bool converged = false;
+  int iterations = 0;
+};
+
+/// Updates the chain's coordinates and wrench in z. Stops when they change by less than `tolerance`.
+ChainIteration iterate_chain(const System& system, std::size_t chain, const Vector& rho, Vector& z,
+                             double tolerance = 1e-12, int maximum = 200);
+
+/// Equilibrium by the paper's scheme: iterate_chain for every chain at the given pose; with unknown
+/// commands inside the paper's Section 5 loop rho <- rho - S^-1 F_Sigma, S by differences.
+/// @pre problem.unknowns is not pose
+FirstEquilibrium first_equilibrium_paper(const System& system, const StartProblem& problem);
+
+}  // namespace springfold::statics

@@ -1,0 +1,63 @@
+// Stiffness matrices and stability of a loaded mechanism: paper Section 4.
+#pragma once
+
+#include <optional>
+
+#include "springfold/statics/system.hpp"
+
+namespace springfold::statics {
+
+/// Stiffness of one chain with its end body displaced, all its coordinates in equilibrium:
+///
+///     K_ci = D - B^T A^-1 B,     A = | K - H^F  -J^T |    B = d(rows x, F)/dt,  D = d(rows t)/dt
+///                                    | -J        0   |
+///
+/// @param A_full, work  as equilibrium_matrix left them at the state
+/// @returns d x d in the pose coordinates of the chain's moving end body, at that body's origin
+///          [force/length, ...]; nothing when A is singular: a rigid chain, or chain buckling
+/// @pre the chain joins the base and one moving body
+std::optional<Matrix> chain_stiffness(const System& system, std::size_t chain, const Matrix& A_full,
+                                      const Workspace& work);
+
+/// The same at the chain's own end by the paper's elimination, eq. (11) and (12), as a cross-check:
+///
+///     | J_th k J_th^T          J_q + J_th k H_thq   |^-1      | K_c  * |
+///     |                                             |      =  |        |,  k = (K_th - H_thth)^-1
+///     | (J_q + J_th k H_thq)^T H_qq + H_qth k H_thq |         |  *   * |
+///
+/// where theta are the coordinates with a spring in its active segment and q all others.
+/// @returns d x d in world axes at the chain's end; nothing when one of the matrices is singular
+std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t chain,
+                                            const Piece& piece, const Vector& z,
+                                            const Inputs& inputs);
+
+/// K_Sigma - dW/dt of all bodies together.
+struct PlatformStiffness {
+  Matrix K{};            ///< load_size x load_size, pose coordinates; empty when a chain is rigid
+  Vector eigenvalues{};  ///< of K, ascending; +infinity for directions in which chains are rigid;
+                         ///< empty when the mechanism itself is singular and K unknown
+};
+
+/// @param A_full  matrix of equilibrium_matrix at the state
+PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full);
+
+/// K in pose coordinates -> K in world axes: rotation vectors' derivatives replaced by twists.
+/// Exact where no external moment acts.
+Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K);
+
+/// Numbers of unstable modes. Empty where the closure equations are dependent or the state is
+/// critical, so that the count is not defined.
+struct Stability {
+  std::optional<Index> pose_controlled{};   ///< sum of chain instabilities, all bodies held
+  std::optional<Index> force_controlled{};  ///< under dead load, all bodies free
+};
+
+/// By Haynsworth's additivity: index = n_minus(KKT matrix) - number of independent closures.
+/// @param A_full  matrix of equilibrium_matrix at the state
+Stability stability(const System& system, const Matrix& A_full);
+
+/// Unstable modes of a reduced KKT matrix with `closures` multipliers among its unknowns; empty if
+/// an eigenvalue is zero.
+std::optional<Index> unstable_modes(const Matrix& A, Index closures);
+
+}  // namespace springfold::statics

@@ -1,0 +1,115 @@
+// The statics of a mechanism, prepared for evaluation: who stands where in the vector of unknowns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+#include "springfold/model/closure.hpp"
+#include "springfold/model/mechanism.hpp"
+
+namespace springfold::statics {
+
+/// Where a chain's unknowns stand in z = (x_1, F_1, x_2, F_2, ..., t_1, t_2, ...).
+struct ChainSlice {
+  Index x = 0, x_count = 0;  ///< coordinates
+  Index F = 0, F_count = 0;  ///< wrench, as many as the task space has dimensions
+  Index from = -1, to = -1;  ///< first pose coordinate of the end bodies in z; -1: base
+  std::vector<Index> joint_coordinate{};  ///< per joint: its unknown in z, or -1
+  std::vector<Index> joint_command{};     ///< per joint: its command in rho, or -1
+};
+
+struct BodySlice {
+  Index t = 0, count = 0;  ///< pose coordinates in z
+  Index W = 0;             ///< the body's wrench in the stacked load vector
+};
+
+/// A spring on one coordinate.
+struct CoordinateSpring {
+  Index coordinate = 0;  ///< in z
+  std::string name{};    ///< "leg_x.knee"
+  model::CompiledSpring law{};
+  Index first_switch = 0;  ///< its breakpoints' place in the piece, in increasing order
+};
+
+/// A breakpoint of a spring: the piece's entry is +1 above, -1 below.
+struct Switch {
+  Index coordinate = 0;  ///< in z
+  double breakpoint = 0;
+  std::size_t spring = 0;  ///< number of the spring
+};
+
+/// Immutable; share it between threads, give each its own Workspace.
+struct System {
+  model::Mechanism mechanism{};
+  std::vector<model::CompiledChain> chains{};
+  std::vector<ChainSlice> chain_slices{};
+  std::vector<BodySlice> body_slices{};
+  std::vector<CoordinateSpring> springs{};
+  std::vector<Switch> switches{};
+  std::vector<std::string>
+      coordinate_names{};                    ///< per entry of z; wrenches "leg.Fx", poses "tool.x"
+  std::vector<bool> is_length{};             ///< per entry of z: unknown is a length, not an angle;
+                                             ///< wrenches: a force, not a moment
+  std::vector<bool> is_wrench{};             ///< per entry of z: a chain wrench
+  std::vector<std::string> command_names{};  ///< per entry of rho: "leg_x.drive"
+  std::vector<bool> command_is_length{};     ///< per entry of rho
+  Vector commands{};                         ///< rho as the mechanism gives it
+  Index size = 0;                            ///< of z
+  Index load_size = 0;                       ///< of the stacked body wrenches
+  Index first_pose = 0;                      ///< where the poses begin in z
+
+  Index closure_count() const;  ///< number of closure equations, sum of all F_count
+};
+
+/// @pre model::problems_in(mechanism).empty()
+System prepare(const model::Mechanism& mechanism);
+
+/// The mechanism's own guess: initial coordinates, zero wrenches, body poses.
+Vector guess(const System& system);
+
+/// Segments in which the springs of state z are; at a breakpoint the upper one.
+Piece piece_at(const System& system, const Vector& z);
+
+/// Segment of a spring in a piece.
+std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece);
+
+/// Everything that the equilibrium depends on besides z.
+struct Inputs {
+  Vector rho{};  ///< commands of the actuated joints
+  Vector W{};    ///< load_size: external wrench on every body, world axes, at the body's origin
+};
+
+/// Storage that evaluations reuse.
+struct Workspace {
+  std::vector<model::Closure<double>> closures{};
+  std::vector<Vector> variables{};
+  std::vector<Vector> wrenches{};
+};
+
+/// Gradient of the Lagrangian L = sum U_i - work - sum F_i . e_i (paper eq. (4), (5)):
+///
+///     row x_i:  U_i' - J_i^T F_i      forces in every joint
+///     row F_i:  -e_i                  closure
+///     row t_b:  sum F_i - W_b         balance of every body (as generalised forces of t_b)
+///
+/// @param piece  which smooth continuation of the springs to use
+/// @returns false when the result is not finite
+bool equilibrium_residual(const System& system, const Piece& piece, const Vector& z,
+                          const Inputs& inputs, Workspace& work, Vector& residual);
+
+/// The same and its derivatives: A = d residual/dz, symmetric but for external moments on spatial
+/// bodies, and optionally the columns d residual/d rho (size x number of commands).
+bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& z,
+                        const Inputs& inputs, Workspace& work, Vector& residual, Matrix& A,
+                        Matrix* dR_drho = nullptr);
+
+/// Spring energy in the state z, each spring in its own segment.
+double spring_energy(const System& system, const Vector& z);
+
+/// Columns d residual/dW: minus the generalised force of a unit wrench component on each body,
+/// size x load_size.
+Matrix load_columns(const System& system, const Vector& z);
+
+}  // namespace springfold::statics

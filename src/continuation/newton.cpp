@@ -1,0 +1,119 @@
+#include "springfold/continuation/newton.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace springfold::continuation {
+namespace {
+
+/// Smallest over largest pivot below this counts as singular.
+constexpr double singular_pivot = 1e-15;
+
+/// Corrections below this leave errors at rounding level.
+constexpr double refined_step = 1e-6;
+
+double norm(const Vector& weights, const Direction& d) {
+  return std::sqrt(metric_product(weights, d, d));
+}
+
+}  // namespace
+
+double metric_product(const Vector& weights, const Direction& a, const Direction& b) {
+  return (weights.array() * a.dx.array() * b.dx.array()).sum() + a.dlambda * b.dlambda;
+}
+
+bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+               Linearisation& at) {
+  return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && at.dF_dx.allFinite() &&
+         at.dF_dlambda.allFinite();
+}
+
+std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& weights,
+                                        const Direction& border, const Vector& r, double rho) {
+  const Index n = at.dF_dx.rows();
+  assert(at.dF_dx.cols() == n && border.dx.size() == n && r.size() == n);
+  Matrix A(n + 1, n + 1);
+  A << at.dF_dx, at.dF_dlambda, (weights.array() * border.dx.array()).matrix().transpose(),
+      border.dlambda;
+  const Eigen::PartialPivLU<Matrix> lu(A);
+  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
+  if (!(pivots.minCoeff() > singular_pivot * pivots.maxCoeff())) return std::nullopt;
+  Vector right(n + 1);
+  right << r, rho;
+  const Vector solution = lu.solve(right);
+  return Direction{solution.head(n), solution[n]};
+}
+
+std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weights,
+                                    const Direction& reference) {
+  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(at.dF_dx.rows()), 1.0);
+  if (!tangent) return std::nullopt;
+  const double length = norm(weights, *tangent);
+  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  tangent->dx /= length;
+  tangent->dlambda /= length;
+  return tangent;
+}
+
+std::string_view to_string(NewtonStatus status) {
+  switch (status) {
+    case NewtonStatus::converged:
+      return "converged";
+    case NewtonStatus::too_many_iterations:
+      return "corrector needs too many iterations";
+    case NewtonStatus::diverges:
+      return "corrector diverges";
+    case NewtonStatus::singular:
+      return "bordered matrix is singular";
+    case NewtonStatus::outside_domain:
+      return "left the domain of the problem";
+  }
+  return "unknown";
+}
+
+NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x, double lambda,
+                     const Piece& piece, const Direction& border, const NewtonOptions& options) {
+  NewtonResult result{.x = x, .lambda = lambda};
+  Linearisation at;
+  Vector F;
+  for (;; ++result.iterations) {
+    const bool inside = problem.residual(result.x, result.lambda, piece, F) && F.allFinite();
+    if (!inside) return result;  // status is still outside_domain
+    result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
+    const double scale =
+        std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
+    const bool small = result.residual_norm <= options.residual_tolerance * scale;
+    // A correction of length c leaves an error of order c^2: after a short one the digits are full.
+    const bool refined = !result.corrections.empty() && result.corrections.back() <= refined_step;
+    if (small && refined) {
+      result.status = NewtonStatus::converged;
+      return result;
+    }
+    if (result.iterations == options.maximum_iterations) {
+      result.status = small ? NewtonStatus::converged : NewtonStatus::too_many_iterations;
+      return result;
+    }
+    if (!linearise(problem, result.x, result.lambda, piece, at)) return result;
+    const auto step = solve_bordered(at, weights, border, -F, 0.0);
+    if (!step) {
+      result.status = small ? NewtonStatus::converged : NewtonStatus::singular;
+      return result;
+    }
+    const double length = norm(weights, *step);
+    if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
+      const double ratio = length / result.corrections.back();
+      result.contraction = std::max(result.contraction, ratio);
+      if (ratio > 1) {
+        result.status = NewtonStatus::diverges;
+        return result;
+      }
+    }
+    result.corrections.push_back(length);
+    result.x += step->dx;
+    result.lambda += step->dlambda;
+  }
+}
+
+}  // namespace springfold::continuation

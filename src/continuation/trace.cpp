@@ -1,0 +1,217 @@
+#include "springfold/continuation/trace.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "events.hpp"
+#include "springfold/core/inertia.hpp"
+#include "words.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// The tracer's whole memory between two steps.
+struct Progress {
+  CurvePoint here{};
+  std::optional<Index> negative{};  ///< of the branch just behind or at `here`
+  std::vector<Index> left{};        ///< switches that are zero at `here` and being left
+  double ds = 0;
+};
+
+enum class Outcome { go_on, shorten, stop };
+
+std::string names_of(ProblemView problem, const std::vector<Index>& switches) {
+  std::string names;
+  for (const Index j : switches) names += (names.empty() ? "" : ", ") + problem.switch_name(j);
+  return names;
+}
+
+CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& ray) {
+  CurvePoint point = at;
+  point.tangent = ray.tangent;
+  point.piece = ray.piece;
+  point.negative.reset();
+  Linearisation linear;
+  if (walker.problem.symmetric() && linearise(walker.problem, at.x, at.lambda, ray.piece, linear)) {
+    const auto inertia = inertia_of(linear.dF_dx);
+    if (inertia && inertia->zero == 0) point.negative = inertia->negative;
+  }
+  return point;
+}
+
+/// At a switching surface: finds the ways out, records the kink, and goes on if there is one way.
+Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve) {
+  Hit hit{.kind = HitKind::kink,
+          .name = names_of(walker.problem, kink.active),
+          .point = kink.point,
+          .switches = kink.active,
+          .s_before = progress.here.s + kink.before,
+          .s_after = progress.here.s + kink.after};
+  const Rays rays =
+      kink.active.size() <= 12
+          ? rays_at(walker, kink.point.x, kink.point.lambda, kink.point.piece, kink.active)
+          : Rays{.complete = false, .why = "too many switches act at one point"};
+  for (const Ray& ray : rays.rays) {
+    const bool back = ray.piece == kink.point.piece &&
+                      metric_product(walker.weights, ray.tangent, kink.point.tangent) < 0;
+    if (!back) hit.leaving.push_back(point_on_ray(walker, kink.point, ray));
+  }
+  const auto stop = [&](StopReason reason, std::string detail) {
+    curve.stop = reason;
+    curve.stop_detail = std::move(detail);
+    curve.hits.push_back(std::move(hit));
+    return Outcome::stop;
+  };
+  if (hit.leaving.empty()) return stop(StopReason::no_way_out, "no way out at " + hit.name);
+  if (hit.leaving.size() > 1) {
+    hit.kind = HitKind::branching_kink;
+    const std::string ways = std::to_string(hit.leaving.size());
+    return stop(StopReason::several_ways, ways + " ways out at " + hit.name);
+  }
+  if (!rays.complete) return stop(StopReason::several_ways, "unresolved kink: " + rays.why);
+
+  const CurvePoint& next = hit.leaving.front();
+  if ((next.tangent.dlambda < 0) != (kink.point.tangent.dlambda < 0)) hit.kind = HitKind::corner;
+  progress.here = next;
+  progress.negative = next.negative;
+  progress.left = kink.active;
+  progress.ds = std::min(progress.ds, walker.options.step.initial);
+  curve.hits.push_back(std::move(hit));
+  return Outcome::go_on;
+}
+
+/// One step: predict, correct, look for switching surfaces and events, record.
+Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress& progress,
+                Curve& curve, std::string& refusal) {
+  StepResult step = try_step(walker, progress.here, progress.ds);
+  if (!step.point) {
+    refusal = step.refusal;
+    return Outcome::shorten;
+  }
+  const KinkSearch kink = first_kink(walker, progress.here, *step.point, progress.left);
+  if (kink.status == KinkSearch::Status::suspicious) {
+    refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
+                                               : std::string("a switching surface"));
+    return Outcome::shorten;
+  }
+  const bool cut = kink.status == KinkSearch::Status::found;
+  const CurvePoint& end = cut ? kink.point : *step.point;
+  StepEvents found = events_on_step(walker, progress.here, end, progress.negative, events);
+  if (!found.explained && progress.ds > 2 * walker.options.step.minimum) {
+    refusal = "special points too close together";
+    return Outcome::shorten;
+  }
+  if (!found.explained)
+    curve.hits.push_back({.kind = HitKind::unresolved, .name = "unresolved", .point = end});
+  if (!found.failure.empty()) {
+    refusal = found.failure;
+    return Outcome::shorten;
+  }
+  for (std::size_t i = 0; i < found.hits.size(); ++i) {
+    const bool stops = found.stops[i];
+    curve.hits.push_back(std::move(found.hits[i]));
+    if (!stops) continue;
+    curve.stop = StopReason::event;
+    curve.stop_detail = curve.hits.back().name;
+    return Outcome::stop;
+  }
+  if (cut) {
+    curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,
+                         "cut: " + names_of(walker.problem, kink.active)});
+    return pass_kink(walker, kink, progress, curve);
+  }
+  progress.here = std::move(*step.point);
+  progress.left.clear();
+  if (progress.here.negative) progress.negative = progress.here.negative;
+  curve.points.push_back(progress.here);
+  progress.ds = next_step_length(progress.ds, step.measures, walker.options.step);
+  return Outcome::go_on;
+}
+
+}  // namespace
+
+std::string_view to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::event:
+      return "end of the range";
+    case StopReason::max_points:
+      return "largest number of points reached";
+    case StopReason::step_too_small:
+      return "unresolved: a smaller step than allowed would be needed";
+    case StopReason::no_way_out:
+      return "unresolved: no piece continues the curve";
+    case StopReason::several_ways:
+      return "unresolved: several pieces continue the curve";
+    case StopReason::bad_start:
+      return "the start is not a regular point of a curve";
+    case StopReason::observer:
+      return "stopped on request";
+  }
+  return "unknown";
+}
+
+std::vector<std::string> problems_in(const TraceOptions& options) {
+  std::vector<std::string> problems;
+  const StepOptions& step = options.step;
+  if (!(0 < step.minimum && step.minimum <= step.initial && step.initial <= step.maximum))
+    problems.push_back("step: need 0 < minimum <= initial <= maximum");
+  if (!(step.contraction > 0 && step.turn > 0 && step.deviation > 0 && step.aim > 0))
+    problems.push_back("step: contraction, turn, deviation and aim must be positive");
+  if (!(step.growth > 1)) problems.push_back("step.growth: must be greater than 1");
+  if (!(options.newton.residual_tolerance > 0))
+    problems.push_back("newton.residual_tolerance: must be positive");
+  if (options.newton.maximum_iterations < 1)
+    problems.push_back("newton.maximum_iterations: must be at least 1");
+  if (options.maximum_points < 2)
+    problems.push_back("maximum_points: a curve needs at least 2 points");
+  return problems;
+}
+
+Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+               const TraceOptions& options) {
+  const Walker walker{problem, problem.metric(), options};
+  const std::vector<Index> active = active_switches(walker, x, lambda);
+  if (active.size() > 12)
+    return {.complete = false, .why = "too many switches act at the start point"};
+  return rays_at(walker, x, lambda, piece, active);
+}
+
+Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+            const std::vector<Event>& events, const TraceOptions& options,
+            const StepObserver& observer) {
+  assert(problems_in(options).empty());
+  const Walker walker{problem, problem.metric(), options};
+  CurvePoint first;
+  first.x = x;
+  first.lambda = lambda;
+  Progress progress;
+  progress.here = point_on_ray(walker, first, start);
+  progress.left = active_switches(walker, x, lambda);
+  progress.ds = options.step.initial;
+  progress.negative = progress.here.negative;
+  Curve curve{.points = {progress.here}};
+
+  curve.stop = StopReason::max_points;
+  while (static_cast<int>(curve.points.size()) < options.maximum_points) {
+    const double from = progress.here.s, tried = progress.ds;
+    std::string refusal;
+    const Outcome outcome = advance(walker, events, progress, curve, refusal);
+    if (outcome == Outcome::stop) return curve;
+    if (outcome == Outcome::shorten) {
+      curve.log.push_back({from, tried, refusal});
+      progress.ds *= 0.5;
+      if (progress.ds >= options.step.minimum) continue;
+      curve.stop = StopReason::step_too_small;
+      curve.stop_detail = refusal;
+      return curve;
+    }
+    if (observer && !observer(progress.here)) {
+      curve.stop = StopReason::observer;
+      return curve;
+    }
+  }
+  return curve;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,124 @@
+#include "springfold/model/mechanism.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "springfold/model/closure.hpp"
+
+namespace springfold::model {
+namespace {
+
+bool is_rotation(const Mat3<double>& R) {
+  return R.allFinite() && (R * R.transpose() - Mat3<double>::Identity()).norm() < 1e-9 &&
+         R.determinant() > 0;
+}
+
+void check_joint(const Joint& joint, const std::string& where, std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  if (!(std::abs(joint.axis.norm() - 1) < 1e-9)) say("axis: need a unit vector");
+  if (!std::isfinite(joint.initial)) say("initial: need a finite number");
+  if (!std::isfinite(joint.command)) say("value: need a finite number");
+  const bool needs_spring =
+      joint.role == JointRole::preloaded || joint.role == JointRole::compliant;
+  if (needs_spring && !joint.spring) say("spring: a joint with this role needs a spring");
+  if (joint.role == JointRole::passive && joint.spring)
+    say("spring: a passive joint has none; give it the role preloaded");
+  if (!joint.spring) return;
+  for (const std::string& problem : problems_in(*joint.spring)) say("spring." + problem);
+}
+
+void check_chain(const Mechanism& mechanism, const Chain& chain, const std::string& where,
+                 std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  const auto bodies = static_cast<Index>(mechanism.bodies.size());
+  const bool ends_exist =
+      chain.from >= 0 && chain.from <= bodies && chain.to >= 0 && chain.to <= bodies;
+  if (!ends_exist) return say("from, to: no such body");
+  if (chain.from == chain.to) say("from, to: the chain must join two different bodies");
+  if (chain.from > 0 && chain.to > 0) {
+    const auto space = [&](Index b) {
+      return mechanism.bodies[static_cast<std::size_t>(b - 1)].task_space;
+    };
+    if (space(chain.from) != space(chain.to))
+      say("from, to: both moving bodies need the same task space");
+  }
+  if (chain.elements.empty()) say("elements: a chain needs at least one element");
+  for (const Pose<double>* pose : {&chain.from_attachment, &chain.to_attachment})
+    if (!pose->p.allFinite() || !is_rotation(pose->R)) say("attachment: need a rigid motion");
+
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < chain.elements.size(); ++i) {
+    const std::string element = where + ".elements[" + std::to_string(i + 1) + "]";
+    if (const auto* joint = std::get_if<Joint>(&chain.elements[i])) {
+      check_joint(*joint, element, problems);
+      if (!names.insert(joint->name).second)
+        problems.push_back(element + ": name: \"" + joint->name + "\" is used twice");
+      continue;
+    }
+    const auto& T = std::get<RigidLink>(chain.elements[i]).transform;
+    if (!T.p.allFinite() || !is_rotation(T.R))
+      problems.push_back(element + ": rigid: need a rigid motion");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> problems_in(const Mechanism& mechanism) {
+  std::vector<std::string> problems;
+  if (mechanism.bodies.empty()) problems.push_back("body: a mechanism needs a moving body");
+  if (mechanism.chains.empty()) problems.push_back("chain: a mechanism needs a chain");
+  std::set<std::string> names{"base"};
+  for (std::size_t b = 0; b < mechanism.bodies.size(); ++b) {
+    const Body& body = mechanism.bodies[b];
+    const std::string where = "body[" + std::to_string(b + 1) + "]";
+    if (!names.insert(body.name).second)
+      problems.push_back(where + ": name: \"" + body.name + "\" is used twice");
+    if (body.pose.size() != dimension(body.task_space) || !body.pose.allFinite())
+      problems.push_back(where + ": pose: need " + std::to_string(dimension(body.task_space)) +
+                         " finite numbers");
+  }
+  names.clear();
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+    const Chain& chain = mechanism.chains[i];
+    const std::string where = "chain[" + std::to_string(i + 1) + "]";
+    if (!names.insert(chain.name).second)
+      problems.push_back(where + ": name: \"" + chain.name + "\" is used twice");
+    check_chain(mechanism, chain, where, problems);
+  }
+  return problems;
+}
+
+TaskSpace task_space_of(const Mechanism& mechanism, const Chain& chain) {
+  const Index moving = chain.to > 0 ? chain.to : chain.from;
+  return mechanism.bodies[static_cast<std::size_t>(moving - 1)].task_space;
+}
+
+bool has_coordinate(const Joint& joint) {
+  return joint.role != JointRole::actuated || joint.spring.has_value();
+}
+
+std::string coordinate_name(const Joint& joint) {
+  return joint.role == JointRole::actuated ? joint.name + ".theta" : joint.name;
+}
+
+CompiledChain compile(const Mechanism& mechanism, const Chain& chain) {
+  CompiledChain compiled;
+  compiled.space = task_space_of(mechanism, chain);
+  compiled.from_moves = chain.from > 0;
+  compiled.to_moves = chain.to > 0;
+  compiled.to_attachment = chain.to_attachment;
+  Pose<double> pending = chain.from_attachment;
+  for (const Element& element : chain.elements) {
+    if (const auto* link = std::get_if<RigidLink>(&element)) {
+      pending = pending * link->transform;
+      continue;
+    }
+    const auto& joint = std::get<Joint>(element);
+    compiled.joints.push_back({pending, joint.axis, joint.kind == JointKind::revolute});
+    pending = Pose<double>{};
+  }
+  compiled.last = pending;
+  return compiled;
+}
+
+}  // namespace springfold::model

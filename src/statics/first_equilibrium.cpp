@@ -1,0 +1,247 @@
+#include "springfold/statics/first_equilibrium.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <random>
+
+#include "kinsol_newton.hpp"
+
+namespace springfold::statics {
+namespace {
+
+/// Which entries of (z, rho) are unknown and which rows of the residual must vanish.
+struct Selection {
+  std::vector<Index> unknowns{};  ///< numbers >= system.size are commands
+  std::vector<Index> rows{};
+};
+
+Selection selection_of(const System& system, const StartProblem& problem) {
+  Selection s;
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+  const auto of_body = [&](Index i) { return i >= body.t && i < body.t + body.count; };
+  const bool pose_given = problem.unknowns != StartUnknowns::pose;
+  for (Index i = 0; i < system.size; ++i) {
+    if (!(pose_given && of_body(i))) s.unknowns.push_back(i);
+    if (!(problem.unknowns == StartUnknowns::wrench && of_body(i))) s.rows.push_back(i);
+  }
+  if (problem.unknowns == StartUnknowns::commands)
+    for (Index i = 0; i < problem.inputs.rho.size(); ++i) s.unknowns.push_back(system.size + i);
+  return s;
+}
+
+struct State {
+  Vector z{};
+  Inputs inputs{};
+};
+
+/// The equilibrium equations in the selected unknowns; springs in the segments of the state itself.
+class Equations {
+ public:
+  Equations(const System& system, const StartProblem& problem)
+      : system_{system}, selection_{selection_of(system, problem)} {}
+
+  Vector pack(const State& state) const {
+    Vector y(static_cast<Index>(selection_.unknowns.size()));
+    for (Index i = 0; i < y.size(); ++i) {
+      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
+      y[i] = k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size];
+    }
+    return y;
+  }
+
+  void unpack(const Vector& y, State& state) const {
+    for (Index i = 0; i < y.size(); ++i) {
+      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
+      (k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size]) = y[i];
+    }
+  }
+
+  bool is_wrench(Index unknown) const {
+    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
+    return k < system_.size && system_.is_wrench[static_cast<std::size_t>(k)];
+  }
+
+  bool residual(const State& state, Vector& r) {
+    const bool finite = equilibrium_residual(system_, piece_at(system_, state.z), state.z,
+                                             state.inputs, work_, full_);
+    r = full_(selection_.rows);
+    return finite;
+  }
+
+  bool jacobian(const State& state, Matrix& J) {
+    const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z), state.z,
+                                           state.inputs, work_, full_, A_, &dR_drho_);
+    Matrix wide(A_.rows(), A_.cols() + dR_drho_.cols());
+    wide << A_, dR_drho_;
+    J = wide(selection_.rows, selection_.unknowns);
+    return finite;
+  }
+
+  /// The closure equations alone, with respect to all unknowns but the wrenches.
+  bool closures(const State& state, Vector& e, Matrix& J) {
+    Matrix all;
+    if (!jacobian(state, all)) return false;
+    std::vector<Index> rows, columns;
+    for (std::size_t i = 0; i < selection_.rows.size(); ++i)
+      if (system_.is_wrench[static_cast<std::size_t>(selection_.rows[i])])
+        rows.push_back(static_cast<Index>(i));
+    for (Index i = 0; i < all.cols(); ++i)
+      if (!is_wrench(i)) columns.push_back(i);
+    Vector r = full_(selection_.rows);
+    e = r(rows);
+    J = all(rows, columns);
+    return true;
+  }
+
+ private:
+  const System& system_;
+  Selection selection_;
+  Workspace work_;
+  Vector full_;
+  Matrix A_, dR_drho_;
+};
+
+/// Closes the chains: minimum-norm Newton steps of bounded length on the closure equations.
+bool assemble(Equations& equations, State& state) {
+  constexpr double longest = 0.3;
+  Vector e;
+  Matrix J;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    if (!equations.closures(state, e, J)) return false;
+    if (e.lpNorm<Eigen::Infinity>() < 1e-10) return true;
+    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J);
+    decomposition.setThreshold(1e-9);
+    Vector step = -decomposition.solve(e);
+    const double length = step.lpNorm<Eigen::Infinity>();
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    if (length > longest) step *= longest / length;
+    Vector y = equations.pack(state);
+    for (Index i = 0, k = 0; i < y.size(); ++i)
+      if (!equations.is_wrench(i)) y[i] += step[k++];
+    equations.unpack(y, state);
+  }
+  return false;
+}
+
+/// Wrenches that balance the springs best for the given coordinates (least squares).
+void estimate_wrenches(Equations& equations, State& state) {
+  Vector r;
+  Matrix J;
+  Vector y = equations.pack(state);
+  std::vector<Index> columns;
+  for (Index i = 0; i < y.size(); ++i)
+    if (equations.is_wrench(i)) {
+      columns.push_back(i);
+      y[i] = 0;
+    }
+  equations.unpack(y, state);
+  if (!equations.residual(state, r) || !equations.jacobian(state, J)) return;
+  // Columns of the wrenches do not depend on the wrenches: the rows are linear in them.
+  const Matrix J_wrenches = J(Eigen::all, columns);
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J_wrenches);
+  decomposition.setThreshold(1e-9);
+  const Vector F = -decomposition.solve(r);
+  for (std::size_t k = 0; k < columns.size(); ++k) y[columns[k]] = F[static_cast<Index>(k)];
+  equations.unpack(y, state);
+}
+
+/// Newton without safeguards to the last digits.
+double polish(Equations& equations, State& state, int& iterations) {
+  Vector r;
+  Matrix J;
+  double best = std::numeric_limits<double>::infinity();
+  State best_state = state;
+  for (int i = 0; i < 12; ++i) {
+    const bool finite = equations.residual(state, r);
+    const double size = r.lpNorm<Eigen::Infinity>();
+    if (!finite || !(size < best)) break;
+    const bool stagnates = size > 0.5 * best;
+    best = size;
+    best_state = state;
+    if (stagnates || size == 0 || !equations.jacobian(state, J)) break;
+    const Vector step = J.partialPivLu().solve(r);
+    if (!step.allFinite()) break;
+    equations.unpack(equations.pack(state) - step, state);
+    ++iterations;
+  }
+  state = best_state;
+  return best;
+}
+
+void perturb(Equations& equations, State& state, int attempt, std::mt19937_64& random) {
+  const double size = std::min(1.5, 0.02 * std::pow(1.6, attempt));
+  Vector y = equations.pack(state);
+  for (Index i = 0; i < y.size(); ++i) {
+    const double uniform = static_cast<double>(random() >> 11) * 0x1p-53;  // same on any platform
+    if (!equations.is_wrench(i)) y[i] += size * (2 * uniform - 1);
+  }
+  equations.unpack(y, state);
+}
+
+}  // namespace
+
+FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
+  FirstEquilibrium result;
+  Equations equations(system, problem);
+  const State guess{problem.z, problem.inputs};
+  if (problem.unknowns == StartUnknowns::commands) {
+    const Index d = system.body_slices[static_cast<std::size_t>(problem.body - 1)].count;
+    if (problem.inputs.rho.size() != d) {
+      result.status = StartStatus::wrong_count;
+      return result;
+    }
+  }
+  result.status = StartStatus::no_assembly;
+  std::mt19937_64 random(problem.seed);
+  for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {
+    State state = guess;
+    if (result.attempts > 1) perturb(equations, state, result.attempts - 1, random);
+    const bool assembled = assemble(equations, state);
+    if (assembled) result.status = StartStatus::no_equilibrium;
+    estimate_wrenches(equations, state);
+    State trial = state;
+    const SquareSystem square{equations.pack(state).size(),
+                              [&](const Vector& y, Vector& r) {
+                                equations.unpack(y, trial);
+                                return equations.residual(trial, r);
+                              },
+                              [&](const Vector& y, Matrix& J) {
+                                equations.unpack(y, trial);
+                                return equations.jacobian(trial, J);
+                              }};
+    const KinsolResult solved = solve_by_kinsol(square, equations.pack(state), 1e-9, 5.0);
+    equations.unpack(solved.y, state);
+    result.iterations = solved.iterations;
+    result.residual = polish(equations, state, result.iterations);
+    result.z = state.z;
+    result.inputs = state.inputs;
+    if (result.residual <= 1e-12 * std::max(1.0, state.z.lpNorm<Eigen::Infinity>())) {
+      result.status = StartStatus::found;
+      break;
+    }
+  }
+  result.attempts = std::min(result.attempts, problem.attempts);
+  if (result.status != StartStatus::found) return result;
+
+  result.piece = piece_at(system, result.z);
+  for (Index i = 0; i < system.size; ++i)
+    if (!system.is_wrench[static_cast<std::size_t>(i)])
+      result.moved = std::max(result.moved, std::abs(result.z[i] - problem.z[i]));
+  if (problem.unknowns == StartUnknowns::wrench) {
+    const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+    Workspace work;
+    Vector r;
+    equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
+    result.inputs.W.segment(body.W, body.count) +=
+        load_columns(system, result.z)
+            .block(body.t, body.W, body.count, body.count)
+            .partialPivLu()
+            .solve(-r.segment(body.t, body.count));
+  }
+  return result;
+}
+
+}  // namespace springfold::statics

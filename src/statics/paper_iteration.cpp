@@ -1,0 +1,160 @@
+// The paper's own scheme, kept to be compared with Newton's method: eq. (6) and Section 5.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::statics {
+namespace {
+
+/// Coordinates of one chain split as the paper does, in the segments of the present state.
+struct Split {
+  std::vector<Index> theta{}, q{};  ///< with and without stiffness, numbers within the chain
+  Vector stiffness{};               ///< of theta
+  Vector rest{};                    ///< theta_0: where the torque of the segment vanishes
+  Vector constant_torque{};         ///< of q: segments of zero stiffness may carry a constant one
+};
+
+Split split_of(const System& system, const ChainSlice& slice, const Piece& piece) {
+  Vector k = Vector::Zero(slice.x_count), torque_at_zero = Vector::Zero(slice.x_count);
+  for (const CoordinateSpring& spring : system.springs) {
+    const Index i = spring.coordinate - slice.x;
+    if (i < 0 || i >= slice.x_count) continue;
+    const std::size_t segment = segment_of(spring, piece);
+    k[i] = spring.law.segments[segment].stiffness;
+    torque_at_zero[i] = spring.law.torque(segment, 0.0);
+  }
+  Split split;
+  for (Index i = 0; i < slice.x_count; ++i) (k[i] > 0 ? split.theta : split.q).push_back(i);
+  split.stiffness = k(split.theta);
+  split.rest = -(torque_at_zero(split.theta).array() / split.stiffness.array()).matrix();
+  split.constant_torque = torque_at_zero(split.q);
+  return split;
+}
+
+/// Total wrench that the chains take from the body, minus the external one: F_Sigma.
+bool surplus_wrench(const System& system, const StartProblem& problem, const Vector& z,
+                    const Inputs& inputs, Vector& surplus) {
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+  Workspace work;
+  Vector r;
+  if (!equilibrium_residual(system, piece_at(system, z), z, inputs, work, r)) return false;
+  surplus = r.segment(body.t, body.count);
+  return true;
+}
+
+bool all_chains(const System& system, const Vector& rho, Vector& z, std::vector<int>& iterations) {
+  iterations.clear();
+  bool converged = true;
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    const ChainIteration one = iterate_chain(system, i, rho, z);
+    iterations.push_back(one.iterations);
+    converged = converged && one.converged;
+  }
+  return converged;
+}
+
+}  // namespace
+
+ChainIteration iterate_chain(const System& system, std::size_t chain, const Vector& rho, Vector& z,
+                             double tolerance, int maximum) {
+  const ChainSlice& s = system.chain_slices[chain];
+  const Inputs inputs{rho, Vector::Zero(system.load_size)};
+  Workspace work;
+  Vector residual;
+  Matrix A;
+  ChainIteration result;
+  while (result.iterations < maximum) {
+    ++result.iterations;
+    const Piece piece = piece_at(system, z);
+    if (!equilibrium_matrix(system, piece, z, inputs, work, residual, A)) return result;
+    const Split split = split_of(system, s, piece);
+    const Matrix J = -A.block(s.F, s.x, s.F_count, s.x_count);
+    const Matrix J_theta = J(Eigen::all, split.theta), J_q = J(Eigen::all, split.q);
+    const Vector x = z.segment(s.x, s.x_count), theta = x(split.theta), q = x(split.q);
+    const Matrix compliance = split.stiffness.cwiseInverse().asDiagonal();
+
+    // | J_th K^-1 J_th^T   J_q | | F |   | eps          |
+    // |                        | |   | = |              |,  theta = theta_0 + K^-1 J_th^T F
+    // | J_q^T              0   | | q |   | torque of q  |
+    const Index d = s.F_count, nq = q.size();
+    Matrix M = Matrix::Zero(d + nq, d + nq);
+    M.topLeftCorner(d, d) = J_theta * compliance * J_theta.transpose();
+    M.topRightCorner(d, nq) = J_q;
+    M.bottomLeftCorner(nq, d) = J_q.transpose();
+    Vector right(d + nq);
+    right.head(d) = residual.segment(s.F, d) + J_q * q + J_theta * (theta - split.rest);
+    right.tail(nq) = split.constant_torque;
+    const Eigen::FullPivLU<Matrix> lu(M);
+    if (!lu.isInvertible()) return result;
+    const Vector solution = lu.solve(right);
+    if (!solution.allFinite()) return result;
+
+    Vector next = x;
+    next(split.theta) = split.rest + compliance * (J_theta.transpose() * solution.head(d));
+    next(split.q) = solution.tail(nq);
+    const double change =
+        std::max((next - x).lpNorm<Eigen::Infinity>(),
+                 (solution.head(d) - z.segment(s.F, d)).lpNorm<Eigen::Infinity>());
+    z.segment(s.x, s.x_count) = next;
+    z.segment(s.F, d) = solution.head(d);
+    if (change <= tolerance * std::max(1.0, z.lpNorm<Eigen::Infinity>())) {
+      result.converged = true;
+      return result;
+    }
+  }
+  return result;
+}
+
+FirstEquilibrium first_equilibrium_paper(const System& system, const StartProblem& problem) {
+  assert(problem.unknowns != StartUnknowns::pose);
+  FirstEquilibrium result{.z = problem.z, .inputs = problem.inputs, .attempts = 1};
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+  const bool commands = problem.unknowns == StartUnknowns::commands;
+  if (commands && problem.inputs.rho.size() != body.count) {
+    result.status = StartStatus::wrong_count;
+    return result;
+  }
+  Vector surplus, other;
+  constexpr double difference = 0x1p-20;  // of a command, for the numerical S_Frho
+  for (result.iterations = 1; result.iterations <= 50; ++result.iterations) {
+    if (!all_chains(system, result.inputs.rho, result.z, result.chain_iterations)) return result;
+    if (!surplus_wrench(system, problem, result.z, result.inputs, surplus)) return result;
+    if (!commands || surplus.lpNorm<Eigen::Infinity>() <= 1e-12) break;
+    Matrix S(body.count, body.count);
+    for (Index k = 0; k < body.count; ++k) {
+      Inputs moved = result.inputs;
+      moved.rho[k] += difference;
+      Vector z = result.z;
+      std::vector<int> ignored;
+      if (!all_chains(system, moved.rho, z, ignored)) return result;
+      if (!surplus_wrench(system, problem, z, moved, other)) return result;
+      S.col(k) = (other - surplus) / difference;
+    }
+    const Eigen::FullPivLU<Matrix> lu(S);
+    if (!lu.isInvertible()) return result;
+    result.inputs.rho -= lu.solve(surplus);
+  }
+
+  result.piece = piece_at(system, result.z);
+  Workspace work;
+  Vector r;
+  if (!commands)
+    result.inputs.W.segment(body.W, body.count) +=
+        load_columns(system, result.z)
+            .block(body.t, body.W, body.count, body.count)
+            .partialPivLu()
+            .solve(-surplus);
+  equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
+  result.residual = r.lpNorm<Eigen::Infinity>();
+  for (Index i = 0; i < system.size; ++i)
+    if (!system.is_wrench[static_cast<std::size_t>(i)])
+      result.moved = std::max(result.moved, std::abs(result.z[i] - problem.z[i]));
+  if (result.residual <= 1e-10 * std::max(1.0, result.z.lpNorm<Eigen::Infinity>()))
+    result.status = StartStatus::found;
+  return result;
+}
+
+}  // namespace springfold::statics

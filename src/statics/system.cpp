@@ -1,0 +1,161 @@
+#include "springfold/statics/system.hpp"
+
+#include <array>
+#include <cassert>
+
+namespace springfold::statics {
+namespace {
+
+using model::TaskSpace;
+
+std::vector<std::string> pose_names(TaskSpace space) {
+  switch (space) {
+    case TaskSpace::xy:
+      return {"x", "y"};
+    case TaskSpace::planar:
+      return {"x", "y", "phi"};
+    case TaskSpace::xyz:
+      return {"x", "y", "z"};
+    case TaskSpace::spatial:
+      return {"x", "y", "z", "rx", "ry", "rz"};
+  }
+  return {};
+}
+
+std::vector<std::string> wrench_names(TaskSpace space) {
+  switch (space) {
+    case TaskSpace::xy:
+      return {"Fx", "Fy"};
+    case TaskSpace::planar:
+      return {"Fx", "Fy", "Mz"};
+    case TaskSpace::xyz:
+      return {"Fx", "Fy", "Fz"};
+    case TaskSpace::spatial:
+      return {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+  }
+  return {};
+}
+
+void add_unknown(System& system, std::string name, bool length, bool wrench) {
+  system.coordinate_names.push_back(std::move(name));
+  system.is_length.push_back(length);
+  system.is_wrench.push_back(wrench);
+  ++system.size;
+}
+
+void add_spring(System& system, const model::SpringLaw& law, Index coordinate,
+                const std::string& name) {
+  CoordinateSpring spring{coordinate, name, model::compile(law),
+                          static_cast<Index>(system.switches.size())};
+  for (const double b : spring.law.breakpoints)
+    system.switches.push_back({coordinate, b, system.springs.size()});
+  system.springs.push_back(std::move(spring));
+}
+
+void add_chain(System& system, const model::Chain& chain) {
+  ChainSlice slice;
+  slice.x = system.size;
+  std::vector<double> commands(system.commands.begin(), system.commands.end());
+  for (const model::Element& element : chain.elements) {
+    const auto* joint = std::get_if<model::Joint>(&element);
+    if (joint == nullptr) continue;
+    const bool length = joint->kind == model::JointKind::prismatic;
+    slice.joint_coordinate.push_back(has_coordinate(*joint) ? system.size : -1);
+    slice.joint_command.push_back(
+        joint->role == model::JointRole::actuated ? static_cast<Index>(commands.size()) : -1);
+    if (joint->role == model::JointRole::actuated) {
+      commands.push_back(joint->command);
+      system.command_names.push_back(chain.name + "." + joint->name);
+      system.command_is_length.push_back(length);
+    }
+    if (!has_coordinate(*joint)) continue;
+    const std::string name = chain.name + "." + coordinate_name(*joint);
+    if (joint->spring) add_spring(system, *joint->spring, system.size, name);
+    add_unknown(system, name, length, false);
+  }
+  slice.x_count = system.size - slice.x;
+  system.commands = Eigen::Map<const Vector>(commands.data(), static_cast<Index>(commands.size()));
+
+  slice.F = system.size;
+  const TaskSpace space = task_space_of(system.mechanism, chain);
+  slice.F_count = dimension(space);
+  Index i = 0;
+  for (const std::string& name : wrench_names(space))
+    add_unknown(system, chain.name + "." + name, i++ < translations(space), true);
+  system.chain_slices.push_back(std::move(slice));
+  system.chains.push_back(compile(system.mechanism, chain));
+}
+
+}  // namespace
+
+Index System::closure_count() const {
+  Index count = 0;
+  for (const ChainSlice& slice : chain_slices) count += slice.F_count;
+  return count;
+}
+
+System prepare(const model::Mechanism& mechanism) {
+  System system;
+  system.mechanism = mechanism;
+  for (const model::Chain& chain : mechanism.chains) add_chain(system, chain);
+  system.first_pose = system.size;
+  for (const model::Body& body : mechanism.bodies) {
+    system.body_slices.push_back({system.size, dimension(body.task_space), system.load_size});
+    Index i = 0;
+    for (const std::string& name : pose_names(body.task_space))
+      add_unknown(system, body.name + "." + name, i++ < translations(body.task_space), false);
+    system.load_size += dimension(body.task_space);
+  }
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+    const auto pose_of = [&](Index body) {
+      return body > 0 ? system.body_slices[static_cast<std::size_t>(body - 1)].t : Index{-1};
+    };
+    system.chain_slices[i].from = pose_of(mechanism.chains[i].from);
+    system.chain_slices[i].to = pose_of(mechanism.chains[i].to);
+  }
+  return system;
+}
+
+Vector guess(const System& system) {
+  Vector z = Vector::Zero(system.size);
+  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
+    const ChainSlice& slice = system.chain_slices[i];
+    std::size_t j = 0;
+    for (const model::Element& element : system.mechanism.chains[i].elements) {
+      const auto* joint = std::get_if<model::Joint>(&element);
+      if (joint == nullptr) continue;
+      if (slice.joint_coordinate[j] >= 0) z[slice.joint_coordinate[j]] = joint->initial;
+      ++j;
+    }
+  }
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b)
+    z.segment(system.body_slices[b].t, system.body_slices[b].count) =
+        system.mechanism.bodies[b].pose;
+  return z;
+}
+
+Piece piece_at(const System& system, const Vector& z) {
+  Piece piece;
+  piece.reserve(system.switches.size());
+  for (const Switch& s : system.switches)
+    piece.push_back(z[s.coordinate] >= s.breakpoint ? std::int8_t{1} : std::int8_t{-1});
+  return piece;
+}
+
+std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece) {
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i < spring.law.breakpoints.size(); ++i)
+    if (piece[static_cast<std::size_t>(spring.first_switch) + i] > 0) ++segment;
+  return segment;
+}
+
+double spring_energy(const System& system, const Vector& z) {
+  double energy = 0;
+  for (const CoordinateSpring& spring : system.springs) {
+    const double c = z[spring.coordinate];
+    energy += spring.law.energy(spring.law.segment_at(c), c);
+  }
+  return energy;
+}
+
+}  // namespace springfold::statics

@@ -1,0 +1,114 @@
+#include "springfold/model/closure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+
+#include "random_chain.hpp"
+
+namespace springfold::model {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double tiny = 1e-30;  // complex step: no subtraction, so no cancellation
+
+struct Shape {
+  TaskSpace space;
+  bool from_moves, to_moves;
+};
+
+class ClosureDerivatives : public testing::TestWithParam<Shape> {};
+
+/// Variables at random; rotation vectors kept away from 2 pi, where the chart ends.
+VectorOf<double> random_variables(std::mt19937& random, const CompiledChain& chain) {
+  return random_vector(random, chain.variable_count(), 1.7);
+}
+
+TEST_P(ClosureDerivatives, JacobianAgreesWithTheComplexStep) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    const CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
+                                             GetParam().to_moves, trial % 6);
+    const VectorOf<double> v = random_variables(random, chain);
+    Closure<double> at;
+    evaluate_closure<double>(chain, v, nullptr, at);
+    for (Index j = 0; j < v.size(); ++j) {
+      VectorOf<Complex> w = v.cast<Complex>();
+      w[j] += Complex(0, tiny);
+      Closure<Complex> moved;
+      evaluate_closure<Complex>(chain, w, nullptr, moved);
+      const Vector column = moved.e.imag() / tiny;
+      EXPECT_LT((column - at.J.col(j)).norm(), 1e-10 * (1 + at.J.col(j).norm()))
+          << "trial " << trial << ", variable " << j;
+    }
+  }
+}
+
+TEST_P(ClosureDerivatives, ContractedHessianAgreesWithTheComplexStepOfTheJacobian) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
+                                             GetParam().to_moves, trial % 6);
+    const VectorOf<double> v = random_variables(random, chain);
+    const VectorOf<double> F = random_vector(random, chain.dimension(), 2.0);
+    Closure<double> at;
+    evaluate_closure<double>(chain, v, &F, at);
+    ASSERT_LT((at.H - at.H.transpose()).norm(), 1e-12);
+    for (Index j = 0; j < v.size(); ++j) {
+      VectorOf<Complex> w = v.cast<Complex>();
+      w[j] += Complex(0, tiny);
+      Closure<Complex> moved;
+      evaluate_closure<Complex>(chain, w, nullptr, moved);
+      const Matrix J_rate = moved.J.imag() / tiny;
+      const Vector column = J_rate.transpose() * F;
+      EXPECT_LT((column - at.H.col(j)).norm(), 1e-10 * (1 + at.H.norm()))
+          << "trial " << trial << ", variable " << j;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AllTaskSpaces, ClosureDerivatives,
+    testing::Values(Shape{TaskSpace::xy, false, true}, Shape{TaskSpace::xy, true, false},
+                    Shape{TaskSpace::xy, true, true}, Shape{TaskSpace::planar, false, true},
+                    Shape{TaskSpace::planar, true, false}, Shape{TaskSpace::planar, true, true},
+                    Shape{TaskSpace::xyz, false, true}, Shape{TaskSpace::xyz, true, true},
+                    Shape{TaskSpace::spatial, false, true}, Shape{TaskSpace::spatial, true, false},
+                    Shape{TaskSpace::spatial, true, true}));
+
+TEST(Closure, IsZeroWhereTheChainEndsOnTheBody) {
+  std::mt19937 random(9);
+  for (const TaskSpace space : {TaskSpace::xyz, TaskSpace::spatial}) {
+    CompiledChain chain = random_chain(random, space, false, true, 4);
+    chain.to_attachment = Pose<double>{};
+    VectorOf<double> v = random_variables(random, chain);
+    Closure<double> at;
+    v.tail(chain.dimension()).setZero();
+    evaluate_closure<double>(chain, v, nullptr, at);
+    v.tail(chain.dimension()) = at.e;  // the gap to a body at the origin is the chain's end pose
+    evaluate_closure<double>(chain, v, nullptr, at);
+    EXPECT_LT(at.e.norm(), 1e-14);
+  }
+}
+
+TEST(RotationVector, LogarithmUndoesTheExponentialUpToPi) {
+  std::mt19937 random(10);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double angle = trial % 4 == 0 ? 3.14159 : std::pow(10.0, -trial % 9);
+    const Vec3<double> phi = angle * random_unit(random);
+    EXPECT_LT((log_rotation<double>(exp_rotation<double>(phi)) - phi).norm(), 1e-13)
+        << "angle " << angle;
+  }
+}
+
+TEST(RotationVector, InverseJacobianInvertsTheJacobian) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3<double> phi = random_vector(random, 1, 6.0)[0] * random_unit(random);
+    const Mat3<double> product = inverse_left_jacobian<double>(phi) * left_jacobian<double>(phi);
+    EXPECT_LT((product - Mat3<double>::Identity()).norm(), 1e-12) << phi.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace springfold::model
