@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to all tests: installs what is missing, builds with warnings as errors, runs
+# every test.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/setup.sh
+cmake --preset release --log-level=NOTICE -DSPRINGFOLD_WARNINGS_AS_ERRORS=ON
+cmake --build --preset release
+ctest --preset release --parallel "$(nproc)" --no-label-summary
