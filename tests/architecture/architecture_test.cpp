@@ -1,0 +1,106 @@
+// Guards the plan of the house: docs/design.md.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "architecture/rules.hpp"
+
+namespace springfold::architecture {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+std::vector<SourceFile> library_files() {
+  return cpp_files(SPRINGFOLD_SOURCE_DIR, {"include", "src"});
+}
+
+std::vector<SourceFile> all_files() {
+  return cpp_files(SPRINGFOLD_SOURCE_DIR, {"include", "src", "tests", "bench"});
+}
+
+TEST(SourceTree, IsFoundByTheseTests) {
+  const std::vector<SourceFile> files = library_files();
+  const auto is_there = [&](const std::string& path) {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const SourceFile& file) { return file.path == path; });
+  };
+  EXPECT_TRUE(is_there("include/springfold/core/types.hpp"));
+  EXPECT_TRUE(is_there("src/core/inertia.cpp"));
+}
+
+TEST(SourceTree, EveryLayerIncludesOnlyWhatLiesBelowIt) {
+  for (const SourceFile& file : library_files()) EXPECT_THAT(forbidden_includes(file), IsEmpty());
+}
+
+TEST(SourceTree, ThirdPartiesThatWeMayWantToReplaceStandInOneFileEach) {
+  EXPECT_THAT(scattered_libraries(library_files()), IsEmpty());
+}
+
+TEST(SourceTree, NoLibraryCodePrintsOrEndsTheProgram) {
+  for (const SourceFile& file : library_files()) {
+    if (file.path.starts_with("src/cli/")) continue;
+    EXPECT_THAT(prints_or_exits(file), IsEmpty());
+  }
+}
+
+TEST(SourceTree, NoFileIsLongerThan400Lines) {
+  for (const SourceFile& file : all_files())
+    EXPECT_LE(std::count(file.text.begin(), file.text.end(), '\n'), 400) << file.path;
+}
+
+TEST(SourceTree, EveryHeaderHasAGuard) {
+  for (const SourceFile& file : all_files()) {
+    if (!file.path.ends_with(".hpp")) continue;
+    EXPECT_NE(file.text.find("#pragma once\n"), std::string::npos) << file.path;
+  }
+}
+
+TEST(ForbiddenIncludes, SeeALayerAbove) {
+  EXPECT_THAT(
+      forbidden_includes({"src/model/chain.cpp", "#include \"springfold/io/results.hpp\"\n"}),
+      SizeIs(1));
+  EXPECT_THAT(
+      forbidden_includes({"src/continuation/trace.cpp", "#include \"springfold/model/se3.hpp\"\n"}),
+      SizeIs(1));
+  EXPECT_THAT(forbidden_includes(
+                  {"src/analysis/run.cpp",
+                   "#include \"springfold/model/se3.hpp\"\n#include \"springfold/version.hpp\"\n"}),
+              IsEmpty());
+}
+
+TEST(ForbiddenIncludes, SeeThirdPartiesOutsideTheirPlace) {
+  EXPECT_THAT(forbidden_includes({"src/model/chain.cpp", "#include <lapacke.h>\n"}), SizeIs(1));
+  EXPECT_THAT(forbidden_includes({"src/core/inertia.cpp", "#include <lapacke.h>\n"}), IsEmpty());
+  EXPECT_THAT(forbidden_includes({"include/springfold/core/a.hpp", "#include <lapacke.h>\n"}),
+              SizeIs(1));
+  EXPECT_THAT(forbidden_includes({"src/core/a.cpp", "#include <Eigen/LU>\n#include <vector>\n"}),
+              IsEmpty());
+  EXPECT_THAT(forbidden_includes({"src/io/a.cpp", "#include <gsl/gsl_vector.h>\n"}), SizeIs(1));
+  EXPECT_THAT(forbidden_includes({"src/analysis/a.cpp", "#include <unistd.h>\n"}), SizeIs(1));
+}
+
+TEST(ForbiddenIncludes, SeePrivateHeadersOfOtherLayers) {
+  EXPECT_THAT(forbidden_includes({"src/cli/run.cpp", "#include \"io/text.hpp\"\n"}), SizeIs(1));
+  EXPECT_THAT(forbidden_includes({"src/io/run.cpp", "#include \"io/text.hpp\"\n"}), IsEmpty());
+  EXPECT_THAT(forbidden_includes({"src/io/run.cpp", "#include \"text.hpp\"\n"}), IsEmpty());
+}
+
+TEST(ScatteredLibraries, AreSeenInASecondFile) {
+  const SourceFile a{"src/core/a.cpp", "#include <lapacke.h>\n"};
+  const SourceFile b{"src/core/b.cpp", "#include <lapacke.h>\n"};
+  EXPECT_THAT(scattered_libraries({a}), IsEmpty());
+  EXPECT_THAT(scattered_libraries({a, b}), SizeIs(1));
+}
+
+TEST(PrintsOrExits, SeesCallsButNotCommentsStringsOrOtherNames) {
+  EXPECT_THAT(prints_or_exits({"a.cpp", "std::cerr << 1; printf(\"x\"); std::exit(1); abort();"}),
+              SizeIs(4));
+  EXPECT_THAT(prints_or_exits({"a.cpp",
+                               "// std::cerr\n/* abort() */ f(\"printf(\", '\"'); "
+                               "snprintf(a, 3, b); way_exit(1); log = 1'000;"}),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace springfold::architecture

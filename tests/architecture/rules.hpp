@@ -1,0 +1,35 @@
+// The rules of docs/design.md about files, as functions of a path and a text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace springfold::architecture {
+
+struct SourceFile {
+  std::string path{};  ///< relative to the source tree, with slashes: "src/io/results.cpp"
+  std::string text{};
+};
+
+/// All C++ files below the given folders of the source tree, in alphabetical order.
+std::vector<SourceFile> cpp_files(const std::filesystem::path& root,
+                                  const std::vector<std::string>& folders);
+
+/// Text without comments and without the contents of string and character literals.
+std::string code_only(const std::string& text);
+
+/// What the file includes: the words between <> or quotes, in order.
+std::vector<std::string> includes_of(const SourceFile& file);
+
+/// Includes that the file's layer must not have, as sentences: layers above it, private headers of
+/// other layers, third parties outside their place, anything but Eigen in a public header.
+std::vector<std::string> forbidden_includes(const SourceFile& file);
+
+/// Third parties that must be confined to one file of their layer, but are included by several.
+std::vector<std::string> scattered_libraries(const std::vector<SourceFile>& files);
+
+/// Calls that print, or that end the program, as sentences.
+std::vector<std::string> prints_or_exits(const SourceFile& file);
+
+}  // namespace springfold::architecture
