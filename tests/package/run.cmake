@@ -1,5 +1,6 @@
-# Installs the build into an empty prefix, then configures, builds and runs the user's project.
-# Called by ctest with -D build=... -D source=... -D work=... -D compiler=... -D flags=... -D type=...
+# Installs the build into an empty prefix, runs the installed program, then configures, builds and
+# runs the user's project. Called by ctest with
+# -D build=... -D source=... -D work=... -D version=... -D compiler=... -D flags=... -D type=...
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -9,10 +10,21 @@ endfunction()
 unset(ENV{DESTDIR})
 file(REMOVE_RECURSE "${work}")
 run(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
-run(${CMAKE_COMMAND} -S "${source}" -B "${work}/user" -G Ninja
+
+execute_process(COMMAND "${work}/prefix/bin/springfold" --version
+                OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+string(FIND "${said}" "${version}" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "the installed program calls itself \"${said}\", not ${version}")
+endif()
+if(NOT EXISTS "${work}/prefix/share/springfold/plots/style.gp")
+  message(FATAL_ERROR "the plot templates were not installed")
+endif()
+
+run(${CMAKE_COMMAND} -S "${source}/tests/package" -B "${work}/user" -G Ninja
     "-DCMAKE_PREFIX_PATH=${work}/prefix" "-DCMAKE_CXX_COMPILER=${compiler}"
     "-DCMAKE_CXX_FLAGS=${flags}" "-DCMAKE_BUILD_TYPE=${type}")
 run(${CMAKE_COMMAND} --build "${work}/user")
-foreach(program IN ITEMS user user_of_all user_of_engine)
-  run("${work}/user/${program}")
-endforeach()
+run("${work}/user/user")
+run("${work}/user/user_of_engine")
+run("${work}/user/user_of_all" "${source}/cases/orthoglide-planar/case.toml")
