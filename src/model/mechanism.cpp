@@ -1,5 +1,6 @@
 #include "springfold/model/mechanism.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <set>
 

@@ -1,0 +1,98 @@
+// Named quantities of a study and their values on a path. Private to analysis.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "path_problem.hpp"
+#include "scales.hpp"
+#include "springfold/analysis/result.hpp"
+#include "springfold/analysis/study.hpp"
+#include "springfold/continuation/curve.hpp"
+#include "springfold/statics/stiffness.hpp"
+
+namespace springfold::analysis {
+
+struct QuantityDefinition {
+  enum class Kind {
+    arc_length,
+    lambda,
+    deflection,  ///< displacement along the study's direction from the start
+    force,       ///< along the study's direction, on top of the constant load
+    stiffness,   ///< d^T K_Sigma d
+    unknown,     ///< entry of z
+    command,     ///< entry of rho
+    eigenvalue,  ///< of K_Sigma, dimensionless
+    index_pose,
+    index_force,
+    index,  ///< of the study's control mode
+    energy,
+  };
+  Kind kind = Kind::lambda;
+  Index entry = 0;  ///< unknown, command, eigenvalue: which one
+  std::string name{};
+  Unit unit = Unit::none;
+  double scale = 1;  ///< physical value = scale * dimensionless value
+};
+
+/// Can `until` and `mark` use it: it varies continuously and is known at every point.
+bool is_continuous(const QuantityDefinition& quantity);
+
+/// All quantities of a study in the order of the branch table.
+std::vector<QuantityDefinition> quantities_of(const Study& study, const statics::System& system,
+                                              const Scales& scales, double lambda_scale,
+                                              Unit lambda_unit);
+
+Unit lambda_unit_of(const Study& study, const statics::System& system);
+
+/// The part of the direction along which deflection and stiffness are measured: its translation,
+/// or, if that is zero, its rotation; the rest set to zero.
+Vector measured_direction(const Study& study, model::TaskSpace space);
+
+/// Evaluates quantities at points of one path. Dimensionless inside, physical values out.
+class Evaluator {
+ public:
+  Evaluator(const PathProblem& problem, const Study& study, const Scales& scales);
+
+  /// One quantity; cheap ones do not assemble the matrix.
+  double value(const QuantityDefinition& quantity, const continuation::CurvePoint& point) const;
+
+  /// All quantities; assembles the matrix once.
+  std::vector<double> values(const std::vector<QuantityDefinition>& quantities,
+                             const continuation::CurvePoint& point) const;
+
+  /// d(value)/ds along the tangent for linear quantities, NaN for the others.
+  std::vector<double> rates(const std::vector<QuantityDefinition>& quantities,
+                            const continuation::CurvePoint& point) const;
+
+  /// d(force)/ds along the branch, dimensionless; zero if it is below rounding.
+  double force_rate(const continuation::CurvePoint& point) const;
+
+  /// K_Sigma at a point, physical units, world axes; empty if undefined.
+  Matrix platform_stiffness(const continuation::CurvePoint& point) const;
+  /// K_ci of all chains, paper eq. (12); empty matrices where undefined.
+  std::vector<Matrix> chain_stiffnesses(const continuation::CurvePoint& point) const;
+
+ private:
+  struct Assembled {
+    Vector z{};
+    Matrix A{};
+    statics::PlatformStiffness platform{};
+    statics::Stability stability{};
+    statics::Workspace work{};
+  };
+  std::optional<Assembled> assemble(const continuation::CurvePoint& point) const;
+  double force(const continuation::CurvePoint& point) const;
+  double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
+                     const Assembled& at) const;
+
+  const PathProblem& problem_;
+  ControlMode control_;
+  Scales scales_;
+  Index t_ = 0, d_ = 0;  ///< pose of the study's body in z
+  Vector measured_{};    ///< d entries
+  Vector conjugate_{};   ///< d entries: direction with which the force is conjugate
+};
+
+}  // namespace springfold::analysis

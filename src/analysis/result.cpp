@@ -1,0 +1,38 @@
+#include "springfold/analysis/result.hpp"
+
+#include <algorithm>
+
+namespace springfold::analysis {
+
+std::string code_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::limit_point:
+      return "LP";
+    case EventKind::branch_point:
+      return "BP";
+    case EventKind::switching:
+      return "SA";
+    case EventKind::corner_limit_point:
+      return "CL";
+    case EventKind::branching_kink:
+      return "KB";
+    case EventKind::kinematic_singularity:
+      return "KS";
+    case EventKind::user_value:
+      return "UZ";
+    case EventKind::end_of_range:
+      return "EP";
+    case EventKind::unresolved:
+      return "UR";
+  }
+  return "??";
+}
+
+bool complete(const StudyResult& result) {
+  return result.start.found &&
+         std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
+           return branch.backward.complete && branch.forward.complete;
+         });
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,139 @@
+#include "scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/core/scaling.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using model::Joint;
+using model::JointKind;
+
+template <class Visit>
+void for_each_joint(const model::Mechanism& mechanism, const Visit& visit) {
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::Element& element : chain.elements)
+      if (const auto* joint = std::get_if<Joint>(&element)) visit(*joint);
+}
+
+/// Positions at which a law bends, to be counted among the lengths of prismatic joints.
+std::vector<double> positions_of(const model::SpringLaw& law) {
+  const model::CompiledSpring spring = model::compile(law);
+  std::vector<double> positions = spring.breakpoints;
+  for (const auto& segment : spring.segments) positions.push_back(segment.anchor);
+  return positions;
+}
+
+double largest_length(const model::Mechanism& mechanism) {
+  double largest = 0;
+  const auto add = [&largest](double length) { largest = std::max(largest, std::abs(length)); };
+  for (const model::Body& body : mechanism.bodies)
+    for (Index i = 0; i < model::translations(body.task_space); ++i) add(body.pose[i]);
+  for (const model::Chain& chain : mechanism.chains) {
+    add(chain.from_attachment.p.norm());
+    add(chain.to_attachment.p.norm());
+    for (const model::Element& element : chain.elements)
+      if (const auto* link = std::get_if<model::RigidLink>(&element)) add(link->transform.p.norm());
+  }
+  for_each_joint(mechanism, [&](const Joint& joint) {
+    if (joint.kind != JointKind::prismatic) return;
+    add(joint.initial);
+    add(joint.command);
+    if (!joint.spring) return;
+    for (const double position : positions_of(*joint.spring)) add(position);
+  });
+  return largest;
+}
+
+model::SpringLaw scaled(const model::SpringLaw& law, double coordinate, double torque) {
+  struct Visitor {
+    double coordinate, torque;
+    model::SpringLaw operator()(model::LinearSpring s) const {
+      return model::LinearSpring{s.stiffness * coordinate / torque, s.free / coordinate};
+    }
+    model::SpringLaw operator()(model::OneSidedSpring s) const {
+      return model::OneSidedSpring{s.stiffness * coordinate / torque, s.from / coordinate, s.side};
+    }
+    model::SpringLaw operator()(model::PiecewiseLinearSpring s) const {
+      for (double& b : s.breakpoints) b /= coordinate;
+      for (double& k : s.stiffnesses) k *= coordinate / torque;
+      s.free /= coordinate;
+      s.preload /= torque;
+      return s;
+    }
+  };
+  return std::visit(Visitor{coordinate, torque}, law);
+}
+
+}  // namespace
+
+Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load) {
+  const double length = largest_length(mechanism);
+  Scales scales{power_of_two_near(length), 1};
+  std::vector<double> forces;
+  for_each_joint(mechanism, [&](const Joint& joint) {
+    if (!joint.spring) return;
+    for (const auto& segment : model::compile(*joint.spring).segments)
+      if (segment.stiffness > 0)
+        forces.push_back(joint.kind == JointKind::prismatic ? segment.stiffness * scales.length
+                                                            : segment.stiffness / scales.length);
+  });
+  if (forces.empty() && constant_load.size() > 0) forces.push_back(constant_load.norm());
+  if (forces.empty()) return scales;
+  const auto middle = forces.begin() + static_cast<std::ptrdiff_t>((forces.size() - 1) / 2);
+  std::nth_element(forces.begin(), middle, forces.end());
+  scales.force = power_of_two_near(*middle);
+  return scales;
+}
+
+model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& scales) {
+  model::Mechanism m = mechanism;
+  for (model::Body& body : m.bodies)
+    body.pose = body.pose.cwiseQuotient(pose_scales(body.task_space, scales)).eval();
+  for (model::Chain& chain : m.chains) {
+    chain.from_attachment.p /= scales.length;
+    chain.to_attachment.p /= scales.length;
+    for (model::Element& element : chain.elements) {
+      if (auto* link = std::get_if<model::RigidLink>(&element)) {
+        link->transform.p /= scales.length;
+        continue;
+      }
+      auto& joint = std::get<Joint>(element);
+      const bool slides = joint.kind == JointKind::prismatic;
+      const double coordinate = slides ? scales.length : 1;
+      const double torque = slides ? scales.force : scales.moment();
+      joint.initial /= coordinate;
+      joint.command /= coordinate;
+      if (joint.spring) joint.spring = scaled(*joint.spring, coordinate, torque);
+    }
+  }
+  return m;
+}
+
+Vector pose_scales(model::TaskSpace space, const Scales& scales) {
+  Vector factors = Vector::Ones(dimension(space));
+  factors.head(translations(space)).setConstant(scales.length);
+  return factors;
+}
+
+Vector wrench_scales(model::TaskSpace space, const Scales& scales) {
+  Vector factors = Vector::Constant(dimension(space), scales.moment());
+  factors.head(translations(space)).setConstant(scales.force);
+  return factors;
+}
+
+Vector unknown_scales(const statics::System& system, const Scales& scales) {
+  Vector factors(system.size);
+  for (Index i = 0; i < system.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (system.is_wrench[k])
+      factors[i] = system.is_length[k] ? scales.force : scales.moment();
+    else
+      factors[i] = system.is_length[k] ? scales.length : 1;
+  }
+  return factors;
+}
+
+}  // namespace springfold::analysis

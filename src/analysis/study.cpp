@@ -1,0 +1,126 @@
+#include "springfold/analysis/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quantities.hpp"
+#include "springfold/statics/system.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+void check_direction(const Study& study, const model::Body& body,
+                     std::vector<std::string>& problems) {
+  const Index d = dimension(body.task_space), lengths = translations(body.task_space);
+  const bool needed = study.control == ControlMode::load || study.control == ControlMode::pose ||
+                      study.control == ControlMode::mixed;
+  if (study.direction.size() == 0) {
+    if (needed && study.kind == StudyKind::force_deflection)
+      problems.push_back("direction: this control mode needs one");
+    return;
+  }
+  if (study.direction.size() != d || !study.direction.allFinite() || study.direction.isZero(0)) {
+    problems.push_back("direction: need " + std::to_string(d) +
+                       " finite numbers that are not all zero");
+    return;
+  }
+  if (study.control == ControlMode::mixed && !study.direction.head(lengths).isZero(0) &&
+      !study.direction.tail(d - lengths).isZero(0))
+    problems.push_back(
+        "direction: control \"mixed\" needs a pure translation or a pure rotation; which wrench "
+        "stays zero beside a screw would depend on the unit of length");
+}
+
+void check_start(const Study& study, const model::Mechanism& mechanism, const model::Body& body,
+                 std::vector<std::string>& problems) {
+  const Index d = dimension(body.task_space);
+  const StartOptions& start = study.start;
+  if (start.pose.size() != 0 && (start.pose.size() != d || !start.pose.allFinite()))
+    problems.push_back("start.pose: need " + std::to_string(d) + " finite numbers");
+  if (start.attempts < 1) problems.push_back("start.attempts: need at least 1");
+  if (start.solver == StartSolver::fixed_point && start.solve == StartSolve::pose)
+    problems.push_back(
+        "start.solver: the paper's fixed-point iteration works at a given pose; use it with "
+        "start.solve = \"wrench\" or \"actuators\"");
+  if (start.solve != StartSolve::actuators) return;
+  const auto commands = static_cast<Index>(statics::prepare(mechanism).command_names.size());
+  if (commands != d)
+    problems.push_back(
+        "start.solve: \"actuators\" needs as many actuated joints as the body has "
+        "pose coordinates (" +
+        std::to_string(d) + "), the mechanism has " + std::to_string(commands));
+}
+
+void check_quantities(const Study& study, const model::Mechanism& mechanism,
+                      std::vector<std::string>& problems) {
+  const auto list = quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none);
+  const auto check = [&](const std::string& key, const std::string& name) {
+    const auto q = std::find_if(list.begin(), list.end(),
+                                [&](const QuantityDefinition& d) { return d.name == name; });
+    if (q == list.end())
+      problems.push_back(key + ": no quantity \"" + name + "\" in this study");
+    else if (!is_continuous(*q))
+      problems.push_back(key + ": \"" + name +
+                         "\" cannot be used here, only quantities that vary "
+                         "continuously along the branch");
+  };
+  for (const Limit& limit : study.until) {
+    check("until", limit.quantity);
+    if (!(limit.low < limit.high))
+      problems.push_back("until." + limit.quantity + ": need low < high");
+  }
+  for (const Mark& mark : study.marks) {
+    check("mark", mark.quantity);
+    if (!std::isfinite(mark.value))
+      problems.push_back("mark." + mark.quantity + ": need a finite number");
+  }
+}
+
+void check_control(const Study& study, const model::Mechanism& mechanism,
+                   std::vector<std::string>& problems) {
+  if (study.kind == StudyKind::equilibrium) return;
+  if (study.control == ControlMode::parameter && study.parameter.empty())
+    problems.push_back("parameter: control \"parameter\" needs the name of one");
+  if (study.control != ControlMode::actuator) return;
+  const auto names = statics::prepare(mechanism).command_names;
+  bool moves = false;
+  for (const ActuatorRate& rate : study.actuators) {
+    if (std::find(names.begin(), names.end(), rate.actuator) == names.end())
+      problems.push_back("actuators: no actuated joint \"" + rate.actuator + "\"");
+    if (!std::isfinite(rate.rate))
+      problems.push_back("actuators." + rate.actuator + ": need a finite number");
+    moves = moves || rate.rate != 0;
+  }
+  if (!moves) problems.push_back("actuators: control \"actuator\" needs one that moves");
+}
+
+}  // namespace
+
+std::vector<std::string> problems_in(const Study& study, const model::Mechanism& mechanism) {
+  std::vector<std::string> problems;
+  if (study.body < 1 || study.body > static_cast<Index>(mechanism.bodies.size()))
+    return {"body: no such moving body"};
+  const model::Body& body = mechanism.bodies[static_cast<std::size_t>(study.body - 1)];
+  const Index d = dimension(body.task_space);
+  if (study.constant_load.size() != 0 &&
+      (study.constant_load.size() != d || !study.constant_load.allFinite()))
+    problems.push_back("load: need " + std::to_string(d) + " finite numbers");
+  check_direction(study, body, problems);
+  check_start(study, mechanism, body, problems);
+  check_control(study, mechanism, problems);
+  const TraceSettings& t = study.trace;
+  if (!(0 < t.minimum_step && t.minimum_step <= t.initial_step && t.initial_step <= t.maximum_step))
+    problems.push_back("trace: need 0 < minimum_step <= initial_step <= maximum_step");
+  if (t.maximum_points < 2) problems.push_back("trace.maximum_points: need at least 2");
+  if (problems.empty()) check_quantities(study, mechanism, problems);
+  return problems;
+}
+
+std::vector<std::string> quantity_names(const Study& study, const model::Mechanism& mechanism) {
+  std::vector<std::string> names;
+  for (const auto& q : quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none))
+    names.push_back(q.name);
+  return names;
+}
+
+}  // namespace springfold::analysis
