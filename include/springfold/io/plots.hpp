@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PlotOptions {
   double timeout_seconds = 60;      ///< for one figure
   std::filesystem::path templates{};  ///< folder with style.gp and force-deflection.gp; empty:
                                       ///< the installed or the source tree's plots/
+  std::function<bool()> stop_requested{};  ///< asked several times a second; true ends drawing
 };
 
 /// Draws every figure of the case as PNG and SVG. Never throws for a gnuplot that is missing, fails

@@ -1,0 +1,63 @@
+# Look of all figures of springfold. Edit freely: the program reads this file when it draws.
+#
+# The program has set before this file is read:
+#   figure_name, figure_title, x_title, y_title        texts
+#   x_low, x_high, y_low, y_high                       ends of the axes
+#   figure_width, figure_height                        size in pixels
+#   frame_left, frame_right, frame_bottom, frame_top   frame of the axes, in parts of the size
+# It has placed all labels for this size and frame and for the font sizes below. Other sizes work,
+# but labels may then touch curves.
+
+set encoding utf8
+unset colorbox
+
+# Colours that stay apart for colour-blind readers and in grey print.
+stable_color = '#0072B2'
+unstable_color = '#D55E00'
+ink = '#222222'
+pale = '#D9D9D9'
+
+font_family = 'DejaVu Sans'
+base_font = font_family.',14'
+title_font = font_family.',18'
+point_label_font = font_family.',13'
+point_label_color = ink
+curve_label_font = font_family.':Italic,14'
+curve_label_color = ink
+
+# 1 stable, 2 unstable, 3 grid, 4 line from a label to its point, 5 axes through zero
+set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
+set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (10, 6)
+set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
+set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
+set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
+
+# Special points: one shape for each code.
+set style line 11 linecolor rgb ink pointtype 6 pointsize 2.4 linewidth 2.2   # start
+set style line 12 linecolor rgb ink pointtype 7 pointsize 1.9                 # LP
+set style line 13 linecolor rgb ink pointtype 9 pointsize 2.2                 # CL
+set style line 14 linecolor rgb ink pointtype 5 pointsize 1.7                 # SA
+set style line 15 linecolor rgb ink pointtype 13 pointsize 2.3                # BP
+set style line 16 linecolor rgb ink pointtype 11 pointsize 2.2                # KB
+set style line 17 linecolor rgb ink pointtype 3 pointsize 2.2 linewidth 2     # KS
+set style line 18 linecolor rgb ink pointtype 2 pointsize 1.9 linewidth 2.2   # UZ
+set style line 19 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.5  # UR
+
+point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
+                    code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
+                    code eq 'KS' ? 17 : code eq 'UZ' ? 18 : 19
+point_name(code) = code eq 'start' ? 'start' : \
+                   code eq 'LP' ? 'limit point (LP)' : \
+                   code eq 'CL' ? 'corner limit point (CL)' : \
+                   code eq 'SA' ? 'spring activation (SA)' : \
+                   code eq 'BP' ? 'branch point (BP)' : \
+                   code eq 'KB' ? 'branching kink (KB)' : \
+                   code eq 'KS' ? 'kinematic singularity (KS)' : \
+                   code eq 'UZ' ? 'marked value (UZ)' : \
+                   code eq 'UR' ? 'unresolved (UR)' : ''
+
+set border 3 linecolor rgb ink linewidth 1.2
+set minussign
+set format '%g'
+set tics nomirror out scale 0.7 textcolor rgb ink
+set grid xtics ytics back linestyle 3

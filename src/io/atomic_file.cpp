@@ -1,0 +1,123 @@
+#include "atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace springfold::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string_view what, const fs::path& path, int error) {
+  throw std::runtime_error{std::string{what} + " " + path.string() + ": " +
+                           std::generic_category().message(error)};
+}
+
+/// An open file that is closed at the end of the scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_{number} {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+  /// Closes now; 0 or the error, which some file systems report only here.
+  int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
+
+ private:
+  int number_;
+};
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path{"."};
+}
+
+/// 0 or the error.
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// Some file systems cannot synchronise and say EINVAL: that is no loss.
+int synchronise(int file) { return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno; }
+
+int synchronise_folder(const fs::path& folder) {
+  const Descriptor open_folder{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  return open_folder.number() < 0 ? errno : synchronise(open_folder.number());
+}
+
+int create_with(const fs::path& path, std::string_view bytes) {
+  constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+  Descriptor file{::open(path.c_str(), flags, 0666)};
+  if (file.number() < 0) return errno;
+  if (const int error = write_all(file.number(), bytes)) return error;
+  if (const int error = synchronise(file.number())) return error;
+  return file.close();
+}
+
+/// 0 or the error.
+int rename_into_place(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) return errno;
+  return synchronise_folder(folder_of(to));
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  // The process number keeps two runs into one folder from sharing a temporary file.
+  const fs::path temporary =
+      folder_of(path) / ("." + path.filename().string() + ".part" + std::to_string(::getpid()));
+  int error = create_with(temporary, bytes);
+  if (error == 0) error = rename_into_place(temporary, path);
+  if (error == 0) return;
+  ::unlink(temporary.c_str());
+  fail("cannot write", path, error);
+}
+
+void publish_file(const fs::path& from, const fs::path& to) {
+  const Descriptor file{::open(from.c_str(), O_RDONLY | O_CLOEXEC)};
+  int error = file.number() < 0 ? errno : synchronise(file.number());
+  if (error == 0) error = rename_into_place(from, to);
+  if (error != 0) fail("cannot write", to, error);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw std::runtime_error{"cannot create folder " + folder.string() + ": " + error.message()};
+  synchronise_folder(folder_of(folder));  // best effort: a parent need not be readable
+}
+
+std::string read_file(const fs::path& path) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.number() < 0) fail("cannot read", path, errno);
+  std::string bytes;
+  std::array<char, 1 << 16> part{};
+  for (;;) {
+    const ssize_t count = ::read(file.number(), part.data(), part.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("cannot read", path, errno);
+    if (count == 0) return bytes;
+    bytes.append(part.data(), static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace springfold::io

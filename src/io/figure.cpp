@@ -1,0 +1,188 @@
+#include "figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "result_access.hpp"
+#include "stability_parts.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+using analysis::Branch;
+using analysis::EventKind;
+using analysis::StudyResult;
+
+/// Quantities of a figure without [[plot]]: force over deflection, otherwise lambda over the first
+/// coordinate of the pose.
+PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
+  PlotSpec spec{.name = safe_file_name(result.study), .title = result.study};
+  spec.curves.push_back({.study = result.study});
+  if (column_of(result, "deflection") && column_of(result, "force")) return spec;
+  spec.y = "lambda";
+  const PlannedRun* planned = plan_of(the_case, result);
+  const bool has_body = planned != nullptr && !planned->mechanism.bodies.empty();
+  spec.x = has_body ? planned->mechanism.bodies.front().name + ".x" : "s";
+  return spec;
+}
+
+bool has_curve(const StudyResult& result) {
+  return std::any_of(result.branches.begin(), result.branches.end(),
+                     [](const Branch& branch) { return branch.samples.size() > 1; });
+}
+
+std::vector<PlotSpec> plots_of(const Case& the_case, const std::vector<StudyResult>& results) {
+  if (!the_case.plots.empty()) return the_case.plots;
+  std::vector<PlotSpec> specs;
+  std::vector<std::string> studies;
+  for (const auto& result : results) {
+    const bool is_new = std::find(studies.begin(), studies.end(), result.study) == studies.end();
+    if (!is_new || !has_curve(result)) continue;
+    studies.push_back(result.study);
+    specs.push_back(default_plot(the_case, result));
+  }
+  return specs;
+}
+
+std::string axis_title(const std::string& given, const std::string& quantity, double factor,
+                       const StudyResult& result, const UnitLabels& units) {
+  if (!given.empty()) return given;
+  const auto column = column_of(result, quantity);
+  std::string title = factor == 1 ? quantity : shortest(factor) + " · " + quantity;
+  if (!column) return title;
+  const auto unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
+  return unit.empty() ? title : title + " [" + unit + "]";
+}
+
+/// End of range is where a curve ends: that is seen without a mark.
+bool is_marked(EventKind kind) { return kind != EventKind::end_of_range; }
+
+struct Axes {
+  const PlotSpec& spec;
+  const UnitLabels& units;
+
+  PlotPoint point(const StudyResult& result, const Branch& branch, std::size_t row) const {
+    return {spec.x_factor * value_at(result, branch, row, spec.x),
+            spec.y_factor * value_at(result, branch, row, spec.y)};
+  }
+};
+
+void add_mark(Figure& figure, FigureMark mark) {
+  if (is_finite(mark.at)) figure.marks.push_back(std::move(mark));
+}
+
+void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, const Branch& branch,
+                const std::string& label) {
+  std::vector<PlotPoint> points;
+  for (std::size_t row = 0; row < branch.samples.size(); ++row)
+    points.push_back(axes.point(result, branch, row));
+  auto [stable, unstable] = stability_parts(points, stability_of_steps(result, branch));
+  FigureCurve curve{label, std::move(stable), std::move(unstable)};
+  const auto first = std::find_if(points.begin(), points.end(), is_finite);
+  const auto last = std::find_if(points.rbegin(), points.rend(), is_finite);
+  if (first != points.end()) curve.ends = {*first, *last};
+  figure.curves.push_back(std::move(curve));
+  for (const auto& event : branch.events)
+    if (is_marked(event.kind))
+      add_mark(figure,
+               {analysis::code_of(event.kind), event.label, axes.point(result, branch, event.row)});
+}
+
+void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
+             const std::string& label) {
+  const auto& [spec, units] = axes;
+  if (figure.x_title.empty()) {
+    figure.x_title = axis_title(spec.x_label, spec.x, spec.x_factor, result, units);
+    figure.y_title = axis_title(spec.y_label, spec.y, spec.y_factor, result, units);
+  }
+  for (std::size_t b = 0; b < result.branches.size(); ++b)
+    add_branch(figure, axes, result, result.branches[b], b == 0 ? label : "");
+  if (result.branches.empty()) return;
+  const Branch& first = result.branches.front();
+  add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});
+}
+
+/// Runs of the study that the figure shows, with their labels.
+std::vector<std::pair<const StudyResult*, std::string>> shown_runs(
+    const PlotCurves& curves, const std::vector<StudyResult>& results) {
+  std::vector<std::pair<const StudyResult*, std::string>> shown;
+  const auto add = [&](const StudyResult& result, std::size_t position) {
+    const bool has_label = position < curves.labels.size();
+    shown.emplace_back(&result, has_label ? curves.labels[position] : result.label);
+  };
+  for (std::size_t i = 0; i < curves.runs.size(); ++i)
+    if (const auto* result = result_of(results, curves.study, curves.runs[i])) add(*result, i);
+  if (curves.runs.empty())
+    for (const auto& result : results)
+      if (result.study == curves.study) add(result, static_cast<std::size_t>(result.run - 1));
+  return shown;
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+
+  /// Some room on both sides; a single value gets room of its own size.
+  Range padded() const {
+    const double room = 0.05 * (high > low ? high - low : std::max(std::abs(low), 1e-3));
+    return {low - room, high + room};
+  }
+};
+
+/// Sets the corners; false if there is nothing to see.
+bool fit_axes(Figure& figure) {
+  Range x, y;
+  const auto include = [&](const PlotPoint& at) { x.include(at.first), y.include(at.second); };
+  for (const auto& curve : figure.curves)
+    for (const auto* parts : {&curve.stable, &curve.unstable})
+      for (const auto& line : *parts) std::for_each(line.begin(), line.end(), include);
+  for (const auto& mark : figure.marks) include(mark.at);
+  if (!(x.low <= x.high)) return false;
+  const Range padded_x = x.padded(), padded_y = y.padded();
+  figure.low = {padded_x.low, padded_y.low};
+  figure.high = {padded_x.high, padded_y.high};
+  return true;
+}
+
+/// Are all columns that the figure needs there? Says which is not.
+bool has_columns(const PlotSpec& spec, const StudyResult& result,
+                 std::vector<std::string>& problems) {
+  for (const auto& name : {spec.x, spec.y}) {
+    if (column_of(result, name)) continue;
+    problems.push_back("figure '" + spec.name + "': " + heading_of(result) + " has no quantity '" +
+                       name + "'");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResult>& results,
+                               std::vector<std::string>& problems) {
+  std::vector<Figure> figures;
+  UniqueNames names;
+  for (const PlotSpec& spec : plots_of(the_case, results)) {
+    Figure figure{.name = names.make(safe_file_name(spec.name)), .title = spec.title};
+    bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
+    for (const auto& curves : spec.curves) {
+      for (const auto& [result, label] : shown_runs(curves, results)) {
+        is_wanted = true;
+        if (has_columns(spec, *result, problems))
+          add_run(figure, {spec, the_case.units}, *result, label);
+      }
+    }
+    if (fit_axes(figure))
+      figures.push_back(std::move(figure));
+    else if (is_wanted)
+      problems.push_back("figure '" + spec.name + "': there is no point to draw");
+  }
+  return figures;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,45 @@
+// What a figure shows, before anything is drawn.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+using PlotPoint = std::pair<double, double>;  // in the units of the axes
+using Polyline = std::vector<PlotPoint>;
+
+/// One branch, cut where its stability changes and where it is not defined.
+struct FigureCurve {
+  std::string label{};  ///< empty: not labelled
+  std::vector<Polyline> stable{};
+  std::vector<Polyline> unstable{};
+  std::vector<PlotPoint> ends{};  ///< first and last point of the branch that can be drawn
+};
+
+/// A special point, or the start of a curve (code "start", no label).
+struct FigureMark {
+  std::string code{};
+  std::string label{};
+  PlotPoint at{};
+};
+
+struct Figure {
+  std::string name{};  ///< file name without ending, unique in its folder
+  std::string title{}, x_title{}, y_title{};
+  PlotPoint low{}, high{};  ///< corners of the axes
+  std::vector<FigureCurve> curves{};
+  std::vector<FigureMark> marks{};
+};
+
+/// The figures that the case asks for, otherwise one per study that has a curve. Curves whose runs
+/// are not in `results` are left out. What cannot be drawn is said in `problems`.
+std::vector<Figure> figures_of(const Case& the_case,
+                               const std::vector<analysis::StudyResult>& results,
+                               std::vector<std::string>& problems);
+
+}  // namespace springfold::io

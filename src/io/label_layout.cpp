@@ -1,0 +1,215 @@
+#include "label_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "text.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+constexpr double spacing = 4;         // between the points that stand for a curve [pixel]
+constexpr double mark_radius = 8;     // half size of a marker [pixel]
+constexpr double leader_needed = 26;  // longest gap between point and text without a line [pixel]
+
+struct Box {
+  PlotPoint centre{};
+  double half_width = 0, half_height = 0;
+
+  bool holds(const PlotPoint& p, double margin) const {
+    return std::abs(p.first - centre.first) <= half_width + margin &&
+           std::abs(p.second - centre.second) <= half_height + margin;
+  }
+  bool overlaps(const Box& other, double margin) const {
+    return std::abs(centre.first - other.centre.first) <= half_width + other.half_width + margin &&
+           std::abs(centre.second - other.centre.second) <=
+               half_height + other.half_height + margin;
+  }
+  /// Point of the box nearest to p.
+  PlotPoint nearest(const PlotPoint& p) const {
+    return {std::clamp(p.first, centre.first - half_width, centre.first + half_width),
+            std::clamp(p.second, centre.second - half_height, centre.second + half_height)};
+  }
+};
+
+double distance(const PlotPoint& a, const PlotPoint& b) {
+  return std::hypot(a.first - b.first, a.second - b.second);
+}
+
+/// Everything that a label must not hide.
+struct Scene {
+  std::vector<std::vector<PlotPoint>> curves{};  ///< evenly spaced points of each curve
+  std::vector<std::vector<PlotPoint>> ends{};    ///< of each curve
+  std::vector<Box> marks{};
+  std::vector<Box> labels{};
+  PlotPoint zero{};  ///< where the axes through zero are
+  Box frame{};
+};
+
+PlotPoint in_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint& at) {
+  const double u = (at.first - figure.low.first) / (figure.high.first - figure.low.first);
+  const double v = (at.second - figure.low.second) / (figure.high.second - figure.low.second);
+  return {canvas.left + u * (canvas.right - canvas.left),
+          canvas.bottom + v * (canvas.top - canvas.bottom)};
+}
+
+std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
+                                    const FigureCurve& curve) {
+  std::vector<PlotPoint> dense;
+  for (const auto* parts : {&curve.stable, &curve.unstable}) {
+    for (const auto& line : *parts) {
+      std::optional<PlotPoint> last;  // end of the last stretch, `left_over` pixels after a point
+      double left_over = spacing;
+      for (const auto& at : line) {
+        const PlotPoint here = in_pixels(figure, canvas, at);
+        const double length = last ? distance(*last, here) : 0;
+        for (double along = spacing - left_over; last && along <= length; along += spacing)
+          dense.emplace_back(last->first + (here.first - last->first) * along / length,
+                             last->second + (here.second - last->second) * along / length);
+        left_over = std::fmod(left_over + length, spacing);
+        last = here;
+      }
+    }
+  }
+  return dense;
+}
+
+Scene scene_of(const Figure& figure, const Canvas& canvas) {
+  Scene scene;
+  for (const auto& curve : figure.curves) {
+    scene.curves.push_back(dense_points(figure, canvas, curve));
+    auto& ends = scene.ends.emplace_back();
+    for (const auto& end : curve.ends) ends.push_back(in_pixels(figure, canvas, end));
+  }
+  for (const auto& mark : figure.marks)
+    scene.marks.push_back({in_pixels(figure, canvas, mark.at), mark_radius, mark_radius});
+  scene.zero = in_pixels(figure, canvas, {0, 0});
+  scene.frame = {{(canvas.left + canvas.right) / 2, (canvas.bottom + canvas.top) / 2},
+                 (canvas.right - canvas.left) / 2,
+                 (canvas.top - canvas.bottom) / 2};
+  return scene;
+}
+
+/// A text of average letters; a little too wide is better than too narrow.
+Box box_of(const std::string& text, const Canvas& canvas) {
+  const double width = 0.56 * canvas.text_height * static_cast<double>(width_of(text));
+  return {{}, width / 2, canvas.text_height / 2};
+}
+
+/// How bad it would be to have a text there: hidden curve points, marks and texts.
+double badness(const Scene& scene, const Box& box) {
+  double sum = 0;
+  for (const auto& curve : scene.curves)
+    for (const auto& point : curve)
+      if (box.holds(point, 4)) sum += 3;
+  for (const auto& mark : scene.marks)
+    if (box.overlaps(mark, 1)) sum += 60;
+  for (const auto& label : scene.labels)
+    if (box.overlaps(label, 5)) sum += 200;
+  const bool is_on_axis = std::abs(box.centre.first - scene.zero.first) < box.half_width + 2 ||
+                          std::abs(box.centre.second - scene.zero.second) < box.half_height + 2;
+  if (is_on_axis) sum += 5;
+  const bool sticks_out =
+      std::abs(box.centre.first - scene.frame.centre.first) + box.half_width >
+          scene.frame.half_width - 4 ||
+      std::abs(box.centre.second - scene.frame.centre.second) + box.half_height >
+          scene.frame.half_height - 4;
+  return sticks_out ? sum + 1000 : sum;
+}
+
+struct Candidate {
+  Box box{};
+  PlotPoint anchor{};
+  double badness = std::numeric_limits<double>::infinity();
+};
+
+/// Keeps the better one; the earlier one when both are as good.
+void consider(Candidate& best, const Scene& scene, Box box, const PlotPoint& anchor, double extra) {
+  const double value = badness(scene, box) + extra;
+  if (value < best.badness) best = {box, anchor, value};
+}
+
+/// Tries places around the anchor, `gap` pixels between it and the text.
+void try_around(Candidate& best, const Scene& scene, Box box, const PlotPoint& anchor, double gap,
+                double extra) {
+  // Above and to the right first: where readers look first.
+  constexpr std::array<double, 12> eighths = {1, 2, 0, 7, 3, 6, 4, 5, 0.5, 1.5, 2.5, 6.5};
+  for (std::size_t i = 0; i < eighths.size(); ++i) {
+    const double angle = eighths[i] * std::numbers::pi / 4;
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double larger = std::max(std::abs(c), std::abs(s));  // along the sides of a rectangle
+    box.centre = {anchor.first + box.half_width * c / larger + gap * c,
+                  anchor.second + box.half_height * s / larger + gap * s};
+    consider(best, scene, box, anchor, extra + 0.01 * static_cast<double>(i));
+  }
+}
+
+PlacedLabel placed(const std::string& text, const Candidate& best) {
+  PlacedLabel label{.text = text, .at = best.box.centre};
+  label.leader_from = best.anchor;
+  label.leader_to = best.box.nearest(best.anchor);
+  label.has_leader = distance(label.leader_from, label.leader_to) > leader_needed;
+  return label;
+}
+
+Candidate place_of_mark(const Scene& scene, const Box& box, const PlotPoint& anchor) {
+  Candidate best;
+  for (const double gap : {12.0, 18.0, 26.0, 40.0, 60.0, 85.0, 115.0})
+    try_around(best, scene, box, anchor, gap, 0.4 * gap);
+  return best;
+}
+
+double distance_to(const std::vector<PlotPoint>& points, const PlotPoint& from) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& point : points) nearest = std::min(nearest, distance(point, from));
+  return nearest;
+}
+
+/// Beside its curve, rather at an end than in the middle, where all other curves are farther away.
+Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
+  const auto& points = scene.curves[own];
+  Candidate best;
+  constexpr std::size_t tries = 60;
+  for (std::size_t i = 0; i <= tries; ++i) {
+    const PlotPoint& anchor = points[i * (points.size() - 1) / tries];
+    double nearest_other = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < scene.curves.size(); ++other)
+      if (other != own)
+        nearest_other = std::min(nearest_other, distance_to(scene.curves[other], anchor));
+    const double ambiguity = 12 * std::max(0.0, 1 - nearest_other / 90);
+    const double inside = std::min(8.0, distance_to(scene.ends[own], anchor) / 30);
+    for (const double gap : {10.0, 16.0, 24.0, 40.0, 70.0})
+      try_around(best, scene, box, anchor, gap, ambiguity + inside + 0.5 * gap);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas) {
+  Scene scene = scene_of(figure, canvas);
+  std::vector<PlacedLabel> labels;
+  const auto keep = [&](const std::string& text, const Candidate& best, bool is_curve_label) {
+    scene.labels.push_back(best.box);
+    labels.push_back(placed(text, best));
+    labels.back().is_curve_label = is_curve_label;
+  };
+  for (std::size_t i = 0; i < figure.marks.size(); ++i) {
+    const auto& text = figure.marks[i].label;
+    if (text.empty()) continue;
+    keep(text, place_of_mark(scene, box_of(text, canvas), scene.marks[i].centre), false);
+  }
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const auto& text = figure.curves[i].label;
+    if (text.empty() || scene.curves[i].empty()) continue;
+    keep(text, place_on_curve(scene, box_of(text, canvas), i), true);
+  }
+  return labels;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,34 @@
+// manifest.json: where a set of results comes from and which files belong to it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// A file of the result set, relative to its folder, with '/' between parts.
+struct ListedFile {
+  std::string path{};
+  std::string hash{};     ///< SHA-256 of the bytes; empty: not known or not reproducible
+  std::size_t bytes = 0;  ///< 0 without hash
+};
+
+/// Is the result set still being written (an interrupted run leaves it so) or whole?
+enum class SetState { being_written, whole };
+
+std::string manifest_text(const Case& the_case, SetState state,
+                          const std::vector<ListedFile>& files);
+
+/// Files that the manifest in `folder` lists; empty when there is none or it cannot be read. Paths
+/// that would lead out of branches/ and plots/ or the folder itself are left out.
+std::vector<std::string> files_listed_in(const std::filesystem::path& folder);
+
+/// Adds files to an existing manifest, in place of entries of the same path. Without a readable
+/// manifest nothing happens.
+/// @throws std::runtime_error when it cannot be written
+void list_in_manifest(const std::filesystem::path& folder, const std::vector<ListedFile>& files);
+
+}  // namespace springfold::io

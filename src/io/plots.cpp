@@ -1,0 +1,251 @@
+#include "springfold/io/plots.hpp"
+
+#include <gnuplot-iostream.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <locale>
+#include <stdexcept>
+#include <system_error>
+
+#include "atomic_file.hpp"
+#include "figure.hpp"
+#include "gnuplot_process.hpp"
+#include "label_layout.hpp"
+#include "manifest.hpp"
+#include "sha256.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for unfinished pictures, removed at the end of the scope. It lies beside the finished
+/// ones, so that these can be renamed into place.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& parent)
+      : path_{parent / (".part" + std::to_string(::getpid()))} {
+    make_folder(path_);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+struct Templates {
+  std::string style{};
+  std::string figure{};
+};
+
+fs::path template_folder(const fs::path& wanted) {
+  if (!wanted.empty()) return wanted;
+  // A program that was installed and then moved finds its templates beside itself.
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path beside = program.parent_path().parent_path() / "share/springfold/plots";
+  for (const fs::path& folder :
+       {beside, fs::path{SPRINGFOLD_INSTALLED_PLOTS}, fs::path{SPRINGFOLD_SOURCE_PLOTS}})
+    if (fs::is_regular_file(folder / "style.gp", error)) return folder;
+  throw std::runtime_error{"no folder with plot templates: looked for style.gp in " +
+                           beside.string() +
+                           ", " SPRINGFOLD_INSTALLED_PLOTS " and " SPRINGFOLD_SOURCE_PLOTS};
+}
+
+Templates read_templates(const fs::path& wanted) {
+  const fs::path folder = template_folder(wanted);
+  return {read_file(folder / "style.gp"), read_file(folder / "force-deflection.gp")};
+}
+
+/// A gnuplot string: nothing but the quote is special between single quotes.
+std::string quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    result += is_control ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string assignment(const std::string& name, double value) {
+  return name + " = " + shortest(value) + "\n";
+}
+
+std::string assignment(const std::string& name, std::string_view text) {
+  return name + " = " + quoted(text) + "\n";
+}
+
+/// gnuplot-iostream ends data with a line "e": the same line ends a named data block.
+constexpr const char* begin_block = " << e\n";
+
+/// Adds a word to a list that gnuplot iterates over.
+void add_word(std::string& list, const std::string& word) {
+  list += (list.empty() ? "" : " ") + word;
+}
+
+void send_curves(Gnuplot& gnuplot, const Figure& figure) {
+  std::string parts, first_stable, first_unstable;
+  const auto send = [&](const std::string& name, const std::vector<Polyline>& lines,
+                        std::string& first) {
+    if (lines.empty()) return;
+    gnuplot << "$" << name << begin_block;
+    gnuplot.send2d(lines);  // an empty line between polylines: gnuplot does not connect them
+    add_word(parts, name);
+    if (first.empty()) first = name;
+  };
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    send("stable_" + number, figure.curves[i].stable, first_stable);
+    send("unstable_" + number, figure.curves[i].unstable, first_unstable);
+  }
+  if (parts.empty()) {  // a figure of single points: gnuplot cannot iterate over nothing
+    gnuplot << "$nothing" << begin_block << "e\n";
+    parts = "nothing";
+  }
+  gnuplot << assignment("curve_parts", parts) << assignment("first_stable", first_stable)
+          << assignment("first_unstable", first_unstable);
+}
+
+void send_marks(Gnuplot& gnuplot, const Figure& figure) {
+  std::string codes;
+  for (const std::string code : {"start", "LP", "CL", "SA", "BP", "KB", "KS", "UZ", "UR"}) {
+    std::vector<PlotPoint> points;
+    for (const auto& mark : figure.marks)
+      if (mark.code == code) points.push_back(mark.at);
+    if (points.empty()) continue;
+    gnuplot << "$point_" << code << begin_block;
+    gnuplot.send1d(points);
+    add_word(codes, code);
+  }
+  if (codes.empty()) {
+    gnuplot << "$point_nothing" << begin_block << "e\n";
+    codes = "nothing";
+  }
+  gnuplot << assignment("point_codes", codes);
+}
+
+std::string on_screen(const PlotPoint& at, const Canvas& canvas) {
+  return "screen " + rounded(at.first / canvas.width, 6) + ", screen " +
+         rounded(at.second / canvas.height, 6);
+}
+
+void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
+  for (const auto& label : place_labels(figure, canvas)) {
+    if (label.has_leader)
+      gnuplot << "set arrow from " << on_screen(label.leader_from, canvas) << " to "
+              << on_screen(label.leader_to, canvas) << " nohead linestyle 4 back\n";
+    gnuplot << "set label " << quoted(label.text) << " at " << on_screen(label.at, canvas)
+            << " center noenhanced front font "
+            << (label.is_curve_label ? "curve_label_font" : "point_label_font") << " textcolor rgb "
+            << (label.is_curve_label ? "curve_label_color" : "point_label_color") << "\n";
+  }
+}
+
+void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
+  gnuplot << assignment("figure_name", figure.name) << assignment("figure_title", figure.title)
+          << assignment("x_title", figure.x_title) << assignment("y_title", figure.y_title)
+          << assignment("x_low", figure.low.first) << assignment("x_high", figure.high.first)
+          << assignment("y_low", figure.low.second) << assignment("y_high", figure.high.second)
+          << assignment("figure_width", canvas.width) << assignment("figure_height", canvas.height)
+          << assignment("frame_left", canvas.left / canvas.width)
+          << assignment("frame_right", canvas.right / canvas.width)
+          << assignment("frame_bottom", canvas.bottom / canvas.height)
+          << assignment("frame_top", canvas.top / canvas.height);
+}
+
+/// A script that draws the figure alone, without any other file.
+void write_script(const fs::path& path, const Figure& figure, const Templates& templates) {
+  std::FILE* file = std::fopen(path.c_str(), "we");
+  if (file == nullptr)
+    throw std::runtime_error{"cannot write " + path.string() + ": " +
+                             std::generic_category().message(errno)};
+  Gnuplot gnuplot{file};  // closes the file
+  gnuplot.imbue(std::locale::classic());
+  gnuplot << std::defaultfloat << std::setprecision(12);
+  const Canvas canvas;
+  gnuplot << "# Written by springfold; `gnuplot " << figure.name << ".gp` draws it again.\n";
+  send_values(gnuplot, figure, canvas);
+  gnuplot << "\n" << templates.style << "\n";
+  send_labels(gnuplot, figure, canvas);
+  send_curves(gnuplot, figure);
+  send_marks(gnuplot, figure);
+  gnuplot << "\n" << templates.figure;
+  gnuplot.flush();
+  if (!gnuplot.good()) throw std::runtime_error{"cannot write " + path.string()};
+}
+
+ListedFile listed(const fs::path& file) {
+  const std::string bytes = read_file(file);
+  return {"plots/" + file.filename().string(), sha256(bytes), bytes.size()};
+}
+
+/// Draws one figure; the reason if there is no picture.
+std::optional<std::string> draw(const fs::path& folder, const Figure& figure,
+                                const Templates& templates, const std::optional<fs::path>& gnuplot,
+                                const PlotOptions& options, PlotOutcome& outcome) {
+  const WorkFolder work{folder / "plots"};
+  const std::string script = figure.name + ".gp";
+  write_script(work.path() / script, figure, templates);
+  list_in_manifest(folder, {listed(work.path() / script)});
+  publish_file(work.path() / script, folder / "plots" / script);
+  const std::string kept = " (script kept: " + (folder / "plots" / script).string() + ")";
+  if (!gnuplot) return "there is no program '" + options.gnuplot + "'" + kept;
+
+  const auto failure = run_gnuplot({.executable = *gnuplot,
+                                    .folder = work.path(),
+                                    .script = "../" + script,
+                                    .timeout_seconds = options.timeout_seconds,
+                                    .stop_requested = options.stop_requested});
+  if (failure) return *failure + kept;
+  std::vector<ListedFile> pictures;
+  for (const char* ending : {".png", ".svg"}) {
+    const fs::path picture = work.path() / (figure.name + ending);
+    std::error_code error;
+    if (!fs::is_regular_file(picture, error) || fs::file_size(picture, error) == 0)
+      return "gnuplot wrote no " + picture.filename().string() + kept;
+    pictures.push_back(listed(picture));
+  }
+  // Listed before they are there: what the manifest does not list is never removed later.
+  list_in_manifest(folder, pictures);
+  for (const char* ending : {".png", ".svg"}) {
+    const std::string name = figure.name + ending;
+    publish_file(work.path() / name, folder / "plots" / name);
+    outcome.files.push_back(folder / "plots" / name);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
+                       const std::vector<analysis::StudyResult>& results,
+                       const PlotOptions& options) {
+  PlotOutcome outcome;
+  try {
+    const auto figures = figures_of(the_case, results, outcome.warnings);
+    if (figures.empty()) return outcome;
+    const Templates templates = read_templates(options.templates);
+    const auto gnuplot = find_executable(options.gnuplot);
+    make_folder(folder / "plots");
+    for (const auto& figure : figures) {
+      if (options.stop_requested && options.stop_requested()) break;
+      const auto failure = draw(folder, figure, templates, gnuplot, options, outcome);
+      if (failure) outcome.warnings.push_back("figure '" + figure.name + "': " + *failure);
+    }
+  } catch (const std::exception& error) {
+    outcome.warnings.push_back(std::string{"no further figures: "} + error.what());
+  }
+  return outcome;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,110 @@
+#include "result_access.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace springfold::io {
+
+namespace {
+
+using analysis::EventKind;
+using analysis::Unit;
+
+std::string unit_text(Unit unit, const UnitLabels& labels) {
+  switch (unit) {
+    case Unit::length:
+      return labels.length;
+    case Unit::angle:
+      return "rad";
+    case Unit::force:
+      return labels.force;
+    case Unit::moment:
+    case Unit::energy:
+      return labels.force + "·" + labels.length;
+    case Unit::stiffness:
+      return labels.force + "/" + labels.length;
+    case Unit::rotational_stiffness:
+      return labels.force + "·" + labels.length + "/rad";
+    case Unit::none:
+    case Unit::lambda:
+      return "";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::string_view name) {
+  const auto& all = result.quantities;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.name == name; });
+  if (found == all.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
+                std::size_t row, std::string_view quantity) {
+  const auto column = column_of(result, quantity);
+  const bool exists =
+      column && row < branch.samples.size() && *column < branch.samples[row].values.size();
+  return exists ? branch.samples[row].values[*column] : std::numeric_limits<double>::quiet_NaN();
+}
+
+const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
+                                       std::string_view study, int run) {
+  const auto found = std::find_if(results.begin(), results.end(), [&](const auto& result) {
+    return result.study == study && result.run == run;
+  });
+  return found == results.end() ? nullptr : &*found;
+}
+
+const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& result) {
+  const auto found =
+      std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const PlannedRun& planned) {
+        return planned.study == result.study && planned.run == result.run;
+      });
+  return found == the_case.runs.end() ? nullptr : &*found;
+}
+
+bool has_two_sides(const analysis::Event& event) {
+  switch (event.kind) {
+    case EventKind::switching:
+    case EventKind::corner_limit_point:
+    case EventKind::branching_kink:
+      return true;
+    case EventKind::limit_point:
+    case EventKind::branch_point:
+    case EventKind::kinematic_singularity:
+    case EventKind::user_value:
+    case EventKind::end_of_range:
+    case EventKind::unresolved:
+      return false;
+  }
+  return false;
+}
+
+std::map<std::string, int> event_counts(const analysis::StudyResult& result) {
+  std::map<std::string, int> counts;
+  for (const auto& branch : result.branches)
+    for (const auto& event : branch.events) ++counts[analysis::code_of(event.kind)];
+  return counts;
+}
+
+bool all_complete(const Case& the_case, const std::vector<analysis::StudyResult>& results) {
+  return std::all_of(the_case.runs.begin(), the_case.runs.end(), [&](const PlannedRun& planned) {
+    const auto* result = result_of(results, planned.study, planned.run);
+    return result != nullptr && analysis::complete(*result);
+  });
+}
+
+std::string unit_label(Unit unit, Unit lambda_unit, const UnitLabels& labels) {
+  return unit_text(unit == Unit::lambda ? lambda_unit : unit, labels);
+}
+
+std::string heading_of(const analysis::StudyResult& result) {
+  std::string heading = result.study + ", run " + std::to_string(result.run);
+  if (!result.label.empty()) heading += " (" + result.label + ")";
+  return heading;
+}
+
+}  // namespace springfold::io

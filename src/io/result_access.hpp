@@ -1,0 +1,44 @@
+// Questions asked of results by tables, files and plots alike.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// Number of the named column; nothing if the result has no such quantity.
+std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::string_view name);
+
+/// Value in one row of the branch; NaN if the row or the quantity does not exist.
+double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
+                std::size_t row, std::string_view quantity);
+
+/// The result of one run of a study; nullptr if it was not run.
+const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
+                                       std::string_view study, int run);
+
+/// What was planned for this result; nullptr if the case does not have it.
+const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& result);
+
+/// Has the event two rows, one for each side of a switching spring?
+bool has_two_sides(const analysis::Event& event);
+
+/// Events per code over all branches, only codes that occur.
+std::map<std::string, int> event_counts(const analysis::StudyResult& result);
+
+/// Every planned run is there and complete.
+bool all_complete(const Case& the_case, const std::vector<analysis::StudyResult>& results);
+
+/// "N/m" in the labels of the case; empty for a pure number.
+std::string unit_label(analysis::Unit unit, analysis::Unit lambda_unit, const UnitLabels& labels);
+
+/// "push, run 2 (Kv = 0.01)".
+std::string heading_of(const analysis::StudyResult& result);
+
+}  // namespace springfold::io

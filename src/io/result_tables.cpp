@@ -1,0 +1,88 @@
+#include "result_tables.hpp"
+
+#include <algorithm>
+
+#include "result_access.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+using analysis::Branch;
+using analysis::StudyResult;
+
+/// Names of all quantities of all results, in order of first appearance.
+std::vector<std::string> all_quantities(const std::vector<StudyResult>& results) {
+  std::vector<std::string> names;
+  for (const auto& result : results)
+    for (const auto& quantity : result.quantities)
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end())
+        names.push_back(quantity.name);
+  return names;
+}
+
+/// "study,run,label,branch," of a row.
+std::string row_start(const StudyResult& result, std::size_t branch) {
+  return csv_text(result.study) + "," + std::to_string(result.run) + "," + csv_text(result.label) +
+         "," + std::to_string(branch + 1) + ",";
+}
+
+}  // namespace
+
+std::string branch_csv(const StudyResult& result, const Branch& branch) {
+  std::string csv;
+  for (const auto& quantity : result.quantities) csv += csv_text(quantity.name) + ",";
+  csv += "piece,event\n";
+  for (const auto& sample : branch.samples) {
+    for (const double value : sample.values) csv += csv_number(value) + ",";
+    csv += csv_text(sample.piece) + "," + csv_text(sample.event) + "\n";
+  }
+  return csv;
+}
+
+std::string events_csv(const std::vector<StudyResult>& results) {
+  const auto names = all_quantities(results);
+  std::string csv = "study,run,label,branch,event,code,detail,row";
+  for (const auto& name : names) csv += "," + csv_text(name);
+  csv += "\n";
+  for (const auto& result : results) {
+    for (std::size_t b = 0; b < result.branches.size(); ++b) {
+      const Branch& branch = result.branches[b];
+      for (const auto& event : branch.events) {
+        csv += row_start(result, b) + csv_text(event.label) + "," + analysis::code_of(event.kind) +
+               "," + csv_text(event.detail) + "," + std::to_string(event.row);
+        for (const auto& name : names)
+          csv += "," + csv_number(value_at(result, branch, event.row, name));
+        csv += "\n";
+      }
+    }
+  }
+  return csv;
+}
+
+std::string steps_csv(const std::vector<StudyResult>& results) {
+  std::string csv = "study,run,label,branch,s,step,reason\n";
+  for (const auto& result : results)
+    for (std::size_t b = 0; b < result.branches.size(); ++b)
+      for (const auto& note : result.branches[b].log)
+        csv += row_start(result, b) + csv_number(note.s) + "," + csv_number(note.step) + "," +
+               csv_text(note.reason) + "\n";
+  return csv;
+}
+
+std::vector<std::vector<std::string>> branch_files(const std::vector<StudyResult>& results) {
+  std::vector<std::vector<std::string>> files;
+  UniqueNames names;
+  for (const auto& result : results) {
+    auto& own = files.emplace_back();
+    const std::string stem = safe_file_name(result.study) + "-" + std::to_string(result.run);
+    for (std::size_t b = 0; b < result.branches.size(); ++b) {
+      const std::string suffix = b == 0 ? "" : "-" + std::to_string(b + 1);
+      own.push_back("branches/" + names.make(stem + suffix) + ".csv");
+    }
+  }
+  return files;
+}
+
+}  // namespace springfold::io

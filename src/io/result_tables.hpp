@@ -1,0 +1,25 @@
+// The CSV tables of a set of results, as text. Columns: docs/results.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+
+namespace springfold::io {
+
+/// One row per point of the branch: all quantities, then piece and event.
+std::string branch_csv(const analysis::StudyResult& result, const analysis::Branch& branch);
+
+/// One row per special point of all runs, with every quantity that any run has.
+std::string events_csv(const std::vector<analysis::StudyResult>& results);
+
+/// One row per refused or cut step of all runs.
+std::string steps_csv(const std::vector<analysis::StudyResult>& results);
+
+/// File of every branch relative to the result folder, "branches/<study>-<run>[-<branch>].csv",
+/// first index: result, second: branch. No two are equal.
+std::vector<std::vector<std::string>> branch_files(
+    const std::vector<analysis::StudyResult>& results);
+
+}  // namespace springfold::io

@@ -1,0 +1,124 @@
+#include "run_options.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using analysis::ControlMode;
+using analysis::StartSolve;
+using analysis::StartSolver;
+using analysis::StudyKind;
+
+std::string text_of(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::equilibrium:
+      return "equilibrium";
+    case StudyKind::force_deflection:
+      return "force_deflection";
+  }
+  return "";
+}
+
+std::string text_of(ControlMode control) {
+  switch (control) {
+    case ControlMode::load:
+      return "load";
+    case ControlMode::pose:
+      return "pose";
+    case ControlMode::mixed:
+      return "mixed";
+    case ControlMode::actuator:
+      return "actuator";
+    case ControlMode::parameter:
+      return "parameter";
+  }
+  return "";
+}
+
+std::string text_of(StartSolve solve) {
+  switch (solve) {
+    case StartSolve::pose:
+      return "pose";
+    case StartSolve::actuators:
+      return "actuators";
+    case StartSolve::wrench:
+      return "wrench";
+  }
+  return "";
+}
+
+std::string text_of(StartSolver solver) {
+  switch (solver) {
+    case StartSolver::newton:
+      return "newton";
+    case StartSolver::fixed_point:
+      return "fixed_point";
+  }
+  return "";
+}
+
+Json json_of(const Vector& vector) {
+  return std::vector<double>(vector.data(), vector.data() + vector.size());
+}
+
+/// Open ends of a range are null.
+Json json_of(const analysis::Limit& limit) {
+  return {{"quantity", limit.quantity}, {"low", limit.low}, {"high", limit.high}};
+}
+
+Json json_of(const analysis::Mark& mark) {
+  return {{"quantity", mark.quantity}, {"value", mark.value}};
+}
+
+Json json_of(const analysis::ActuatorRate& rate) {
+  return {{"actuator", rate.actuator}, {"rate", rate.rate}};
+}
+
+template <class T>
+Json json_of(const std::vector<T>& items) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+/// Name and value of every option of one study, without saying which are defaults.
+std::vector<NamedOption> listed(const analysis::Study& study, const std::string& body) {
+  const auto& [initial, minimum, maximum, points] = study.trace;
+  return {{"kind", text_of(study.kind)},
+          {"control", text_of(study.control)},
+          {"body", body},
+          {"direction", json_of(study.direction)},
+          {"constant_load", json_of(study.constant_load)},
+          {"actuators", json_of(study.actuators)},
+          {"parameter", study.parameter},
+          {"start.solve", text_of(study.start.solve)},
+          {"start.solver", text_of(study.start.solver)},
+          {"start.pose", json_of(study.start.pose)},
+          {"start.attempts", study.start.attempts},
+          {"start.seed", study.start.seed},
+          {"until", json_of(study.until)},
+          {"marks", json_of(study.marks)},
+          {"trace.initial_step", initial},
+          {"trace.minimum_step", minimum},
+          {"trace.maximum_step", maximum},
+          {"trace.maximum_points", points}};
+}
+
+std::string body_name(const model::Mechanism& mechanism, Index body) {
+  const bool exists = body >= 1 && body <= std::ssize(mechanism.bodies);
+  return exists ? mechanism.bodies[static_cast<std::size_t>(body - 1)].name : "";
+}
+
+}  // namespace
+
+std::vector<NamedOption> options_of(const PlannedRun& planned) {
+  const analysis::Study untouched;
+  auto used = listed(planned.plan, body_name(planned.mechanism, planned.plan.body));
+  const auto defaults = listed(untouched, body_name(planned.mechanism, untouched.body));
+  for (std::size_t i = 0; i < used.size(); ++i)
+    used[i].is_default = used[i].value == defaults[i].value;
+  return used;
+}
+
+}  // namespace springfold::io

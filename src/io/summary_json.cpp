@@ -1,0 +1,154 @@
+// summary.json: what was found, run by run. Layout: docs/results.md.
+#include <nlohmann/json.hpp>
+
+#include "json_text.hpp"
+#include "result_access.hpp"
+#include "result_tables.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using analysis::StudyResult;
+
+/// Rows of the matrix; null for an empty one.
+Json json_of(const Matrix& matrix) {
+  if (matrix.size() == 0) return nullptr;
+  Json rows = Json::array();
+  for (Index r = 0; r < matrix.rows(); ++r) {
+    Json row = Json::array();
+    for (Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json json_of(const analysis::Stop& stop) {
+  return {{"reason", stop.reason}, {"complete", stop.complete}};
+}
+
+/// {"s": ..., "lambda": ..., ...}; null without values.
+Json by_quantity(const StudyResult& result, const std::vector<double>& values) {
+  if (values.empty()) return nullptr;
+  Json named = Json::object();
+  for (std::size_t i = 0; i < std::min(values.size(), result.quantities.size()); ++i)
+    named[result.quantities[i].name] = values[i];
+  return named;
+}
+
+Json json_of(const StudyResult& result, const analysis::Branch& branch,
+             const analysis::Event& event) {
+  Json json = {{"label", event.label},
+               {"code", analysis::code_of(event.kind)},
+               {"detail", event.detail},
+               {"row", event.row}};
+  const bool exists = event.row < branch.samples.size();
+  json["values"] = exists ? by_quantity(result, branch.samples[event.row].values) : Json{};
+  json["rates_before"] = by_quantity(result, event.rates_before);
+  json["rates_after"] = by_quantity(result, event.rates_after);
+  json["stiffness"] = json_of(event.stiffness);
+  return json;
+}
+
+Json json_of(const StudyResult& result, const analysis::Branch& branch, const std::string& file) {
+  Json json = {{"file", file},
+               {"points", branch.samples.size()},
+               {"start_row", branch.start_row},
+               {"refused_steps", branch.log.size()},
+               {"backward", json_of(branch.backward)},
+               {"forward", json_of(branch.forward)}};
+  json["events"] = Json::array();
+  for (const auto& event : branch.events) json["events"].push_back(json_of(result, branch, event));
+  return json;
+}
+
+/// Chain stiffnesses by the chains' names.
+Json chain_stiffnesses(const std::vector<Matrix>& matrices, const PlannedRun* planned) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const bool has_name = planned != nullptr && i < planned->mechanism.chains.size();
+    const auto name = has_name ? planned->mechanism.chains[i].name : std::to_string(i + 1);
+    json[name] = json_of(matrices[i]);
+  }
+  return json;
+}
+
+Json json_of(const analysis::StartReport& start, const PlannedRun* planned) {
+  return {{"found", start.found},
+          {"method", start.method},
+          {"message", start.message},
+          {"attempts", start.attempts},
+          {"iterations", start.iterations},
+          {"chain_iterations", start.chain_iterations},
+          {"residual", start.residual},
+          {"stiffness", json_of(start.stiffness)},
+          {"chain_stiffnesses", chain_stiffnesses(start.chain_stiffnesses, planned)}};
+}
+
+Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLabels& units,
+             const std::vector<std::string>& files) {
+  Json json = {{"study", result.study}, {"run", result.run}, {"label", result.label}};
+  json["complete"] = analysis::complete(result);
+  json["parameters"] = planned != nullptr ? Json(planned->parameters) : Json::object();
+  json["quantities"] = Json::array();
+  for (const auto& quantity : result.quantities) {
+    const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
+    json["quantities"].push_back({{"name", quantity.name}, {"unit", unit}});
+  }
+  json["start"] = json_of(result.start, planned);
+  json["event_counts"] = Json(event_counts(result));
+  json["branches"] = Json::array();
+  for (std::size_t b = 0; b < result.branches.size(); ++b)
+    json["branches"].push_back(json_of(result, result.branches[b], files[b]));
+  return json;
+}
+
+Json json_of(const Comparison& comparison) {
+  const auto& expected = comparison.expected;
+  return {{"name", expected.name},
+          {"group", expected.group},
+          {"study", expected.study},
+          {"run", expected.run},
+          {"at", expected.at},
+          {"quantity", expected.quantity},
+          {"ours", comparison.ours},
+          {"reference", expected.expected},
+          {"difference", comparison.ours - expected.expected},
+          {"tolerance", expected.tolerance},
+          {"holds", comparison.holds},
+          {"source", expected.source}};
+}
+
+Json missing_runs(const Case& the_case, const std::vector<StudyResult>& results) {
+  Json missing = Json::array();
+  for (const auto& planned : the_case.runs)
+    if (result_of(results, planned.study, planned.run) == nullptr)
+      missing.push_back({{"study", planned.study}, {"run", planned.run}});
+  return missing;
+}
+
+}  // namespace
+
+std::string summary_json(const Case& the_case, const std::vector<StudyResult>& results) {
+  Json summary = {{"schema_version", 1}};
+  summary["case"] = {
+      {"file", the_case.file.filename().string()},
+      {"title", the_case.title},
+      {"hash", the_case.hash},
+      {"units", {{"length", the_case.units.length}, {"force", the_case.units.force}}}};
+  summary["complete"] = all_complete(the_case, results);
+  summary["missing_runs"] = missing_runs(the_case, results);
+  summary["runs"] = Json::array();
+  const auto files = branch_files(results);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    summary["runs"].push_back(
+        json_of(results[i], plan_of(the_case, results[i]), the_case.units, files[i]));
+  summary["comparisons"] = Json::array();
+  for (const auto& comparison : compare(the_case.expected, results))
+    summary["comparisons"].push_back(json_of(comparison));
+  return json_text(summary);
+}
+
+}  // namespace springfold::io

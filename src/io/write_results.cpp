@@ -1,0 +1,98 @@
+// One folder of results: every file complete or not there, none left over from an earlier run.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "atomic_file.hpp"
+#include "json_text.hpp"
+#include "manifest.hpp"
+#include "result_tables.hpp"
+#include "sha256.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::StudyResult;
+
+/// A file before it is written.
+struct PlannedFile {
+  std::string path{};
+  std::string bytes{};
+  bool is_reproducible = true;
+};
+
+std::string timings_json(const std::vector<StudyResult>& results) {
+  nlohmann::ordered_json json = {{"schema_version", 1}};
+  double total = 0;
+  json["runs"] = nlohmann::ordered_json::array();
+  for (const auto& result : results) {
+    json["runs"].push_back(
+        {{"study", result.study}, {"run", result.run}, {"cpu_seconds", result.seconds}});
+    total += result.seconds;
+  }
+  json["cpu_seconds"] = total;
+  return json_text(json);
+}
+
+std::vector<PlannedFile> planned_files(const Case& the_case,
+                                       const std::vector<StudyResult>& results) {
+  std::vector<PlannedFile> files;
+  const auto names = branch_files(results);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    for (std::size_t b = 0; b < results[i].branches.size(); ++b)
+      files.push_back({names[i][b], branch_csv(results[i], results[i].branches[b])});
+  files.push_back({"events.csv", events_csv(results)});
+  files.push_back({"steps.csv", steps_csv(results)});
+  files.push_back({"summary.json", summary_json(the_case, results)});
+  files.push_back({"timings.json", timings_json(results), false});
+  return files;
+}
+
+ListedFile listed(const PlannedFile& file) {
+  if (!file.is_reproducible) return {file.path};
+  return {file.path, sha256(file.bytes), file.bytes.size()};
+}
+
+bool contains(const std::vector<ListedFile>& files, const std::string& path) {
+  return std::any_of(files.begin(), files.end(), [&](const auto& f) { return f.path == path; });
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) fs::remove(path, error);
+  if (error) throw std::runtime_error{"cannot remove " + path.string() + ": " + error.message()};
+}
+
+}  // namespace
+
+std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case,
+                                    const std::vector<StudyResult>& results) {
+  make_folder(folder / "branches");
+  const auto files = planned_files(the_case, results);
+  std::vector<ListedFile> list;
+  for (const auto& file : files) list.push_back(listed(file));
+  std::vector<ListedFile> leftovers;
+  for (const auto& path : files_listed_in(folder))
+    if (!contains(list, path)) leftovers.push_back({path});
+
+  // Killed from here on, the folder says itself that it is not whole, and a later run still knows
+  // every file that it has to remove.
+  std::vector<ListedFile> old_and_new = list;
+  old_and_new.insert(old_and_new.end(), leftovers.begin(), leftovers.end());
+  const fs::path manifest = folder / "manifest.json";
+  write_file(manifest, manifest_text(the_case, SetState::being_written, old_and_new));
+
+  std::vector<fs::path> written;
+  for (const auto& file : files) {
+    write_file(folder / file.path, file.bytes);
+    written.push_back(folder / file.path);
+  }
+  for (const auto& file : leftovers) remove_file(folder / file.path);
+  write_file(manifest, manifest_text(the_case, SetState::whole, list));
+  written.push_back(manifest);
+  return written;
+}
+
+}  // namespace springfold::io
