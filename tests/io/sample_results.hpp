@@ -44,16 +44,11 @@ struct Diagonal {
 
 inline std::vector<analysis::Quantity> quantities() {
   using analysis::Unit;
-  return {{"s", Unit::none},
-          {"lambda", Unit::lambda},
-          {"deflection", Unit::length},
-          {"force", Unit::force},
-          {"stiffness", Unit::stiffness},
-          {"point.x", Unit::length},
-          {"point.y", Unit::length},
-          {"leg_x.drive.rho", Unit::length},
-          {"index", Unit::none},
-          {"energy", Unit::energy}};
+  return {
+      {"s", Unit::none},         {"lambda", Unit::lambda},          {"deflection", Unit::length},
+      {"force", Unit::force},    {"stiffness", Unit::stiffness},    {"point.x", Unit::length},
+      {"point.y", Unit::length}, {"leg_x.drive.rho", Unit::length}, {"index", Unit::none},
+      {"energy", Unit::energy}};
 }
 
 inline analysis::Sample sample_at(const Diagonal& diagonal, double c) {

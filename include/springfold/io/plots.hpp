@@ -17,10 +17,10 @@ struct PlotOutcome {
 };
 
 struct PlotOptions {
-  std::string gnuplot = "gnuplot";  ///< executable, looked up in PATH unless it has a slash
-  double timeout_seconds = 60;      ///< for one figure
-  std::filesystem::path templates{};  ///< folder with style.gp and force-deflection.gp; empty:
-                                      ///< the installed or the source tree's plots/
+  std::string gnuplot = "gnuplot";         ///< executable, looked up in PATH unless it has a slash
+  double timeout_seconds = 60;             ///< for one figure
+  std::filesystem::path templates{};       ///< folder with style.gp and force-deflection.gp; empty:
+                                           ///< the installed or the source tree's plots/
   std::function<bool()> stop_requested{};  ///< asked several times a second; true ends drawing
 };
 

@@ -1,0 +1,95 @@
+#include "arguments.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "springfold/version.hpp"
+
+namespace springfold::cli {
+
+namespace {
+
+constexpr const char* description =
+    "springfold traces force-deflection curves of parallel manipulators with preloaded passive\n"
+    "joints, through their limit points, and says where and why they lose stability.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  springfold run cases/orthoglide-planar/case.toml\n"
+    "      all studies; tables on the screen, curves and figures in results/orthoglide-planar\n"
+    "  springfold run case.toml --study push --set Kv=0.02 --set 'L=2*0.5' --out /tmp/push\n"
+    "      one study with other parameter values, results in another folder\n"
+    "  springfold run case.toml --json --no-plots > summary.json\n"
+    "      for other programs\n"
+    "  springfold check case.toml\n"
+    "      reads the case, says what it contains or what is wrong with it\n"
+    "\n"
+    "Exit codes: 0 all done, 2 wrong usage, 3 mistakes in the case file, 4 no trustworthy start\n"
+    "point, 5 partial (stopped early, unresolved, or a compared value does not hold),\n"
+    "6 input or output, 70 internal error, 130 and 143 interrupted.";
+
+/// Adds "name=value"; false if it has not that form or the name was there already.
+bool add_override(const std::string& text, std::map<std::string, std::string>& overrides,
+                  std::string& error) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    error = "--set " + text + ": need name=value, for example --set Kv=0.02";
+    return false;
+  }
+  const std::string name = text.substr(0, equals);
+  if (overrides.emplace(name, text.substr(equals + 1)).second) return true;
+  error = "--set " + name + "=...: given twice";
+  return false;
+}
+
+}  // namespace
+
+ParsedArguments parse_arguments(int argc, const char* const* argv) {
+  Arguments arguments;
+  std::vector<std::string> settings;
+
+  CLI::App app{description, "springfold"};
+  app.footer(examples);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "springfold " + std::string{version});
+
+  CLI::App* run = app.add_subcommand("run", "Run the studies of a case file");
+  CLI::App* check = app.add_subcommand("check", "Read and check a case file, run nothing");
+  for (CLI::App* command : {run, check}) {
+    command->add_option("CASE", arguments.case_file, "Case file (TOML)")->required();
+    command
+        ->add_option("--set", settings, "Replace a parameter's value or formula; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+  }
+  run->add_option("--study", arguments.studies, "Run this study only; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  run->add_option("--out", arguments.folder,
+                  "Folder for results (results/<name of the case> when not given)")
+      ->type_name("DIR");
+  run->add_flag("!--no-plots", arguments.draws_plots, "Draw no figures");
+  run->add_flag("--json", arguments.prints_json,
+                "Print summary.json instead of tables on standard output");
+
+  ParsedArguments parsed;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    parsed.text = (chosen.empty() ? &app : chosen.front())->help();
+    return parsed;
+  } catch (const CLI::CallForVersion& call) {
+    parsed.text = std::string{call.what()} + "\n";
+    return parsed;
+  } catch (const CLI::ParseError& mistake) {
+    parsed.error = mistake.what();
+    return parsed;
+  }
+  for (const auto& text : settings)
+    if (!add_override(text, arguments.overrides, parsed.error)) return parsed;
+  arguments.command = run->parsed() ? Command::run : Command::check;
+  parsed.arguments = std::move(arguments);
+  return parsed;
+}
+
+}  // namespace springfold::cli

@@ -1,0 +1,33 @@
+// The command line as plain data.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace springfold::cli {
+
+enum class Command { run, check };
+
+struct Arguments {
+  Command command = Command::run;
+  std::filesystem::path case_file{};
+  std::vector<std::string> studies{};              ///< empty: all
+  std::optional<std::filesystem::path> folder{};   ///< --out
+  std::map<std::string, std::string> overrides{};  ///< --set name=value
+  bool draws_plots = true;
+  bool prints_json = false;
+};
+
+/// Either arguments, or text that is all there is to say (--help, --version), or what is wrong.
+struct ParsedArguments {
+  std::optional<Arguments> arguments{};
+  std::string text{};   ///< for standard output
+  std::string error{};  ///< for standard error
+};
+
+ParsedArguments parse_arguments(int argc, const char* const* argv);
+
+}  // namespace springfold::cli

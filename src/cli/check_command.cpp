@@ -1,0 +1,168 @@
+#include "check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "exit_code.hpp"
+#include "selection.hpp"
+
+namespace springfold::cli {
+
+namespace {
+
+using analysis::ControlMode;
+using analysis::StudyKind;
+using model::Joint;
+using model::JointKind;
+using model::JointRole;
+using model::Mechanism;
+using model::TaskSpace;
+
+std::string word_of(TaskSpace space) {
+  switch (space) {
+    case TaskSpace::xy:
+      return "xy";
+    case TaskSpace::planar:
+      return "planar";
+    case TaskSpace::xyz:
+      return "xyz";
+    case TaskSpace::spatial:
+      return "spatial";
+  }
+  return "";
+}
+
+std::string word_of(JointRole role) {
+  switch (role) {
+    case JointRole::passive:
+      return "passive";
+    case JointRole::preloaded:
+      return "preloaded";
+    case JointRole::compliant:
+      return "virtual";
+    case JointRole::actuated:
+      return "actuated";
+  }
+  return "";
+}
+
+std::string word_of(ControlMode control) {
+  switch (control) {
+    case ControlMode::load:
+      return "load";
+    case ControlMode::pose:
+      return "pose";
+    case ControlMode::mixed:
+      return "mixed";
+    case ControlMode::actuator:
+      return "actuator";
+    case ControlMode::parameter:
+      return "parameter";
+  }
+  return "";
+}
+
+std::string word_of(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::equilibrium:
+      return "equilibrium";
+    case StudyKind::force_deflection:
+      return "force_deflection";
+  }
+  return "";
+}
+
+std::string counted(Index count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string body_name(const Mechanism& mechanism, Index body) {
+  return body == 0 ? "base" : mechanism.bodies[static_cast<std::size_t>(body - 1)].name;
+}
+
+/// "drive (prismatic, actuated, with drive spring)".
+std::string text_of(const Joint& joint) {
+  const bool has_drive_spring = joint.role == JointRole::actuated && joint.spring.has_value();
+  return fmt::format("{} ({}, {}{})", joint.name,
+                     joint.kind == JointKind::revolute ? "revolute" : "prismatic",
+                     word_of(joint.role), has_drive_spring ? ", with drive spring" : "");
+}
+
+std::string text_of(const Mechanism& mechanism, const model::Chain& chain) {
+  std::string joints;
+  Index links = 0;
+  for (const auto& element : chain.elements) {
+    if (const auto* joint = std::get_if<Joint>(&element))
+      joints += (joints.empty() ? "" : ", ") + text_of(*joint);
+    else
+      ++links;
+  }
+  return fmt::format("  chain     {}: {} to {}, {}\n            joints: {}\n", chain.name,
+                     body_name(mechanism, chain.from), body_name(mechanism, chain.to),
+                     counted(links, "rigid link"), joints.empty() ? "none" : joints);
+}
+
+/// Joint coordinates and pose coordinates, less what the closure of the chains takes away.
+std::string freedom_text(const Mechanism& mechanism) {
+  Index coordinates = 0, closures = 0, poses = 0;
+  for (const auto& chain : mechanism.chains) {
+    closures += model::dimension(model::task_space_of(mechanism, chain));
+    for (const auto& element : chain.elements)
+      if (const auto* joint = std::get_if<Joint>(&element))
+        coordinates += model::has_coordinate(*joint) ? 1 : 0;
+  }
+  for (const auto& body : mechanism.bodies) poses += model::dimension(body.task_space);
+  return fmt::format("  freedom   {}: {} and {} under {}\n",
+                     counted(coordinates + poses - closures, "degree") + " of freedom",
+                     counted(coordinates, "joint coordinate"), counted(poses, "pose coordinate"),
+                     counted(closures, "closure equation"));
+}
+
+std::string study_text(const io::Case& the_case, const std::string& name) {
+  std::string labels;
+  Index runs = 0;
+  const io::PlannedRun* first = nullptr;
+  for (const auto& planned : the_case.runs) {
+    if (planned.study != name) continue;
+    if (first == nullptr) first = &planned;
+    ++runs;
+    if (!planned.label.empty()) labels += (labels.empty() ? ": " : "; ") + planned.label;
+  }
+  const bool is_curve = first->plan.kind == StudyKind::force_deflection;
+  return fmt::format("  study     {} ({}{}), {}{}\n", name, word_of(first->plan.kind),
+                     is_curve ? ", control " + word_of(first->plan.control) : "",
+                     counted(runs, "run"), labels);
+}
+
+}  // namespace
+
+std::string description_of(const io::Case& the_case) {
+  std::string text = the_case.file.string() + ": no mistakes found\n";
+  if (!the_case.title.empty()) text += "  title     " + the_case.title + "\n";
+  text +=
+      fmt::format("  units     length {}, force {}\n", the_case.units.length, the_case.units.force);
+  if (!the_case.runs.empty()) {
+    const Mechanism& mechanism = the_case.runs.front().mechanism;
+    for (const auto& body : mechanism.bodies)
+      text += fmt::format("  body      {} ({})\n", body.name, word_of(body.task_space));
+    for (const auto& chain : mechanism.chains) text += text_of(mechanism, chain);
+    text += freedom_text(mechanism);
+  }
+  for (const auto& name : study_names(the_case)) text += study_text(the_case, name);
+  for (const auto& plot : the_case.plots) text += "  figure    " + plot.name + "\n";
+  if (!the_case.expected.values.empty())
+    text += "  expected  " +
+            counted(static_cast<Index>(the_case.expected.values.size()), "compared value") + "\n";
+  return text;
+}
+
+int check_command(const Arguments& arguments, const Session& session) {
+  session.out << description_of(io::load_case(arguments.case_file, arguments.overrides));
+  session.out.flush();
+  if (session.out.good()) return all_done;
+  session.err << "springfold: cannot write to standard output\n";
+  return input_output;
+}
+
+}  // namespace springfold::cli

@@ -1,0 +1,10 @@
+#include <unistd.h>
+
+#include <iostream>
+
+#include "cli/run_main.hpp"
+
+int main(int argc, char** argv) {
+  const bool is_terminal = ::isatty(STDERR_FILENO) == 1;
+  return springfold::cli::run_main(argc, argv, std::cout, std::cerr, is_terminal);
+}

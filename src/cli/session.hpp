@@ -1,0 +1,23 @@
+// What a command needs from the world around it, so that tests can put other things there.
+#pragma once
+
+#include <functional>
+#include <ostream>
+
+#include "springfold/analysis/run.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::cli {
+
+using RunStudy =
+    std::function<analysis::StudyResult(const io::PlannedRun&, const analysis::Observer&)>;
+
+struct Session {
+  std::ostream& out;  ///< tables
+  std::ostream& err;  ///< messages
+  bool shows_progress = false;
+  std::function<int()> signal{};  ///< the signal that asks to stop, 0 if none
+  RunStudy run_study{};
+};
+
+}  // namespace springfold::cli
