@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string_view>
+
+#include "case_draft.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+/// The number in "name[3]rest" and the length of "name[3]"; nothing if `text` is not of that form.
+struct Numbered {
+  std::size_t number = 0;
+  std::size_t length = 0;
+};
+std::optional<Numbered> numbered(std::string_view text, std::string_view name) {
+  if (!text.starts_with(name) || text.substr(name.size(), 1) != "[") return std::nullopt;
+  const char* begin = text.data() + name.size() + 1;
+  const char* end = text.data() + text.size();
+  std::size_t number = 0;
+  const auto [at, error] = std::from_chars(begin, end, number);
+  if (error != std::errc{} || at == end || *at != ']' || number == 0) return std::nullopt;
+  return Numbered{number, static_cast<std::size_t>(at + 1 - text.data())};
+}
+
+/// The rest of "chain[2].elements[3].spring: ..." behind what is known by its place.
+std::string rest_of(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(".: ");
+  return begin == std::string_view::npos ? "" : std::string{text.substr(begin)};
+}
+
+/// Gives a sentence of model::problems_in, which numbers the elements of the model, the place and
+/// the key in the file.
+void add_model_problem(const std::string& text, const MechanismDraft& draft,
+                       const StudyDraft& study, int run, Problems& problems) {
+  const std::string_view view{text};
+  const std::string when = study.when(run);
+  const auto body = numbered(view, "body");
+  if (body && body->number <= draft.bodies.size()) {
+    const BodyDraft& at = draft.bodies[body->number - 1];
+    return problems.add(at.place, at.key, rest_of(view.substr(body->length)) + when);
+  }
+  const auto chain = numbered(view, "chain");
+  if (!chain || chain->number > draft.chains.size())
+    return problems.add(study.place, study.key, text + when);
+  const ChainDraft& at = draft.chains[chain->number - 1];
+  const std::string_view behind = view.substr(chain->length);
+  const auto element = numbered(behind, ".elements");
+  if (!element || element->number > at.elements.size())
+    return problems.add(at.place, at.key, rest_of(behind) + when);
+  const ElementDraft& part = at.elements[element->number - 1];
+  problems.add(part.place, part.key, rest_of(behind.substr(element->length)) + when);
+}
+
+/// Gives a sentence of analysis::problems_in, "start.solve: ...", the place of that key in the file.
+void add_study_problem(const std::string& text, const StudyDraft& study, int run,
+                       Problems& problems) {
+  const std::size_t colon = text.find(": ");
+  if (colon == std::string::npos)
+    return problems.add(study.place, study.key, text + study.when(run));
+  const std::string key = study.key + "." + text.substr(0, colon);
+  const std::string what = text.substr(colon + 2) + study.when(run);
+  std::string name = text.substr(0, colon);
+  while (!name.empty()) {
+    const auto has_name = [&name](const NamedPlace& entry) { return entry.name == name; };
+    const auto entry = std::find_if(study.entries.begin(), study.entries.end(), has_name);
+    if (entry != study.entries.end()) return problems.add(entry->place, key, what);
+    const std::size_t dot = name.rfind('.');
+    name.resize(dot == std::string::npos ? 0 : dot);
+  }
+  problems.add(study.place, key, what);
+}
+
+void check_quantity(const NamedPlace& quantity, const std::vector<std::string>& known,
+                    const StudyDraft& study, Problems& problems) {
+  if (quantity.name.empty()) return;
+  if (std::find(known.begin(), known.end(), quantity.name) != known.end()) return;
+  problems.add(quantity.place, quantity.key,
+               "no quantity \"" + quantity.name + "\" in study \"" + study.name + "\"" +
+                   suggestion(quantity.name, known));
+}
+
+class Builder {
+ public:
+  Builder(std::shared_ptr<const CaseDraft> draft, Problems& problems)
+      : draft_{std::move(draft)}, problems_{problems} {
+    names_.resize(draft_->studies.size());
+  }
+
+  Case build() {
+    result_.title = draft_->title;
+    result_.units = draft_->units;
+    for (std::size_t i = 0; i < draft_->studies.size(); ++i)
+      for (int run = 1; run <= draft_->studies[i].runs(); ++run) add_run(i, run);
+    add_plots();
+    add_expectations();
+    return std::move(result_);
+  }
+
+ private:
+  void add_run(std::size_t i, int run) {
+    const StudyDraft& study = draft_->studies[i];
+    const Values parameters =
+        evaluate(draft_->parameters, study.changes(run), draft_->book, "", problems_);
+    const std::vector<double> numbers = study.numbers.values(draft_->book, parameters).values;
+    PlannedRun planned{.study = study.name, .run = run};
+    planned.label = label_of(study, run, parameters);
+    planned.mechanism = build_mechanism(
+        draft_->mechanism, draft_->mechanism.numbers.values(draft_->book, parameters).values);
+    const auto body = static_cast<std::size_t>(study.body - 1);
+    planned.plan =
+        build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);
+    for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
+      planned.parameters[draft_->parameters[p].name] = parameters.values[p];
+    if (study.control == analysis::ControlMode::parameter && study.parameter)
+      planned.family = family_of(draft_, i, run, parameters);
+    if (check(planned, i)) result_.runs.push_back(std::move(planned));
+  }
+
+  std::string label_of(const StudyDraft& study, int run, const Values& parameters) const {
+    if (!study.vary) return {};
+    if (!study.vary->labels.empty()) return study.vary->labels[static_cast<std::size_t>(run - 1)];
+    const std::size_t p = study.vary->parameter;
+    return draft_->parameters[p].name + " = " + rounded(parameters.values[p], 12);
+  }
+
+  /// Rules of model and analysis; names of quantities once per study.
+  bool check(const PlannedRun& planned, std::size_t i) {
+    const StudyDraft& study = draft_->studies[i];
+    const std::size_t before = problems_.size();
+    for (const std::string& text : model::problems_in(planned.mechanism))
+      add_model_problem(text, draft_->mechanism, study, planned.run, problems_);
+    if (problems_.size() != before) return false;
+    if (planned.run == 1) check_names(planned, i);
+    for (const std::string& text : analysis::problems_in(planned.plan, planned.mechanism)) {
+      const bool has_better_place = text.find(": no quantity ") != std::string::npos;
+      if (!has_better_place) add_study_problem(text, study, planned.run, problems_);
+    }
+    return problems_.size() == before;
+  }
+
+  void check_names(const PlannedRun& planned, std::size_t i) {
+    const StudyDraft& study = draft_->studies[i];
+    names_[i] = analysis::quantity_names(planned.plan, planned.mechanism);
+    std::set<std::string> seen;
+    for (const std::string& name : names_[i])
+      if (!seen.insert(name).second)
+        problems_.add(study.place, study.key,
+                      "two quantities are called \"" + name + "\": rename a body, chain or joint");
+    for (const LimitDraft& limit : study.until)
+      check_quantity(limit.quantity, names_[i], study, problems_);
+    for (const MarkDraft& mark : study.marks)
+      check_quantity(mark.quantity, names_[i], study, problems_);
+  }
+
+  /// Names are known only if the study's first run could be built.
+  void check_use(const NamedPlace& quantity, std::size_t study) {
+    if (!names_[study].empty())
+      check_quantity(quantity, names_[study], draft_->studies[study], problems_);
+  }
+
+  void add_plots() {
+    const Values parameters = evaluate(draft_->parameters, {}, draft_->book, "", problems_);
+    for (const PlotDraft& plot : draft_->plots) {
+      const std::vector<double> numbers = plot.numbers.values(draft_->book, parameters).values;
+      PlotSpec spec = plot.spec;
+      spec.x_factor = numbers[plot.x_factor];
+      spec.y_factor = numbers[plot.y_factor];
+      for (const PlotCurves& curves : spec.curves)
+        for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
+          if (draft_->studies[i].name != curves.study) continue;
+          check_use(plot.x, i);
+          check_use(plot.y, i);
+        }
+      result_.plots.push_back(std::move(spec));
+    }
+  }
+
+  void add_expectations() {
+    result_.expected.notes = draft_->notes;
+    for (const ExpectedDraft& draft : draft_->expected) {
+      ExpectedValue value = draft.value;
+      const StudyDraft& study = draft_->studies[*draft.study];
+      const Values parameters =
+          evaluate(draft_->parameters, study.changes(value.run), draft_->book, "", problems_);
+      const std::vector<double> numbers = draft.numbers.values(draft_->book, parameters).values;
+      value.expected = numbers[draft.expected];
+      value.tolerance = numbers[draft.tolerance];
+      value.factor = numbers[draft.factor];
+      check_use(draft.quantity, *draft.study);
+      result_.expected.values.push_back(std::move(value));
+    }
+  }
+
+  std::shared_ptr<const CaseDraft> draft_;
+  Problems& problems_;
+  std::vector<std::vector<std::string>> names_{};  ///< quantities of every study
+  Case result_{};
+};
+
+}  // namespace
+
+Case build_case(std::shared_ptr<const CaseDraft> draft, Problems& problems) {
+  return Builder{std::move(draft), problems}.build();
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,63 @@
+// Everything that a case says, its numbers still formulas.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_draft.hpp"
+#include "source_files.hpp"
+#include "springfold/io/case_file.hpp"
+#include "study_draft.hpp"
+#include "table_reader.hpp"
+
+namespace springfold::io {
+
+struct PlotDraft {
+  PlotSpec spec{};  ///< without its factors
+  NumberTable numbers{};
+  NumberId x_factor = 0, y_factor = 0;
+  NamedPlace x{}, y{};
+};
+
+struct ExpectedDraft {
+  ExpectedValue value{};  ///< without its numbers
+  NumberTable numbers{};
+  NumberId expected = 0, tolerance = 0, factor = 0;
+  std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
+  NamedPlace quantity{};
+};
+
+struct CaseDraft {
+  std::string title{};
+  UnitLabels units{};
+  FormulaBook book{std::vector<std::string>{}};
+  std::vector<Parameter> parameters{};
+  MechanismDraft mechanism{};
+  std::vector<StudyDraft> studies{};
+  std::vector<PlotDraft> plots{};
+  std::vector<ExpectedDraft> expected{};
+  std::vector<std::string> notes{};
+};
+
+/// Reads the tables of all documents (included ones first). `overrides` replace parameters.
+/// @param expected_file  documents with the expectations: one or none
+CaseDraft read_case(const std::vector<Document>& documents,
+                    const std::map<std::string, std::string>& overrides,
+                    const std::vector<Document>& expected_file, Problems& problems);
+
+/// Checks all numbers: with the case's own parameters, then as every run has them.
+void check_numbers(const CaseDraft& draft, Problems& problems);
+
+/// All runs of all studies, plots and expectations. What mechanism and study say about each other
+/// (names of quantities, rules of the analysis) is checked. @pre check_numbers found nothing
+Case build_case(std::shared_ptr<const CaseDraft> draft, Problems& problems);
+
+/// The mechanism and the load of one run as a function of its parameter.
+/// @param parameters  as the run has them @pre the study's control mode is `parameter`
+analysis::ParameterFamily family_of(std::shared_ptr<const CaseDraft> draft, std::size_t study,
+                                    int run, const Values& parameters);
+
+}  // namespace springfold::io

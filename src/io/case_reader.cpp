@@ -1,0 +1,163 @@
+#include <algorithm>
+
+#include "case_draft.hpp"
+#include "mechanism_reader.hpp"
+#include "plot_reader.hpp"
+#include "study_reader.hpp"
+
+namespace springfold::io {
+namespace {
+
+constexpr std::size_t most_parameters = 1000;
+
+const std::vector<std::string> case_keys{"title", "include", "units", "parameters", "body",
+                                         "chain", "study",   "plot",  "expected"};
+
+/// Tables of one name in all files that may have them; each file numbers its own.
+std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
+                            Reading& reading) {
+  std::vector<Item> items;
+  const bool mechanism = name == "body" || name == "chain";
+  for (const Document& document : documents) {
+    const Node* node = document.root.find(name);
+    if (!node || (document.included && !mechanism)) continue;
+    const std::vector<Item> more = list_of_tables({node, name}, reading);
+    items.insert(items.end(), more.begin(), more.end());
+  }
+  return items;
+}
+
+void check_included(const Document& document, Problems& problems) {
+  if (!document.included) return;
+  for (const NodeEntry& entry : document.root.entries)
+    if (entry.key == "study" || entry.key == "plot" || entry.key == "expected")
+      problems.add(entry.place, entry.key,
+                   "belongs into the case file itself, not into an included file");
+}
+
+UnitLabels read_units(const std::vector<Document>& documents, Reading& reading) {
+  UnitLabels units;
+  for (const Document& document : documents) {
+    const Node* node = document.root.find("units");
+    if (!node || !is_table({node, "units"}, "a table [units]", reading)) continue;
+    const TableReader table{*node, "units", {"length", "force"}, reading};
+    units.length = table.text("length").value_or(units.length);
+    units.force = table.text("force").value_or(units.force);
+  }
+  return units;
+}
+
+/// Right-hand sides by name, in the order in which the names first occur; later files win.
+std::vector<NodeEntry> parameter_entries(const std::vector<Document>& documents,
+                                         Problems& problems) {
+  std::vector<NodeEntry> entries;
+  for (const Document& document : documents) {
+    const Node* node = document.root.find("parameters");
+    if (!node) continue;
+    if (node->kind != Node::Kind::table) {
+      problems.add(node->place, "parameters",
+                   "got " + described(*node) + ", need a table [parameters]");
+      continue;
+    }
+    for (const NodeEntry& entry : node->entries) {
+      const auto has_name = [&entry](const NodeEntry& other) { return other.key == entry.key; };
+      const auto known = std::find_if(entries.begin(), entries.end(), has_name);
+      const std::string key = "parameters." + entry.key;
+      if (!is_identifier(entry.key))
+        problems.add(entry.place, key,
+                     "need a name of letters, digits and '_' that does not begin with a digit");
+      else if (is_formula_word(entry.key))
+        problems.add(entry.place, key, "formulas keep this name for themselves, need another one");
+      else if (known != entries.end())
+        *known = entry;
+      else if (entries.size() < most_parameters)
+        entries.push_back(entry);
+      else
+        return problems.add(entry.place, key, "more than 1000 parameters"), entries;
+    }
+  }
+  return entries;
+}
+
+Definition read_parameter(const NodeEntry& entry, Reading& reading) {
+  const std::string key = "parameters." + entry.key;
+  const Node* value = &entry.value;
+  std::string value_key = key;
+  if (value->kind == Node::Kind::table) {
+    const TableReader table{*value, key, {"value", "unit", "description"}, reading};
+    table.text("unit");
+    table.text("description");
+    value = table.require("value", "a number or a formula");
+    value_key = table.key_of("value");
+  }
+  if (!value) return {.usable = false};
+  return read_definition(*value, value_key, "a number", reading.book, reading.problems);
+}
+
+void read_parameters(const std::vector<NodeEntry>& entries,
+                     const std::map<std::string, std::string>& overrides, CaseDraft& draft,
+                     Reading& reading) {
+  for (const NodeEntry& entry : entries)
+    draft.parameters.push_back({entry.key, read_parameter(entry, reading)});
+  const Place command_line{"--set", 0, 0};
+  for (const auto& [name, text] : overrides) {
+    const auto number = parameter_number(name, command_line, name, reading.book, reading.problems);
+    const Node node{.kind = Node::Kind::text, .place = command_line, .text = text};
+    const Definition definition =
+        read_definition(node, name, "a number", reading.book, reading.problems);
+    if (number) draft.parameters[*number].definition = definition;
+  }
+}
+
+void read_expectations(const std::vector<Document>& files, CaseDraft& draft, Reading& reading) {
+  for (const Document& file : files) {
+    const TableReader root{file.root, "", {"notes", "value"}, reading};
+    draft.notes = read_texts(root.list("notes", "a list of texts"), reading);
+    draft.expected = read_expected(root.tables("value"), draft.studies, reading);
+  }
+}
+
+void require_tables(const std::vector<Item>& items, const std::string& name,
+                    const std::string& file, Problems& problems) {
+  if (items.empty())
+    problems.add({file, 0, 0}, name, "missing, need at least one [[" + name + "]]");
+}
+
+}  // namespace
+
+CaseDraft read_case(const std::vector<Document>& documents,
+                    const std::map<std::string, std::string>& overrides,
+                    const std::vector<Document>& expected_file, Problems& problems) {
+  CaseDraft draft;
+  const std::string& file = documents.back().name;
+  const std::vector<NodeEntry> entries = parameter_entries(documents, problems);
+  std::vector<std::string> names;
+  for (const NodeEntry& entry : entries) names.push_back(entry.key);
+  draft.book = FormulaBook{names};
+
+  Reading reading{problems, draft.book, {}};
+  for (const Document& document : documents) {
+    check_included(document, problems);
+    const TableReader root{document.root, "", case_keys, reading};
+    draft.title = root.text("title").value_or(draft.title);
+  }
+  draft.units = read_units(documents, reading);
+  reading.units = draft.units;
+  read_parameters(entries, overrides, draft, reading);
+
+  const std::vector<Item> bodies = tables_of(documents, "body", reading);
+  const std::vector<Item> chains = tables_of(documents, "chain", reading);
+  const std::vector<Item> studies = tables_of(documents, "study", reading);
+  require_tables(bodies, "body", file, problems);
+  require_tables(chains, "chain", file, problems);
+  require_tables(studies, "study", file, problems);
+  read_bodies(bodies, draft.mechanism, reading);
+  read_chains(chains, draft.mechanism, reading);
+  draft.studies = read_studies(studies, draft.mechanism, reading);
+  const std::vector<Item> plots = tables_of(documents, "plot", reading);
+  draft.plots = read_plots(plots, draft.studies, reading);
+  read_expectations(expected_file, draft, reading);
+  return draft;
+}
+
+}  // namespace springfold::io

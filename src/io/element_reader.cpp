@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <set>
+
+#include "mechanism_reader.hpp"
+
+namespace springfold::io {
+namespace {
+
+using model::JointKind;
+using model::JointRole;
+
+const std::vector<std::string>& joint_words() {
+  static const std::vector<std::string> words{"revolute", "prismatic", "universal", "spherical"};
+  return words;
+}
+const std::vector<std::string>& role_words() {
+  static const std::vector<std::string> words{"passive", "preloaded", "virtual", "actuated"};
+  return words;
+}
+
+/// Reads one `{ joint = ... }`, which becomes one, two or three joints of the model.
+class JointReader {
+ public:
+  JointReader(const Item& item, const std::string& default_name, NumberTable& numbers,
+              Reading& reading)
+      : table_{*item.node,
+               item.key,
+               {"joint", "axis", "axes", "name", "role", "spring", "value", "stiffness", "initial"},
+               reading},
+        numbers_{numbers},
+        reading_{reading} {
+    const std::size_t word = table_.choice("joint", joint_words(), 0);
+    composed_ = word >= 2;
+    kind_ = word == 1 ? JointKind::prismatic : JointKind::revolute;
+    units_ = units_of(kind_, reading.units);
+    static constexpr JointRole roles[] = {JointRole::passive, JointRole::preloaded,
+                                          JointRole::compliant, JointRole::actuated};
+    role_ = roles[table_.choice("role", role_words(), 0)];
+    name_ = table_.text("name").value_or(default_name);
+    if (const Node* name = table_.find("name"); name && name->kind == Node::Kind::text)
+      is_plain_name(name->text, {name, table_.key_of("name")}, reading);
+    read_axes(word);
+  }
+
+  std::vector<JointDraft> joints() {
+    const std::size_t n = axes_.size();
+    std::vector<JointDraft> joints(n);
+    const std::vector<std::optional<SpringDraft>> springs = read_springs();
+    const std::vector<NumberId> initial = read_initial();
+    const std::optional<NumberId> command = read_command();
+    for (std::size_t i = 0; i < n; ++i) {
+      joints[i].name = composed_ ? name_ + "." + std::to_string(i + 1) : name_;
+      joints[i].kind = kind_;
+      joints[i].axis = axes_[i];
+      joints[i].role = role_;
+      joints[i].spring = springs[i];
+      joints[i].initial = initial[i];
+      joints[i].command = command;
+    }
+    return joints;
+  }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  void report(const std::string& name, const std::string& what) const {
+    const Node* node = table_.find(name);
+    reading_.problems.add(node ? node->place : table_.place(), table_.key_of(name), what);
+  }
+
+  void read_axes(std::size_t word) {
+    if (!composed_) {
+      axes_.resize(1);
+      if (table_.has("axes")) report("axes", "a joint with one axis has axis, not axes");
+      if (const Node* axis = table_.require("axis", "an axis such as \"z\""))
+        axes_[0] = read_axis({axis, table_.key_of("axis")}, numbers_, reading_);
+      return;
+    }
+    const std::size_t count = word == 2 ? 2 : 3;
+    const std::string need =
+        word == 2 ? "two axes such as [\"x\", \"y\"]" : "three axes such as [\"x\", \"y\", \"z\"]";
+    axes_.resize(count);
+    if (table_.has("axis")) report("axis", "a joint with several axes has axes, not axis");
+    if (count == 3)
+      for (Index i = 0; i < 3; ++i)
+        axes_[static_cast<std::size_t>(i)].fixed = model::Vec3<double>::Unit(i);
+    if (count == 3 && !table_.has("axes")) return;
+    if (!table_.require("axes", need)) return;
+    const std::vector<Item> items = table_.list("axes", need);
+    if (items.size() != count && table_.find("axes")->kind == Node::Kind::array)
+      report("axes", "got " + described(*table_.find("axes")) + ", need " + need);
+    for (std::size_t i = 0; i < std::min(count, items.size()); ++i)
+      axes_[i] = read_axis(items[i], numbers_, reading_);
+  }
+
+  /// One for every axis.
+  std::vector<std::optional<SpringDraft>> read_springs() {
+    std::vector<std::optional<SpringDraft>> springs(axes_.size());
+    const bool has_spring = table_.has("spring"), has_stiffness = table_.has("stiffness");
+    if (role_ == JointRole::passive) {
+      if (has_spring) report("spring", "a passive joint has no spring, need role = \"preloaded\"");
+      if (has_stiffness)
+        report("stiffness", "a passive joint has no spring, need role = \"virtual\"");
+      return springs;
+    }
+    if (has_spring && has_stiffness) report("stiffness", "either stiffness or spring, not both");
+    if (role_ == JointRole::preloaded && has_stiffness) {
+      report("stiffness", "unknown key for a preloaded joint, need spring = { law = ... }");
+    } else if (has_stiffness) {
+      const bool drive = role_ == JointRole::actuated;
+      const Rule rule{drive ? Range::positive : Range::non_negative, units_.stiffness};
+      const NumberId k = table_.number("stiffness", rule, numbers_, 0);
+      springs.assign(axes_.size(), SpringDraft{LinearDraft{k, numbers_.add(0)}});
+    }
+    if (has_spring) read_spring_laws(springs);
+    if (!has_spring && role_ == JointRole::preloaded && !has_stiffness)
+      report("spring", "missing, need a spring: a preloaded joint has one");
+    if (!has_spring && !has_stiffness && role_ == JointRole::compliant)
+      report("stiffness",
+             "missing, need a number >= 0 [" + units_.stiffness + "] or spring = { law = ... }");
+    return springs;
+  }
+
+  void read_spring_laws(std::vector<std::optional<SpringDraft>>& springs) {
+    const Item item{table_.find("spring"), table_.key_of("spring")};
+    const std::size_t n = springs.size();
+    if (!composed_ || item.node->kind != Node::Kind::array) {
+      springs.assign(n, read_spring(item, kind_, numbers_, reading_));
+      return;
+    }
+    const std::vector<Item> items = list_items(item, "a list of springs", reading_);
+    if (items.size() != n)
+      report("spring", "got " + described(*item.node) + ", need " + std::to_string(n) +
+                           " springs, one for every axis");
+    for (std::size_t i = 0; i < std::min(n, items.size()); ++i)
+      springs[i] = read_spring(items[i], kind_, numbers_, reading_);
+  }
+
+  std::vector<NumberId> read_initial() {
+    const std::size_t n = axes_.size();
+    const Rule rule{Range::finite, units_.coordinate};
+    const Node* node = table_.find("initial");
+    if (!composed_ || !node || node->kind != Node::Kind::array)
+      return std::vector<NumberId>(n, table_.number("initial", rule, numbers_, 0));
+    std::vector<NumberId> ids =
+        read_numbers(table_.list("initial", "a list of numbers"), rule, numbers_, reading_);
+    if (ids.size() != n)
+      report("initial", "got " + described(*node) + ", need " + std::to_string(n) +
+                            " numbers [rad], one for every axis");
+    ids.resize(n, 0);
+    return ids;
+  }
+
+  std::optional<NumberId> read_command() {
+    if (role_ != JointRole::actuated) {
+      if (table_.has("value"))
+        report("value", "only an actuated joint has a value, need role = \"actuated\"");
+      return std::nullopt;
+    }
+    if (composed_)
+      report("role", "a joint with several axes cannot be actuated, need single joints");
+    return table_.required_number("value", {Range::finite, units_.coordinate}, numbers_);
+  }
+
+  TableReader table_;
+  NumberTable& numbers_;
+  Reading& reading_;
+  bool composed_ = false;  ///< universal or spherical
+  JointKind kind_ = JointKind::revolute;
+  JointUnits units_{};
+  JointRole role_ = JointRole::passive;
+  std::string name_{};
+  std::vector<AxisDraft> axes_{};
+};
+
+void read_rigid(const Item& item, bool planar, NumberTable& numbers, Reading& reading,
+                std::vector<ElementDraft>& elements) {
+  const TableReader table{*item.node, item.key, {"rigid"}, reading};
+  const FrameDraft frame =
+      read_frame({table.find("rigid"), table.key_of("rigid")}, planar, numbers, reading);
+  elements.push_back({frame, item.node->place, item.key});
+}
+
+}  // namespace
+
+std::vector<ElementDraft> read_elements(const std::vector<Item>& items, bool planar,
+                                        NumberTable& numbers, Reading& reading) {
+  std::vector<ElementDraft> elements;
+  std::set<std::string> names;
+  int joints = 0;
+  for (const Item& item : items) {
+    if (!is_table(item, "{ joint = ... } or { rigid = ... }", reading)) continue;
+    const bool joint = item.node->find("joint"), rigid = item.node->find("rigid");
+    if (joint == rigid) {
+      std::string hint;
+      for (const NodeEntry& entry : item.node->entries)
+        if (const std::string near = nearest(entry.key, {"joint", "rigid"});
+            !joint && !near.empty())
+          hint = "; did you mean \"" + near + "\" where \"" + entry.key + "\" stands?";
+      reading.problems.add(item.node->place, item.key,
+                           (joint ? "got joint and rigid" : "got neither joint nor rigid") +
+                               std::string{", need exactly one of them"} + hint);
+      continue;
+    }
+    if (rigid) {
+      read_rigid(item, planar, numbers, reading, elements);
+      continue;
+    }
+    JointReader reader{item, "j" + std::to_string(++joints), numbers, reading};
+    if (!names.insert(reader.name()).second) {
+      const Node* name = item.node->find("name");
+      reading.problems.add(name ? name->place : item.node->place, item.key + ".name",
+                           "\"" + reader.name() +
+                               "\" is already the name of another joint of "
+                               "this chain, need different names");
+    }
+    for (JointDraft& draft : reader.joints())
+      elements.push_back({std::move(draft), item.node->place, item.key});
+  }
+  return elements;
+}
+
+}  // namespace springfold::io

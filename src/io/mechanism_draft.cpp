@@ -1,0 +1,107 @@
+#include "mechanism_draft.hpp"
+
+namespace springfold::io {
+namespace {
+
+using Numbers = std::vector<double>;
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+
+model::Vec3<double> direction_of(const AxisDraft& axis, const Numbers& numbers) {
+  if (axis.entries.empty()) return axis.fixed;
+  const model::Vec3<double> v{numbers[axis.entries[0]], numbers[axis.entries[1]],
+                              numbers[axis.entries[2]]};
+  return v / v.norm();
+}
+
+model::Pose<double> pose_of(const FrameDraft& frame, const Numbers& numbers) {
+  model::Pose<double> pose;
+  for (std::size_t i = 0; i < frame.at.size(); ++i)
+    pose.p[static_cast<Index>(i)] = numbers[frame.at[i]];
+  if (frame.angle)
+    pose.R =
+        model::rotation_about<double>(direction_of(frame.axis, numbers), numbers[*frame.angle]);
+  return pose;
+}
+
+std::vector<double> values_of(const std::vector<NumberId>& ids, const Numbers& numbers) {
+  std::vector<double> values;
+  for (const NumberId id : ids) values.push_back(numbers[id]);
+  return values;
+}
+
+/// Torque of the stops alone, so that the law's torque at `free` is that of both springs there.
+double stop_torque(double c, double stiffness, double low, double high) {
+  if (c > high) return stiffness * (c - high);
+  return c < low ? stiffness * (c - low) : 0;
+}
+
+model::SpringLaw law_of(const SpringDraft& spring, const Numbers& n) {
+  return std::visit(
+      Overloaded{
+          [&n](const LinearDraft& s) -> model::SpringLaw {
+            return model::LinearSpring{n[s.stiffness], n[s.free]};
+          },
+          [&n](const OneSidedDraft& s) -> model::SpringLaw {
+            return model::OneSidedSpring{n[s.stiffness], n[s.from], s.side};
+          },
+          [&n](const PiecewiseLinearDraft& s) -> model::SpringLaw {
+            return model::PiecewiseLinearSpring{
+                values_of(s.breakpoints, n), values_of(s.stiffnesses, n), n[s.free], n[s.preload]};
+          },
+          [&n](const GapDraft& s) -> model::SpringLaw {
+            const double k = n[s.stiffness], low = n[s.low], high = n[s.high];
+            return model::PiecewiseLinearSpring{
+                {low, high}, {k, 0, k}, low + 0.5 * (high - low), 0};
+          },
+          [&n](const StopsDraft& s) -> model::SpringLaw {
+            const double k = n[s.stiffness], stop = n[s.stop_stiffness], free = n[s.free];
+            const double low = n[s.low], high = n[s.high];
+            return model::PiecewiseLinearSpring{
+                {low, high}, {k + stop, k, k + stop}, free, stop_torque(free, stop, low, high)};
+          }},
+      spring);
+}
+
+model::Element element_of(const ElementDraft& draft, const Numbers& numbers) {
+  if (const auto* frame = std::get_if<FrameDraft>(&draft.content))
+    return model::RigidLink{pose_of(*frame, numbers)};
+  const auto& from = std::get<JointDraft>(draft.content);
+  model::Joint joint{.name = from.name, .kind = from.kind, .role = from.role};
+  joint.axis = direction_of(from.axis, numbers);
+  if (from.spring) joint.spring = law_of(*from.spring, numbers);
+  joint.initial = numbers[from.initial];
+  if (from.command) joint.command = numbers[*from.command];
+  return joint;
+}
+
+}  // namespace
+
+Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers) {
+  Vector v(static_cast<Index>(ids.size()));
+  for (std::size_t i = 0; i < ids.size(); ++i) v[static_cast<Index>(i)] = numbers[ids[i]];
+  return v;
+}
+
+model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<double>& numbers) {
+  model::Mechanism mechanism;
+  mechanism.bodies.reserve(draft.bodies.size());
+  mechanism.chains.reserve(draft.chains.size());
+  for (const BodyDraft& body : draft.bodies)
+    mechanism.bodies.push_back({body.name, body.task_space, vector_of(body.pose, numbers)});
+  for (const ChainDraft& from : draft.chains) {
+    model::Chain chain{.name = from.name, .from = from.from, .to = from.to};
+    chain.from_attachment = pose_of(from.from_at, numbers);
+    chain.to_attachment = pose_of(from.to_at, numbers);
+    chain.elements.reserve(from.elements.size());
+    for (const ElementDraft& element : from.elements)
+      chain.elements.push_back(element_of(element, numbers));
+    mechanism.chains.push_back(std::move(chain));
+  }
+  return mechanism;
+}
+
+}  // namespace springfold::io

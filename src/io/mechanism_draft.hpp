@@ -1,0 +1,95 @@
+// A mechanism whose numbers are still formulas: what a case file says, names resolved.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "numbers.hpp"
+#include "springfold/model/mechanism.hpp"
+
+namespace springfold::io {
+
+/// A direction: constant, or three numbers that are made a unit vector.
+struct AxisDraft {
+  model::Vec3<double> fixed = model::Vec3<double>::UnitZ();
+  std::vector<NumberId> entries{};  ///< empty: `fixed` holds
+};
+
+/// A constant transformation: first a shift, then a rotation about an axis.
+struct FrameDraft {
+  std::vector<NumberId> at{};  ///< x, y, z; empty: no shift
+  AxisDraft axis{};
+  std::optional<NumberId> angle{};  ///< [rad]; none: no rotation
+};
+
+struct LinearDraft {
+  NumberId stiffness = 0, free = 0;
+};
+struct OneSidedDraft {
+  NumberId stiffness = 0, from = 0;
+  model::OneSidedSpring::Side side = model::OneSidedSpring::Side::above;
+};
+struct PiecewiseLinearDraft {
+  std::vector<NumberId> breakpoints{}, stiffnesses{};
+  NumberId free = 0, preload = 0;
+};
+/// Free play between low and high, a linear spring outside.
+struct GapDraft {
+  NumberId stiffness = 0, low = 0, high = 0;
+};
+/// A linear spring everywhere, a second one added below low and above high.
+struct StopsDraft {
+  NumberId stiffness = 0, free = 0, stop_stiffness = 0, low = 0, high = 0;
+};
+using SpringDraft =
+    std::variant<LinearDraft, OneSidedDraft, PiecewiseLinearDraft, GapDraft, StopsDraft>;
+
+struct JointDraft {
+  std::string name{};
+  model::JointKind kind = model::JointKind::revolute;
+  AxisDraft axis{};
+  model::JointRole role = model::JointRole::passive;
+  std::optional<SpringDraft> spring{};
+  NumberId initial = 0;
+  std::optional<NumberId> command{};
+};
+
+/// One element of the model. Universal and spherical joints are already two and three of them.
+struct ElementDraft {
+  std::variant<FrameDraft, JointDraft> content{};
+  Place place{};
+  std::string key{};
+};
+
+struct ChainDraft {
+  std::string name{};
+  Index from = 0, to = 1;
+  FrameDraft from_at{}, to_at{};
+  std::vector<ElementDraft> elements{};
+  Place place{};
+  std::string key{};
+};
+
+struct BodyDraft {
+  std::string name{};
+  model::TaskSpace task_space = model::TaskSpace::spatial;
+  std::vector<NumberId> pose{};
+  Place place{};
+  std::string key{};
+};
+
+struct MechanismDraft {
+  NumberTable numbers{};  ///< all numbers of the mechanism
+  std::vector<BodyDraft> bodies{};
+  std::vector<ChainDraft> chains{};
+};
+
+/// @param numbers  values of draft.numbers, as many as these
+model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<double>& numbers);
+
+/// The numbers with these ids.
+Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers);
+
+}  // namespace springfold::io

@@ -1,0 +1,145 @@
+#include "numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+constexpr double largest_whole = 9007199254740992.0;  // 2^53: every whole number below is exact
+constexpr double largest_count = 1e6;
+
+bool holds(Range range, double value) {
+  const bool whole = std::floor(value) == value && value <= largest_whole;
+  switch (range) {
+    case Range::finite:
+      return std::isfinite(value);
+    case Range::non_negative:
+      return std::isfinite(value) && value >= 0;
+    case Range::positive:
+      return std::isfinite(value) && value > 0;
+    case Range::maybe_infinite:
+      return !std::isnan(value);
+    case Range::whole:
+      return whole && value >= 0;
+    case Range::small_count:
+      return whole && value >= 1 && value <= largest_count;
+  }
+  return false;
+}
+
+std::string range_in_words(Range range) {
+  switch (range) {
+    case Range::finite:
+      return "a finite number";
+    case Range::non_negative:
+      return "a number >= 0";
+    case Range::positive:
+      return "a number > 0";
+    case Range::maybe_infinite:
+      return "a number, inf or -inf";
+    case Range::whole:
+      return "a whole number >= 0";
+    case Range::small_count:
+      return "a whole number from 1 to 1000000";
+  }
+  return "a number";
+}
+
+/// "-0.5" or "\"Kv - 1\" = -0.5".
+std::string shown(const Definition& definition, double value) {
+  return definition.formula ? definition.shown + " = " + shortest(value) : shortest(value);
+}
+
+}  // namespace
+
+std::string need_of(const Rule& rule) {
+  return range_in_words(rule.range) + (rule.unit.empty() ? "" : " [" + rule.unit + "]");
+}
+
+NumberId NumberTable::add(double constant) {
+  entries_.push_back({{.constant = constant}, {.range = Range::maybe_infinite}});
+  return entries_.size() - 1;
+}
+
+NumberId NumberTable::add(const Definition& definition, const Rule& rule) {
+  entries_.push_back({definition, rule});
+  return entries_.size() - 1;
+}
+
+void NumberTable::require_less(NumberId lower, NumberId upper, const std::string& what) {
+  const Definition& at = entries_[upper].definition;
+  relations_.push_back({{lower, upper}, false, at.place, at.key, what});
+}
+
+void NumberTable::require_nonzero(const std::vector<NumberId>& ids, const Place& place,
+                                  const std::string& key, const std::string& what) {
+  relations_.push_back({ids, true, place, key, what});
+}
+
+Values NumberTable::values(const FormulaBook& book, const Values& parameters) const {
+  Values result;
+  for (const auto& [definition, rule] : entries_) {
+    bool usable = definition.usable;
+    if (definition.formula)
+      for (const std::size_t i : book.variables_of(*definition.formula))
+        usable = usable && parameters.usable[i];
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (usable)
+      value = definition.formula ? book.value(*definition.formula, parameters.values)
+                                 : definition.constant;
+    result.values.push_back(value);
+    result.usable.push_back(usable);
+  }
+  return result;
+}
+
+std::string NumberTable::broken(const Relation& relation, const Values& values) const {
+  const auto unusable = [&values](NumberId id) { return !values.usable[id]; };
+  if (std::any_of(relation.ids.begin(), relation.ids.end(), unusable)) return {};
+  const auto zero = [&values](NumberId id) { return values.values[id] == 0; };
+  if (relation.nonzero) {
+    const bool all_zero = std::all_of(relation.ids.begin(), relation.ids.end(), zero);
+    return all_zero ? "got zeros only, need a vector with a length: " + relation.what : "";
+  }
+  const double lower = values.values[relation.ids[0]], upper = values.values[relation.ids[1]];
+  if (!(lower >= upper)) return {};
+  return "got " + shown(entries_[relation.ids[1]].definition, upper) + ", need more than " +
+         shortest(lower) + " (" + relation.what + ")";
+}
+
+void NumberTable::check(const Values& values, const std::string& when, Problems& problems,
+                        std::vector<bool>& reported) const {
+  reported.resize(entries_.size() + relations_.size(), false);
+  for (NumberId id = 0; id < entries_.size(); ++id) {
+    const auto& [definition, rule] = entries_[id];
+    if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
+    reported[id] = true;
+    problems.add(definition.place, definition.key,
+                 "got " + shown(definition, values.values[id]) + ", need " + need_of(rule) + when);
+  }
+  for (std::size_t i = 0; i < relations_.size(); ++i) {
+    const std::string problem = broken(relations_[i], values);
+    if (problem.empty() || reported[entries_.size() + i]) continue;
+    reported[entries_.size() + i] = true;
+    problems.add(relations_[i].place, relations_[i].key, problem + when);
+  }
+}
+
+std::vector<Update> NumberTable::updates_for(const std::vector<bool>& moves,
+                                             const FormulaBook& book) const {
+  std::vector<Update> updates;
+  for (NumberId id = 0; id < entries_.size(); ++id) {
+    const auto& formula = entries_[id].definition.formula;
+    if (!formula) continue;
+    const auto& used = book.variables_of(*formula);
+    if (std::any_of(used.begin(), used.end(), [&](std::size_t i) { return moves[i]; }))
+      updates.push_back({id, *formula});
+  }
+  return updates;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,117 @@
+#include "plot_reader.hpp"
+
+#include <algorithm>
+
+namespace springfold::io {
+namespace {
+
+/// A whole number from 1 to the number of the study's runs, written as such.
+std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
+  const double value = item.node->number;
+  const bool fits = item.node->kind == Node::Kind::number && value >= 1 && value <= study.runs() &&
+                    value == static_cast<int>(value);
+  if (fits) return static_cast<int>(value);
+  const std::string range =
+      study.runs() == 1 ? "1: the study has one run" : "1 to " + std::to_string(study.runs());
+  reading.problems.add(item.node->place, item.key,
+                       "got " + described(*item.node) + ", need the number of a run of \"" +
+                           study.name + "\", " + range);
+  return std::nullopt;
+}
+
+PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies, Reading& reading) {
+  const TableReader table{*item.node, item.key, {"study", "runs", "labels"}, reading};
+  PlotCurves curves;
+  curves.study = table.required_text("study", "the name of a study").value_or("");
+  curves.labels = read_texts(table.list("labels", "a list of texts"), reading);
+  const std::vector<Item> runs = table.list("runs", "a list of run numbers");
+  if (curves.study.empty()) return curves;
+  const auto study =
+      study_number(curves.study, {table.find("study"), table.key_of("study")}, studies, reading);
+  if (!study) return curves;
+  for (const Item& run : runs)
+    if (const auto number = read_run(run, studies[*study], reading)) curves.runs.push_back(*number);
+  const std::size_t count =
+      runs.empty() ? static_cast<std::size_t>(studies[*study].runs()) : runs.size();
+  const Node* labels = table.find("labels");
+  if (labels && labels->kind == Node::Kind::array && labels->items.size() != count)
+    reading.problems.add(
+        labels->place, table.key_of("labels"),
+        "got " + described(*labels) + ", need " + std::to_string(count) + ": one for every run");
+  return curves;
+}
+
+/// The name is a file name too.
+void check_plot_name(const TableReader& table, const std::string& name,
+                     const std::vector<PlotDraft>& plots, Reading& reading) {
+  if (name.empty()) return;
+  const Item at{table.find("name"), table.key_of("name")};
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  if (name.front() == '.' || !std::all_of(name.begin(), name.end(), fits))
+    reading.problems.add(
+        at.node->place, at.key,
+        "got \"" + name + "\", need a file name without ending: letters, digits, '_', '-', '.'");
+  const auto has_name = [&name](const PlotDraft& other) { return other.spec.name == name; };
+  if (std::any_of(plots.begin(), plots.end(), has_name))
+    reading.problems.add(at.node->place, at.key,
+                         "\"" + name +
+                             "\" is already the name of another plot, need different "
+                             "names");
+}
+
+NamedPlace read_quantity(const TableReader& table, const std::string& name,
+                         const std::string& otherwise) {
+  const Node* node = table.find(name);
+  return {table.text(name).value_or(otherwise), node ? node->place : table.place(),
+          table.key_of(name)};
+}
+
+}  // namespace
+
+std::optional<std::size_t> study_number(const std::string& name, const Item& at,
+                                        const std::vector<StudyDraft>& studies, Reading& reading) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    if (studies[i].name == name) return i;
+    known.push_back(studies[i].name);
+  }
+  reading.problems.add(at.node->place, at.key,
+                       "no study \"" + name + "\"" + suggestion(name, known));
+  return std::nullopt;
+}
+
+std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
+                                  const std::vector<StudyDraft>& studies, Reading& reading) {
+  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",     "x_label",
+                                             "y_label", "x_factor", "y_factor", "curves"};
+  std::vector<PlotDraft> plots;
+  for (const Item& item : tables) {
+    const TableReader table{*item.node, item.key, keys, reading};
+    PlotDraft draft;
+    PlotSpec& spec = draft.spec;
+    spec.name = table.required_text("name", "a file name without ending").value_or("");
+    check_plot_name(table, spec.name, plots, reading);
+    spec.title = table.text("title").value_or("");
+    draft.x = read_quantity(table, "x", spec.x);
+    draft.y = read_quantity(table, "y", spec.y);
+    spec.x = draft.x.name;
+    spec.y = draft.y.name;
+    spec.x_label = table.text("x_label").value_or("");
+    spec.y_label = table.text("y_label").value_or("");
+    draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
+    draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
+    const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");
+    for (const Item& curve : table.tables("curves"))
+      spec.curves.push_back(read_curves(curve, studies, reading));
+    if (curves && curves->kind == Node::Kind::array && curves->items.empty())
+      reading.problems.add(curves->place, table.key_of("curves"),
+                           "got an empty list, need at least one curve");
+    plots.push_back(std::move(draft));
+  }
+  return plots;
+}
+
+}  // namespace springfold::io

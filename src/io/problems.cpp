@@ -1,0 +1,95 @@
+#include "problems.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace springfold::io {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Letters to change: insertions, deletions, replacements and swaps of neighbours
+/// (Damerau-Levenshtein in its restricted form), without regard to case.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+                           lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+}  // namespace
+
+void Problems::add(const Place& place, const std::string& key, const std::string& what) {
+  if (std::find(files_.begin(), files_.end(), place.file) == files_.end())
+    files_.push_back(place.file);
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+  text += ": ";
+  if (!key.empty()) text += key + ": ";
+  text += what;
+  for (char& c : text)  // keys and names come from the file: one message stays one line
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  const auto is_same = [&text](const Item& item) { return item.text == text; };
+  if (std::none_of(items_.begin(), items_.end(), is_same)) items_.push_back({place, text});
+}
+
+std::vector<std::string> Problems::messages() const {
+  const auto rank = [this](const Item& item) {
+    const auto file = std::find(files_.begin(), files_.end(), item.place.file);
+    return std::tuple{file - files_.begin(), item.place.line, item.place.column};
+  };
+  std::vector<Item> sorted = items_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Item& a, const Item& b) { return rank(a) < rank(b); });
+  std::vector<std::string> texts;
+  for (const Item& item : sorted) texts.push_back(item.text);
+  return texts;
+}
+
+std::string nearest(std::string_view got, const std::vector<std::string>& known) {
+  constexpr std::size_t longest = 60;  // nobody mistypes a name of that length by a few letters
+  if (got.empty() || got.size() > longest) return {};
+  std::string best;
+  std::size_t least = 1 + std::max<std::size_t>(1, got.size() / 3);
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(got, candidate);
+    if (distance >= least || distance >= std::max(got.size(), candidate.size())) continue;
+    least = distance;
+    best = candidate;
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view got, const std::vector<std::string>& known) {
+  const std::string near = nearest(got, known);
+  if (!near.empty()) return ", did you mean \"" + near + "\"?";
+  if (known.empty()) return {};
+  constexpr std::size_t most = 40;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(known.size(), most); ++i)
+    list += (i == 0 ? "" : ", ") + known[i];
+  return "; known here: " + list + (known.size() > most ? ", ..." : "");
+}
+
+std::string choices(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += "\"" + words[i] + "\"";
+  }
+  return text;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,49 @@
+// Mistakes of a case, collected where they are found and printed where the user can mend them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace springfold::io {
+
+/// A position in a file. Line 0: the file as a whole. Columns count characters from 1.
+struct Place {
+  std::string file{};
+  int line = 0;
+  int column = 0;
+};
+
+class Problems {
+ public:
+  /// @param key   key path of the value, "chain[2].elements[1].spring.stiffness"; may be empty
+  /// @param what  what is wrong and what is needed
+  void add(const Place& place, const std::string& key, const std::string& what);
+
+  bool empty() const { return items_.empty(); }
+  std::size_t size() const { return items_.size(); }
+
+  /// "file:line:col: key: what", files in the order in which they first occur, then by position.
+  /// The same message at the same place comes once.
+  std::vector<std::string> messages() const;
+
+ private:
+  struct Item {
+    Place place{};
+    std::string text{};
+  };
+  std::vector<Item> items_;
+  std::vector<std::string> files_;
+};
+
+/// Whichever of `known` is nearest to `got` (swapped, missing, added or wrong letters; upper and
+/// lower case count little); empty if none is near.
+std::string nearest(std::string_view got, const std::vector<std::string>& known);
+
+/// `, did you mean "spring"?`, or `; known here: at, rotate` if none is near.
+std::string suggestion(std::string_view got, const std::vector<std::string>& known);
+
+/// "a", "b" or "c": the allowed words of a choice.
+std::string choices(const std::vector<std::string>& words);
+
+}  // namespace springfold::io

@@ -1,0 +1,122 @@
+#include "source_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+namespace springfold::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t largest_file = std::size_t{4} << 20;  // 4 MiB
+constexpr std::size_t deepest_include = 8;
+
+struct Contents {
+  std::string bytes{};
+  std::string problem{};
+};
+
+Contents read_bytes(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return {{}, "it is a directory"};
+  errno = 0;
+  const auto close = [](std::FILE* stream) { std::fclose(stream); };
+  const std::unique_ptr<std::FILE, decltype(close)> stream{std::fopen(file.c_str(), "rb"), close};
+  if (!stream) return {{}, std::generic_category().message(errno)};
+  Contents contents;
+  std::array<char, 16384> buffer{};
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), stream.get())) {
+    contents.bytes.append(buffer.data(), got);
+    if (contents.bytes.size() > largest_file) return {{}, "it is larger than 4 MiB"};
+  }
+  if (std::ferror(stream.get())) return {{}, std::generic_category().message(errno)};
+  return contents;
+}
+
+fs::path identity_of(const fs::path& file) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(file, error);
+  return error ? file : canonical;
+}
+
+}  // namespace
+
+std::vector<Document> SourceReader::read_case(const fs::path& file) {
+  std::vector<Document> documents;
+  read_with_includes(file, {}, documents);
+  return documents;
+}
+
+std::vector<Document> SourceReader::read_single(const fs::path& file, const Place& place,
+                                                const std::string& key) {
+  std::vector<Document> documents;
+  if (auto root = read_one(file, {place, key}))
+    documents.push_back({std::move(*root), file.string(), false});
+  return documents;
+}
+
+std::optional<Node> SourceReader::read_one(const fs::path& file, const Origin& origin) {
+  const Contents contents = read_bytes(file);
+  if (!contents.problem.empty()) {
+    const bool named = !origin.place.file.empty();
+    if (named)
+      problems_->add(origin.place, origin.key,
+                     "\"" + file.string() + "\" cannot be read: " + contents.problem);
+    else
+      problems_->add({file.string(), 0, 0}, "", "cannot be read: " + contents.problem);
+    return std::nullopt;
+  }
+  bytes_ += std::to_string(contents.bytes.size()) + "\n" + contents.bytes;
+  return read_toml(contents.bytes, file.string(), *problems_);
+}
+
+std::vector<std::pair<std::string, SourceReader::Origin>> SourceReader::includes_of(
+    const Node& root) const {
+  std::vector<std::pair<std::string, Origin>> files;
+  const Node* include = root.find("include");
+  if (!include) return files;
+  const auto add = [&](const Node& node, const std::string& key) {
+    if (node.kind == Node::Kind::text && !node.text.empty())
+      files.push_back({node.text, {node.place, key}});
+    else
+      problems_->add(node.place, key,
+                     "got " + described(node) + ", need a file name or a list of file names");
+  };
+  if (include->kind != Node::Kind::array) {
+    add(*include, "include");
+    return files;
+  }
+  for (std::size_t i = 0; i < include->items.size(); ++i)
+    add(include->items[i], "include[" + std::to_string(i + 1) + "]");
+  return files;
+}
+
+void SourceReader::read_with_includes(const fs::path& file, const Origin& origin,
+                                      std::vector<Document>& documents) {
+  const fs::path identity = identity_of(file);
+  if (std::find(open_.begin(), open_.end(), identity) != open_.end()) {
+    problems_->add(origin.place, origin.key,
+                   "\"" + file.string() + "\" is being read already: the includes form a circle");
+    return;
+  }
+  if (done_.contains(identity)) return;  // included twice: its tables count once
+  if (open_.size() > deepest_include) {
+    problems_->add(origin.place, origin.key,
+                   "more than " + std::to_string(deepest_include) + " includes within each other");
+    return;
+  }
+  std::optional<Node> root = read_one(file, origin);
+  if (!root) return;
+  open_.push_back(identity);
+  for (const auto& [name, at] : includes_of(*root))
+    read_with_includes((file.parent_path() / name).lexically_normal(), at, documents);
+  open_.pop_back();
+  done_.insert(identity);
+  documents.push_back({std::move(*root), file.string(), !origin.place.file.empty()});
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,72 @@
+#include "study_draft.hpp"
+
+namespace springfold::io {
+namespace {
+
+/// Lengths first: unit length of the translational part, or of the rotational part if the first is
+/// zero, so that lambda is a distance (or a force), or an angle (or a moment).
+Vector normalised(const Vector& v, model::TaskSpace space) {
+  const Index lengths = model::translations(space);
+  const double head = v.head(lengths).stableNorm();
+  return v / (head > 0 ? head : v.tail(v.size() - lengths).stableNorm());
+}
+
+}  // namespace
+
+Redefinitions StudyDraft::changes(int run) const {
+  Redefinitions changes = set;
+  if (vary) changes[vary->parameter] = vary->values[static_cast<std::size_t>(run - 1)];
+  return changes;
+}
+
+std::string StudyDraft::when(int run) const {
+  const std::string study = " (study \"" + name + "\"";
+  return vary ? study + ", run " + std::to_string(run) + ")" : study + ")";
+}
+
+void check_direction(const StudyDraft& draft, model::TaskSpace space, const Values& numbers,
+                     const std::string& when, Problems& problems) {
+  if (draft.control != analysis::ControlMode::mixed || draft.direction.empty()) return;
+  const auto lengths = static_cast<std::size_t>(model::translations(space));
+  bool translates = false, rotates = false;
+  for (std::size_t i = 0; i < draft.direction.size(); ++i) {
+    if (!numbers.usable[draft.direction[i]]) return;
+    const bool moves = numbers.values[draft.direction[i]] != 0;
+    (i < lengths ? translates : rotates) |= moves;
+  }
+  if (!translates || !rotates) return;
+  problems.add(draft.numbers.definition(draft.direction[0]).place, draft.key + ".direction",
+               "got a translation and a rotation together, need one of them alone in control = "
+               "\"mixed\": the force-free complement of a mixture would depend on the unit of "
+               "length" +
+                   when);
+}
+
+analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
+                            const std::vector<double>& numbers,
+                            const std::vector<Parameter>& parameters) {
+  analysis::Study study{
+      .name = draft.name, .kind = draft.kind, .control = draft.control, .body = draft.body};
+  if (!draft.direction.empty())
+    study.direction = normalised(vector_of(draft.direction, numbers), space);
+  study.constant_load = vector_of(draft.load, numbers);
+  for (const RateDraft& rate : draft.actuators)
+    study.actuators.push_back({rate.actuator, numbers[rate.rate]});
+  if (draft.parameter) study.parameter = parameters[*draft.parameter].name;
+  study.start.solve = draft.start_solve;
+  study.start.solver = draft.start_solver;
+  study.start.pose = vector_of(draft.start_pose, numbers);
+  study.start.attempts = static_cast<int>(numbers[draft.attempts]);
+  study.start.seed = static_cast<std::uint64_t>(numbers[draft.seed]);
+  for (const LimitDraft& limit : draft.until)
+    study.until.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
+  for (const MarkDraft& mark : draft.marks)
+    study.marks.push_back({mark.quantity.name, numbers[mark.value]});
+  study.trace = {.initial_step = numbers[draft.initial_step],
+                 .minimum_step = numbers[draft.minimum_step],
+                 .maximum_step = numbers[draft.maximum_step],
+                 .maximum_points = static_cast<int>(numbers[draft.maximum_points])};
+  return study;
+}
+
+}  // namespace springfold::io

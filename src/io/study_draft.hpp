@@ -1,0 +1,81 @@
+// A study whose numbers are still formulas, and the runs that it stands for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_draft.hpp"
+#include "springfold/analysis/study.hpp"
+
+namespace springfold::io {
+
+/// A name in the case file that is checked once the mechanism is built.
+struct NamedPlace {
+  std::string name{};
+  Place place{};
+  std::string key{};
+};
+
+struct LimitDraft {
+  NamedPlace quantity{};
+  NumberId low = 0, high = 0;
+};
+struct MarkDraft {
+  NamedPlace quantity{};
+  NumberId value = 0;
+};
+struct RateDraft {
+  std::string actuator{};
+  NumberId rate = 0;
+};
+
+/// One run for every value of a parameter.
+struct VaryDraft {
+  std::size_t parameter = 0;
+  std::vector<Definition> values{};
+  std::vector<std::string> labels{};  ///< one per value, or empty
+};
+
+struct StudyDraft {
+  NumberTable numbers{};  ///< all numbers of the study
+  std::string name{};
+  analysis::StudyKind kind = analysis::StudyKind::force_deflection;
+  analysis::ControlMode control = analysis::ControlMode::load;
+  Index body = 1;
+  std::vector<NumberId> direction{};  ///< d or none
+  std::vector<NumberId> load{};       ///< d or none
+  std::vector<RateDraft> actuators{};
+  std::optional<std::size_t> parameter{};  ///< control mode parameter
+  analysis::StartSolve start_solve = analysis::StartSolve::pose;
+  analysis::StartSolver start_solver = analysis::StartSolver::newton;
+  std::vector<NumberId> start_pose{};  ///< d or none
+  NumberId attempts = 0, seed = 0;
+  NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0;
+  std::vector<LimitDraft> until{};
+  std::vector<MarkDraft> marks{};
+  Redefinitions set{};
+  std::optional<VaryDraft> vary{};
+  Place place{};
+  std::string key{};
+  std::vector<NamedPlace> entries{};  ///< every key of the table, "start.pose", and its value's place
+
+  int runs() const { return vary ? static_cast<int>(vary->values.size()) : 1; }
+  /// Parameters as this run has them; runs are numbered from 1.
+  Redefinitions changes(int run) const;
+  /// ` (study "Q2", run 3)`, for messages.
+  std::string when(int run) const;
+};
+
+/// Reports a direction without length, and one that mixes translation and rotation where that has
+/// no meaning. @param numbers  usable values of draft.numbers
+void check_direction(const StudyDraft& draft, model::TaskSpace space, const Values& numbers,
+                     const std::string& when, Problems& problems);
+
+/// @param numbers  values of draft.numbers, as many as these
+/// @param parameters  all names, for control mode `parameter`
+analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
+                            const std::vector<double>& numbers,
+                            const std::vector<Parameter>& parameters);
+
+}  // namespace springfold::io

@@ -1,0 +1,290 @@
+#include "study_reader.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mechanism_reader.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::ControlMode;
+using analysis::StartSolve;
+using analysis::StudyKind;
+
+const std::vector<std::string> kind_words{"force_deflection", "equilibrium"};
+const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
+const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
+const std::vector<std::string> solver_words{"newton", "fixed_point"};
+const std::vector<std::string> study_keys{"name",      "kind",  "control", "body", "direction",
+                                          "load",      "start", "until",   "mark", "actuators",
+                                          "parameter", "set",   "vary",    "trace"};
+
+/// `a.b = 1` is a table within a table in TOML; names with dots mean the same with and without
+/// quotes here.
+struct NamedItem {
+  NamedPlace name{};
+  const Node* value = nullptr;
+};
+
+void flatten(const Node& table, const std::string& prefix, const std::string& key,
+             std::vector<NamedItem>& out) {
+  for (const NodeEntry& entry : table.entries) {
+    const std::string name = prefix + entry.key, entry_key = key + "." + entry.key;
+    if (entry.value.kind == Node::Kind::table)
+      flatten(entry.value, name + ".", entry_key, out);
+    else
+      out.push_back({{name, entry.place, entry_key}, &entry.value});
+  }
+}
+
+void add_entries(const Node& table, const std::string& prefix, std::vector<NamedPlace>& entries) {
+  for (const NodeEntry& entry : table.entries) {
+    const std::string name = prefix + entry.key;
+    entries.push_back({name, entry.value.place, ""});
+    if (entry.value.kind == Node::Kind::table) add_entries(entry.value, name + ".", entries);
+  }
+}
+
+std::vector<std::string> actuator_names(const MechanismDraft& mechanism) {
+  std::vector<std::string> names;
+  for (const ChainDraft& chain : mechanism.chains)
+    for (const ElementDraft& element : chain.elements)
+      if (const auto* joint = std::get_if<JointDraft>(&element.content))
+        if (joint->role == model::JointRole::actuated)
+          names.push_back(chain.name + "." + joint->name);
+  return names;
+}
+
+class StudyReader {
+ public:
+  StudyReader(const Item& item, const MechanismDraft& mechanism, Reading& reading)
+      : table_{*item.node, item.key, study_keys, reading},
+        mechanism_{mechanism},
+        reading_{reading} {
+    draft_.place = item.node->place;
+    draft_.key = item.key;
+    add_entries(*item.node, "", draft_.entries);
+  }
+
+  StudyDraft read() {
+    draft_.name = table_.required_text("name", "a name").value_or("");
+    const bool traces = read_kind();
+    read_body();
+    draft_.direction = read_vector(table_, "direction", "", "");
+    const std::string force = reading_.units.force, length = reading_.units.length;
+    draft_.load = read_vector(table_, "load", force, force + "*" + length);
+    read_control(traces);
+    read_start();
+    read_until();
+    read_marks();
+    draft_.set = read_set(table_, reading_);
+    draft_.vary = read_vary(table_, draft_.set, reading_);
+    read_trace();
+    return std::move(draft_);
+  }
+
+ private:
+  std::vector<NamedItem> named_items(const std::string& name, const std::string& need) {
+    std::vector<NamedItem> items;
+    const Node* node = table_.find(name);
+    if (node && is_table({node, table_.key_of(name)}, need, reading_))
+      flatten(*node, "", table_.key_of(name), items);
+    return items;
+  }
+
+  bool read_kind() {
+    draft_.kind = std::array{StudyKind::force_deflection,
+                             StudyKind::equilibrium}[table_.choice("kind", kind_words, 0)];
+    const bool traces = draft_.kind == StudyKind::force_deflection;
+    if (traces) table_.require("control", choices(control_words));
+    draft_.control =
+        std::array{ControlMode::load, ControlMode::pose, ControlMode::mixed, ControlMode::actuator,
+                   ControlMode::parameter}[table_.choice("control", control_words, 0)];
+    const Node* control = table_.find("control");
+    return traces && control &&
+           std::find(control_words.begin(), control_words.end(), control->text) !=
+               control_words.end();
+  }
+
+  void read_body() {
+    if (const auto name = table_.text("body")) {
+      const auto number = body_number(*name, {table_.find("body"), table_.key_of("body")},
+                                      mechanism_.bodies, false, reading_);
+      body_known_ = number.has_value();
+      draft_.body = number.value_or(1);
+    } else if (!table_.has("body")) {
+      body_known_ = mechanism_.bodies.size() == 1;
+      if (mechanism_.bodies.size() > 1)
+        table_.require("body", "the name of a body: there are several");
+    }
+  }
+
+  /// d numbers, translations first; empty if missing or wrong.
+  std::vector<NumberId> read_vector(const TableReader& table, const std::string& name,
+                                    const std::string& unit, const std::string& rotation_unit) {
+    const Node* node = table.find(name);
+    if (!node || !body_known_) return {};
+    const BodyDraft& body = mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)];
+    if (body.pose.empty()) return {};  // its task space is unusable: already reported
+    const model::TaskSpace space = body.task_space;
+    const auto d = static_cast<std::size_t>(model::dimension(space));
+    const auto lengths = static_cast<std::size_t>(model::translations(space));
+    const std::string need = "a list of " + std::to_string(d) + " numbers";
+    const std::vector<Item> items = table.list(name, need);
+    if (node->kind != Node::Kind::array) return {};
+    if (items.size() != d) {
+      reading_.problems.add(node->place, table.key_of(name),
+                            "got " + described(*node) + ", need " + need + " for this task space");
+      return {};
+    }
+    std::vector<NumberId> ids;
+    for (std::size_t i = 0; i < d; ++i) {
+      const Rule rule{Range::finite, i < lengths ? unit : rotation_unit};
+      ids.push_back(read_number(items[i], rule, draft_.numbers, reading_));
+    }
+    return ids;
+  }
+
+  void read_control(bool traces) {
+    if (const Node* node = table_.find("direction"); node && !draft_.direction.empty())
+      draft_.numbers.require_nonzero(draft_.direction, node->place, table_.key_of("direction"),
+                                     "lambda is measured along it");
+    const ControlMode mode = draft_.control;
+    const bool needs_direction = mode != ControlMode::actuator && mode != ControlMode::parameter;
+    if (traces && needs_direction)
+      table_.require("direction", "a direction such as [1, 0]: control = \"" +
+                                      table_.find("control")->text + "\" moves along it");
+    read_actuators(traces);
+    read_parameter(traces);
+  }
+
+  void read_actuators(bool traces) {
+    const std::string need = "a table such as { \"leg.drive\" = 1 }";
+    const Node* node = table_.find("actuators");
+    if (traces && draft_.control == ControlMode::actuator) table_.require("actuators", need);
+    if (traces && node && draft_.control != ControlMode::actuator)
+      reading_.problems.add(node->place, table_.key_of("actuators"),
+                            "has no meaning here, need control = \"actuator\" with it");
+    const std::vector<std::string> known = actuator_names(mechanism_);
+    for (const NamedItem& item : named_items("actuators", need)) {
+      const auto& [name, place, key] = item.name;
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        reading_.problems.add(place, key, "no actuator \"" + name + "\"" + suggestion(name, known));
+      draft_.actuators.push_back(
+          {name, read_number({item.value, key}, {}, draft_.numbers, reading_)});
+    }
+    if (traces && draft_.control == ControlMode::actuator && node &&
+        node->kind == Node::Kind::table && node->entries.empty())
+      reading_.problems.add(node->place, table_.key_of("actuators"), "got nothing, need " + need);
+  }
+
+  void read_parameter(bool traces) {
+    const Node* node = table_.find("parameter");
+    if (traces && draft_.control == ControlMode::parameter)
+      table_.require("parameter", "the name of a parameter");
+    if (traces && node && draft_.control != ControlMode::parameter)
+      reading_.problems.add(node->place, table_.key_of("parameter"),
+                            "has no meaning here, need control = \"parameter\" with it");
+    if (const auto name = table_.text("parameter"))
+      draft_.parameter = parameter_number(*name, node->place, table_.key_of("parameter"),
+                                          reading_.book, reading_.problems);
+  }
+
+  void read_start() {
+    const analysis::StartOptions defaults;
+    const Node* node = table_.find("start");
+    static const Node nothing;
+    const Item item{node ? node : &nothing, table_.key_of("start")};
+    const bool usable = is_table(item, "a table such as { pose = [...] }", reading_);
+    const TableReader start{usable ? *item.node : nothing,
+                            item.key,
+                            {"pose", "solve", "solver", "attempts", "seed"},
+                            reading_};
+    draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
+    draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
+                                    StartSolve::wrench}[start.choice("solve", solve_words, 0)];
+    draft_.start_solver =
+        std::array{analysis::StartSolver::newton,
+                   analysis::StartSolver::fixed_point}[start.choice("solver", solver_words, 0)];
+    draft_.attempts =
+        start.number("attempts", {Range::small_count, ""}, draft_.numbers, defaults.attempts);
+    draft_.seed = start.number("seed", {Range::whole, ""}, draft_.numbers,
+                               static_cast<double>(defaults.seed));
+  }
+
+  void read_until() {
+    for (const NamedItem& item : named_items("until", "a table such as { deflection = [0, 1] }")) {
+      const auto& [name, place, key] = item.name;
+      const Node& value = *item.value;
+      if (value.kind != Node::Kind::array || value.items.size() != 2) {
+        reading_.problems.add(value.place, key,
+                              "got " + described(value) +
+                                  ", need [low, high]; inf and -inf stand "
+                                  "for no limit");
+        continue;
+      }
+      const std::vector<NumberId> ids =
+          read_numbers(list_items({&value, key}, "[low, high]", reading_),
+                       {Range::maybe_infinite, ""}, draft_.numbers, reading_);
+      draft_.numbers.require_less(ids[0], ids[1], "low < high");
+      draft_.until.push_back({item.name, ids[0], ids[1]});
+    }
+  }
+
+  void read_marks() {
+    for (const NamedItem& item : named_items("mark", "a table such as { deflection = [0.1] }")) {
+      const Item value{item.value, item.name.key};
+      std::vector<Item> items{value};
+      if (item.value->kind == Node::Kind::array)
+        items = list_items(value, "a list of numbers", reading_);
+      for (const NumberId id : read_numbers(items, {}, draft_.numbers, reading_))
+        draft_.marks.push_back({item.name, id});
+    }
+  }
+
+  void read_trace() {
+    const analysis::TraceSettings defaults;
+    const Node* node = table_.find("trace");
+    static const Node nothing;
+    const Item item{node ? node : &nothing, table_.key_of("trace")};
+    const bool usable = is_table(item, "a table such as { maximum_step = 0.05 }", reading_);
+    const TableReader trace{usable ? *item.node : nothing,
+                            item.key,
+                            {"initial_step", "minimum_step", "maximum_step", "maximum_points"},
+                            reading_};
+    const Rule step{Range::positive, ""};
+    NumberTable& numbers = draft_.numbers;
+    draft_.initial_step = trace.number("initial_step", step, numbers, defaults.initial_step);
+    draft_.minimum_step = trace.number("minimum_step", step, numbers, defaults.minimum_step);
+    draft_.maximum_step = trace.number("maximum_step", step, numbers, defaults.maximum_step);
+    draft_.maximum_points =
+        trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
+  }
+
+  TableReader table_;
+  const MechanismDraft& mechanism_;
+  Reading& reading_;
+  StudyDraft draft_{};
+  bool body_known_ = false;
+};
+
+}  // namespace
+
+std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
+                                     const MechanismDraft& mechanism, Reading& reading) {
+  std::vector<StudyDraft> studies;
+  for (const Item& item : tables) {
+    StudyDraft study = StudyReader{item, mechanism, reading}.read();
+    const auto has_name = [&study](const StudyDraft& other) { return other.name == study.name; };
+    if (!study.name.empty() && std::any_of(studies.begin(), studies.end(), has_name))
+      reading.problems.add(item.node->find("name")->place, item.key + ".name",
+                           "\"" + study.name +
+                               "\" is already the name of another study, need "
+                               "different names");
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+}  // namespace springfold::io

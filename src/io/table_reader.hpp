@@ -1,0 +1,89 @@
+// Typed access to the tables of a case file: every wrong, missing or unknown entry is reported.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numbers.hpp"
+#include "problems.hpp"
+#include "springfold/io/case_file.hpp"
+#include "toml_reader.hpp"
+
+namespace springfold::io {
+
+/// What all readers share while a case is read.
+struct Reading {
+  Problems& problems;
+  FormulaBook& book;
+  UnitLabels units{};
+};
+
+/// A node with its key path.
+struct Item {
+  const Node* node = nullptr;
+  std::string key{};
+};
+
+/// One table with the keys that it may have.
+class TableReader {
+ public:
+  /// Reports every key that is not in `known`. @pre node is a table
+  TableReader(const Node& node, std::string key, const std::vector<std::string>& known,
+              Reading& reading);
+
+  const Place& place() const { return node_->place; }
+  const std::string& key() const { return key_; }
+  std::string key_of(const std::string& name) const;
+  bool has(const std::string& name) const { return node_->find(name) != nullptr; }
+  const Node* find(const std::string& name) const { return node_->find(name); }
+
+  /// As find(); reports a missing key. @param need  "a name"
+  const Node* require(const std::string& name, const std::string& need) const;
+
+  /// Text; nothing if missing or wrong.
+  std::optional<std::string> text(const std::string& name) const;
+  std::optional<std::string> required_text(const std::string& name, const std::string& need) const;
+
+  /// Position of the word in `words`; `otherwise` if missing or wrong.
+  std::size_t choice(const std::string& name, const std::vector<std::string>& words,
+                     std::size_t otherwise) const;
+
+  /// A number; `otherwise` if missing.
+  NumberId number(const std::string& name, const Rule& rule, NumberTable& numbers,
+                  double otherwise) const;
+  NumberId required_number(const std::string& name, const Rule& rule, NumberTable& numbers) const;
+
+  /// Elements of a list; reports anything else. A missing key is an empty list.
+  std::vector<Item> list(const std::string& name, const std::string& need) const;
+
+  /// Tables of a list of tables, `[[name]]` or `name = [{...}]`; reports anything else.
+  std::vector<Item> tables(const std::string& name) const;
+
+ private:
+  const Node* node_;
+  std::string key_;
+  Reading* reading_;
+};
+
+/// The elements as numbers, each with its rule.
+std::vector<NumberId> read_numbers(const std::vector<Item>& items, const Rule& rule,
+                                   NumberTable& numbers, Reading& reading);
+NumberId read_number(const Item& item, const Rule& rule, NumberTable& numbers, Reading& reading);
+
+/// The elements as texts; reports others.
+std::vector<std::string> read_texts(const std::vector<Item>& items, Reading& reading);
+
+/// Reports anything that is not a list; then the result is empty.
+std::vector<Item> list_items(const Item& item, const std::string& need, Reading& reading);
+
+/// Tables of `[[name]]` or `name = [{...}]`, where `list.key` is the name; reports anything else.
+std::vector<Item> list_of_tables(const Item& list, Reading& reading);
+
+/// Reports anything that is not a table.
+bool is_table(const Item& item, const std::string& need, Reading& reading);
+
+/// Letters, digits, '_' and '-': names that become parts of column names. Reports others.
+bool is_plain_name(const std::string& name, const Item& at, Reading& reading);
+
+}  // namespace springfold::io
