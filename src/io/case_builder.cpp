@@ -39,18 +39,18 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
   const auto body = numbered(view, "body");
   if (body && body->number <= draft.bodies.size()) {
     const BodyDraft& at = draft.bodies[body->number - 1];
-    return problems.add(at.place, at.key, rest_of(view.substr(body->length)) + when);
+    return problems.add(at.place, at.key, rest_of(view.substr(body->length)), when);
   }
   const auto chain = numbered(view, "chain");
   if (!chain || chain->number > draft.chains.size())
-    return problems.add(study.place, study.key, text + when);
+    return problems.add(study.place, study.key, text, when);
   const ChainDraft& at = draft.chains[chain->number - 1];
   const std::string_view behind = view.substr(chain->length);
   const auto element = numbered(behind, ".elements");
   if (!element || element->number > at.elements.size())
-    return problems.add(at.place, at.key, rest_of(behind) + when);
+    return problems.add(at.place, at.key, rest_of(behind), when);
   const ElementDraft& part = at.elements[element->number - 1];
-  problems.add(part.place, part.key, rest_of(behind.substr(element->length)) + when);
+  problems.add(part.place, part.key, rest_of(behind.substr(element->length)), when);
 }
 
 /// Gives a sentence of analysis::problems_in, "start.solve: ...", the place of that key in the file.
@@ -58,18 +58,18 @@ void add_study_problem(const std::string& text, const StudyDraft& study, int run
                        Problems& problems) {
   const std::size_t colon = text.find(": ");
   if (colon == std::string::npos)
-    return problems.add(study.place, study.key, text + study.when(run));
+    return problems.add(study.place, study.key, text, study.when(run));
   const std::string key = study.key + "." + text.substr(0, colon);
-  const std::string what = text.substr(colon + 2) + study.when(run);
+  const std::string what = text.substr(colon + 2), when = study.when(run);
   std::string name = text.substr(0, colon);
   while (!name.empty()) {
     const auto has_name = [&name](const NamedPlace& entry) { return entry.name == name; };
     const auto entry = std::find_if(study.entries.begin(), study.entries.end(), has_name);
-    if (entry != study.entries.end()) return problems.add(entry->place, key, what);
+    if (entry != study.entries.end()) return problems.add(entry->place, key, what, when);
     const std::size_t dot = name.rfind('.');
     name.resize(dot == std::string::npos ? 0 : dot);
   }
-  problems.add(study.place, key, what);
+  problems.add(study.place, key, what, when);
 }
 
 void check_quantity(const NamedPlace& quantity, const std::vector<std::string>& known,

@@ -117,10 +117,12 @@ void read_expectations(const std::vector<Document>& files, CaseDraft& draft, Rea
   }
 }
 
-void require_tables(const std::vector<Item>& items, const std::string& name,
-                    const std::string& file, Problems& problems) {
-  if (items.empty())
-    problems.add({file, 0, 0}, name, "missing, need at least one [[" + name + "]]");
+void require_table(const std::vector<Document>& documents, const std::string& name,
+                   Problems& problems) {
+  for (const Document& document : documents)
+    for (const NodeEntry& entry : document.root.entries)
+      if (entry.key == name || nearest(entry.key, case_keys) == name) return;
+  problems.add({documents.back().name, 0, 0}, name, "missing, need at least one [[" + name + "]]");
 }
 
 }  // namespace
@@ -129,7 +131,6 @@ CaseDraft read_case(const std::vector<Document>& documents,
                     const std::map<std::string, std::string>& overrides,
                     const std::vector<Document>& expected_file, Problems& problems) {
   CaseDraft draft;
-  const std::string& file = documents.back().name;
   const std::vector<NodeEntry> entries = parameter_entries(documents, problems);
   std::vector<std::string> names;
   for (const NodeEntry& entry : entries) names.push_back(entry.key);
@@ -148,9 +149,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
   const std::vector<Item> bodies = tables_of(documents, "body", reading);
   const std::vector<Item> chains = tables_of(documents, "chain", reading);
   const std::vector<Item> studies = tables_of(documents, "study", reading);
-  require_tables(bodies, "body", file, problems);
-  require_tables(chains, "chain", file, problems);
-  require_tables(studies, "study", file, problems);
+  for (const char* name : {"body", "chain", "study"}) require_table(documents, name, problems);
   read_bodies(bodies, draft.mechanism, reading);
   read_chains(chains, draft.mechanism, reading);
   draft.studies = read_studies(studies, draft.mechanism, reading);

@@ -113,9 +113,11 @@ class JointReader {
       springs.assign(axes_.size(), SpringDraft{LinearDraft{k, numbers_.add(0)}});
     }
     if (has_spring) read_spring_laws(springs);
-    if (!has_spring && role_ == JointRole::preloaded && !has_stiffness)
+    const bool written = has_spring || has_stiffness || table_.is_misspelt("spring") ||
+                         table_.is_misspelt("stiffness");
+    if (!written && role_ == JointRole::preloaded)
       report("spring", "missing, need a spring: a preloaded joint has one");
-    if (!has_spring && !has_stiffness && role_ == JointRole::compliant)
+    if (!written && role_ == JointRole::compliant)
       report("stiffness",
              "missing, need a number >= 0 [" + units_.stiffness + "] or spring = { law = ... }");
     return springs;

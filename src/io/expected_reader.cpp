@@ -40,9 +40,9 @@ int read_run(const TableReader& table, const StudyDraft& study, Reading& reading
   const Node* node = table.find("run");
   if (!node) return 1;
   const double value = node->number;
-  if (node->kind == Node::Kind::number && value >= 1 && value <= study.runs() &&
-      value == static_cast<int>(value))
-    return static_cast<int>(value);
+  const bool whole = node->kind == Node::Kind::number && value >= 1 && value <= 1e6 &&
+                     value == static_cast<int>(value);
+  if (whole && (value <= study.runs() || !study.runs_known)) return static_cast<int>(value);
   reading.problems.add(node->place, table.key_of("run"),
                        "got " + described(*node) + ", need the number of a run of \"" + study.name +
                            "\", which has " + std::to_string(study.runs()));

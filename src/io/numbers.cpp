@@ -119,13 +119,19 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
     if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
     reported[id] = true;
     problems.add(definition.place, definition.key,
-                 "got " + shown(definition, values.values[id]) + ", need " + need_of(rule) + when);
+                 "got " + shown(definition, values.values[id]) + ", need " + need_of(rule),
+                 definition.formula ? when : "");
   }
   for (std::size_t i = 0; i < relations_.size(); ++i) {
     const std::string problem = broken(relations_[i], values);
     if (problem.empty() || reported[entries_.size() + i]) continue;
     reported[entries_.size() + i] = true;
-    problems.add(relations_[i].place, relations_[i].key, problem + when);
+    const auto has_formula = [this](NumberId id) {
+      return entries_[id].definition.formula.has_value();
+    };
+    const auto& ids = relations_[i].ids;
+    const bool varies = std::any_of(ids.begin(), ids.end(), has_formula);
+    problems.add(relations_[i].place, relations_[i].key, problem, varies ? when : "");
   }
 }
 

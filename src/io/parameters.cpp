@@ -57,9 +57,9 @@ class Evaluation {
     const double value =
         definition.formula ? book_.value(*definition.formula, result_.values) : definition.constant;
     if (!std::isfinite(value)) {
-      problems_.add(
-          definition.place, definition.key,
-          "got " + definition.shown + " = " + shortest(value) + ", need a finite number" + when_);
+      problems_.add(definition.place, definition.key,
+                    "got " + definition.shown + " = " + shortest(value) + ", need a finite number",
+                    when_);
       return;
     }
     result_.values[i] = value;
@@ -71,7 +71,7 @@ class Evaluation {
     for (auto at = std::find(way_.begin(), way_.end(), i); at != way_.end(); ++at)
       circle += parameters_[*at].name + " -> ";
     problems_.add(definition.place, definition.key,
-                  "depends on itself: " + circle + parameters_[i].name + when_);
+                  "depends on itself: " + circle + parameters_[i].name, when_);
   }
 
   const std::vector<Parameter>& parameters_;

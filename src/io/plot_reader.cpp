@@ -8,9 +8,9 @@ namespace {
 /// A whole number from 1 to the number of the study's runs, written as such.
 std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
   const double value = item.node->number;
-  const bool fits = item.node->kind == Node::Kind::number && value >= 1 && value <= study.runs() &&
-                    value == static_cast<int>(value);
-  if (fits) return static_cast<int>(value);
+  const bool whole = item.node->kind == Node::Kind::number && value >= 1 && value <= 1e6 &&
+                     value == static_cast<int>(value);
+  if (whole && (value <= study.runs() || !study.runs_known)) return static_cast<int>(value);
   const std::string range =
       study.runs() == 1 ? "1: the study has one run" : "1 to " + std::to_string(study.runs());
   reading.problems.add(item.node->place, item.key,
@@ -34,7 +34,9 @@ PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies,
   const std::size_t count =
       runs.empty() ? static_cast<std::size_t>(studies[*study].runs()) : runs.size();
   const Node* labels = table.find("labels");
-  if (labels && labels->kind == Node::Kind::array && labels->items.size() != count)
+  const bool countable =
+      labels && labels->kind == Node::Kind::array && (!runs.empty() || studies[*study].runs_known);
+  if (countable && labels->items.size() != count)
     reading.problems.add(
         labels->place, table.key_of("labels"),
         "got " + described(*labels) + ", need " + std::to_string(count) + ": one for every run");
@@ -78,6 +80,7 @@ std::optional<std::size_t> study_number(const std::string& name, const Item& at,
     if (studies[i].name == name) return i;
     known.push_back(studies[i].name);
   }
+  if (studies.empty()) return std::nullopt;  // already reported
   reading.problems.add(at.node->place, at.key,
                        "no study \"" + name + "\"" + suggestion(name, known));
   return std::nullopt;

@@ -31,7 +31,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-void Problems::add(const Place& place, const std::string& key, const std::string& what) {
+void Problems::add(const Place& place, const std::string& key, const std::string& what,
+                   const std::string& when) {
   if (std::find(files_.begin(), files_.end(), place.file) == files_.end())
     files_.push_back(place.file);
   std::string text = place.file;
@@ -42,7 +43,7 @@ void Problems::add(const Place& place, const std::string& key, const std::string
   for (char& c : text)  // keys and names come from the file: one message stays one line
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   const auto is_same = [&text](const Item& item) { return item.text == text; };
-  if (std::none_of(items_.begin(), items_.end(), is_same)) items_.push_back({place, text});
+  if (std::none_of(items_.begin(), items_.end(), is_same)) items_.push_back({place, text, when});
 }
 
 std::vector<std::string> Problems::messages() const {
@@ -54,19 +55,25 @@ std::vector<std::string> Problems::messages() const {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Item& a, const Item& b) { return rank(a) < rank(b); });
   std::vector<std::string> texts;
-  for (const Item& item : sorted) texts.push_back(item.text);
+  for (const Item& item : sorted) texts.push_back(item.text + item.when);
   return texts;
 }
 
 std::string nearest(std::string_view got, const std::vector<std::string>& known) {
   constexpr std::size_t longest = 60;  // nobody mistypes a name of that length by a few letters
   if (got.empty() || got.size() > longest) return {};
+  const std::size_t most = std::max<std::size_t>(1, (got.size() + 1) / 3);
+  const auto difference = [&got](const std::string& name) {
+    return std::max(got.size(), name.size()) - std::min(got.size(), name.size());
+  };
   std::string best;
-  std::size_t least = 1 + std::max<std::size_t>(1, got.size() / 3);
+  std::pair least{most + 1, std::size_t{0}};
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(got, candidate);
-    if (distance >= least || distance >= std::max(got.size(), candidate.size())) continue;
-    least = distance;
+    if (distance >= std::max(got.size(), candidate.size())) continue;
+    const std::pair rank{distance, difference(candidate)};
+    if (rank >= least) continue;
+    least = rank;
     best = candidate;
   }
   return best;

@@ -18,19 +18,22 @@ class Problems {
  public:
   /// @param key   key path of the value, "chain[2].elements[1].spring.stiffness"; may be empty
   /// @param what  what is wrong and what is needed
-  void add(const Place& place, const std::string& key, const std::string& what);
+  /// @param when  added to the message: ` (study "Q2", run 3)`. The same mistake at the same place
+  ///              is kept once, as it is found first.
+  void add(const Place& place, const std::string& key, const std::string& what,
+           const std::string& when = "");
 
   bool empty() const { return items_.empty(); }
   std::size_t size() const { return items_.size(); }
 
   /// "file:line:col: key: what", files in the order in which they first occur, then by position.
-  /// The same message at the same place comes once.
   std::vector<std::string> messages() const;
 
  private:
   struct Item {
     Place place{};
     std::string text{};
+    std::string when{};
   };
   std::vector<Item> items_;
   std::vector<std::string> files_;

@@ -22,7 +22,11 @@ struct Contents {
 
 Contents read_bytes(const fs::path& file) {
   std::error_code ignored;
-  if (fs::is_directory(file, ignored)) return {{}, "it is a directory"};
+  if (fs::is_directory(file, ignored)) {
+    const fs::path inside = file / "case.toml";
+    const bool likely = fs::is_regular_file(inside, ignored);
+    return {{}, "it is a directory" + (likely ? "; its case is " + inside.string() : "")};
+  }
   errno = 0;
   const auto close = [](std::FILE* stream) { std::fclose(stream); };
   const std::unique_ptr<std::FILE, decltype(close)> stream{std::fopen(file.c_str(), "rb"), close};

@@ -38,8 +38,8 @@ void check_direction(const StudyDraft& draft, model::TaskSpace space, const Valu
   problems.add(draft.numbers.definition(draft.direction[0]).place, draft.key + ".direction",
                "got a translation and a rotation together, need one of them alone in control = "
                "\"mixed\": the force-free complement of a mixture would depend on the unit of "
-               "length" +
-                   when);
+               "length",
+               when);
 }
 
 analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,

@@ -56,9 +56,11 @@ struct StudyDraft {
   std::vector<MarkDraft> marks{};
   Redefinitions set{};
   std::optional<VaryDraft> vary{};
+  bool runs_known = true;  ///< false: `vary` is there but unusable
   Place place{};
   std::string key{};
-  std::vector<NamedPlace> entries{};  ///< every key of the table, "start.pose", and its value's place
+  std::vector<NamedPlace>
+      entries{};  ///< every key of the table, "start.pose", and its value's place
 
   int runs() const { return vary ? static_cast<int>(vary->values.size()) : 1; }
   /// Parameters as this run has them; runs are numbered from 1.

@@ -80,6 +80,7 @@ class StudyReader {
     read_marks();
     draft_.set = read_set(table_, reading_);
     draft_.vary = read_vary(table_, draft_.set, reading_);
+    draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
     read_trace();
     return std::move(draft_);
   }

@@ -11,7 +11,12 @@ TableReader::TableReader(const Node& node, std::string key, const std::vector<st
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     reading.problems.add(entry.place, key_of(entry.key),
                          "unknown key" + suggestion(entry.key, known));
+    misspelt_.push_back(nearest(entry.key, known));
   }
+}
+
+bool TableReader::is_misspelt(const std::string& name) const {
+  return !has(name) && std::find(misspelt_.begin(), misspelt_.end(), name) != misspelt_.end();
 }
 
 std::string TableReader::key_of(const std::string& name) const {
@@ -20,7 +25,8 @@ std::string TableReader::key_of(const std::string& name) const {
 
 const Node* TableReader::require(const std::string& name, const std::string& need) const {
   const Node* found = find(name);
-  if (!found) reading_->problems.add(place(), key_of(name), "missing, need " + need);
+  if (!found && !is_misspelt(name))
+    reading_->problems.add(place(), key_of(name), "missing, need " + need);
   return found;
 }
 

@@ -38,8 +38,12 @@ class TableReader {
   bool has(const std::string& name) const { return node_->find(name) != nullptr; }
   const Node* find(const std::string& name) const { return node_->find(name); }
 
-  /// As find(); reports a missing key. @param need  "a name"
+  /// As find(); reports a missing key, unless an unknown one nearby was taken for it.
+  /// @param need  "a name"
   const Node* require(const std::string& name, const std::string& need) const;
+
+  /// Is there an unknown key that was probably meant to be this one?
+  bool is_misspelt(const std::string& name) const;
 
   /// Text; nothing if missing or wrong.
   std::optional<std::string> text(const std::string& name) const;
@@ -63,6 +67,7 @@ class TableReader {
  private:
   const Node* node_;
   std::string key_;
+  std::vector<std::string> misspelt_{};  ///< known keys that unknown ones were taken for
   Reading* reading_;
 };
 

@@ -120,8 +120,13 @@ std::string syntax_message(const toml::parse_error& error) {
   std::string what{error.description()};
   for (char& c : what)
     if (c == '\n' || c == '\r') c = ' ';
-  if (what.find("could not determine value type") != std::string::npos)
+  const auto says = [&what](const char* words) { return what.find(words) != std::string::npos; };
+  if (says("could not determine value type"))
     what += "; text and formulas stand in quotes: \"2*L\"";
+  else if (says("inline table") && says("\\n"))
+    what += "; what stands in { } stays on one line";
+  else if (says("parsing string") && says("control characters"))
+    what += "; is the closing quote missing?";
   return "not valid TOML: " + what;
 }
 

@@ -26,7 +26,7 @@ std::optional<std::size_t> parameter_number(const std::string& name, const Place
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
   std::string hint = suggestion(name, known);
   if (hint.empty()) hint = "; the case has no [parameters]";
-  problems.add(place, key, "no such parameter" + hint);
+  problems.add(place, key, "no parameter \"" + name + "\"" + hint);
   return std::nullopt;
 }
 
