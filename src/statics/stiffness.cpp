@@ -25,9 +25,12 @@ std::optional<Index> chain_index(const System& system, std::size_t i, const Matr
   const auto inertia = inertia_of(A);
   if (!inertia) return std::nullopt;
   if (inertia->zero == 0) return inertia->negative - s.F_count;
-  Eigen::ColPivHouseholderQR<Matrix> qr(A.bottomLeftCorner(s.F_count, s.x_count));
-  qr.setThreshold(1e-10);
-  const Index rank = s.x_count == 0 ? 0 : qr.rank();
+  Index rank = 0;
+  if (s.x_count > 0) {
+    Eigen::ColPivHouseholderQR<Matrix> qr(A.bottomLeftCorner(s.F_count, s.x_count));
+    qr.setThreshold(1e-10);
+    rank = qr.rank();
+  }
   if (inertia->zero != s.F_count - rank) return std::nullopt;  // the chain itself is critical
   return inertia->negative - rank;
 }
@@ -114,8 +117,9 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
 
   const Matrix K = stiffness.segment(s.x, s.x_count).asDiagonal();
   const Matrix H = K - A.block(s.x, s.x, s.x_count, s.x_count);
-  const Eigen::FullPivLU<Matrix> k_inverse(Matrix((K - H)(theta, theta)));
-  if (!theta.empty() && !k_inverse.isInvertible()) return std::nullopt;
+  Eigen::FullPivLU<Matrix> k_inverse;
+  if (!theta.empty() && !k_inverse.compute((K - H)(theta, theta)).isInvertible())
+    return std::nullopt;
   const auto nq = static_cast<Index>(q.size());
   const Matrix J_theta = J(Eigen::all, theta), J_q = J(Eigen::all, q), H_theta_q = H(theta, q);
   Matrix M(s.F_count + nq, s.F_count + nq);
