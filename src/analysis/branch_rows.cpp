@@ -32,6 +32,8 @@ EventKind kind_of(const Hit& hit) {
       return EventKind::corner_limit_point;
     case HitKind::branching_kink:
       return EventKind::branching_kink;
+    case HitKind::touch:
+      return EventKind::touch;
     case HitKind::user:
       return hit.name == force_limit ? EventKind::limit_point : EventKind::user_value;
     case HitKind::unresolved:

@@ -18,6 +18,8 @@ std::string code_of(EventKind kind) {
       return "KB";
     case EventKind::kinematic_singularity:
       return "KS";
+    case EventKind::touch:
+      return "TP";
     case EventKind::user_value:
       return "UZ";
     case EventKind::end_of_range:

@@ -1,10 +1,8 @@
 #include "events.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
-#include "springfold/continuation/branch_point.hpp"
+#include "singular.hpp"
 #include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
@@ -20,69 +18,42 @@ struct Found {
   bool stops = false;
 };
 
-bool add_crossing(const Walker& walker, const CurvePoint& from, const CurvePoint& to, HitKind kind,
-                  const std::string& name, bool stops,
-                  const std::function<double(const CurvePoint&)>& value,
-                  std::vector<Found>& found) {
-  const auto located = locate(walker, from, 0, to.s - from.s, value);
-  if (!located) return false;
-  Hit hit{.kind = kind,
-          .name = name,
-          .point = located->point,
-          .s_before = from.s + located->before,
-          .s_after = from.s + located->after};
-  if (kind == HitKind::limit_point) hit.point.negative.reset();
-  found.push_back({std::move(hit), stops});
+/// Zeros of the caller's event between the samples.
+bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& samples,
+                    const Event& event, std::vector<Found>& found) {
+  const CurvePoint& from = *samples.front();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    if (!crosses(event.value(*samples[i]), event.value(*samples[i + 1]))) continue;
+    const auto located =
+        locate(walker, from, samples[i]->s - from.s, samples[i + 1]->s - from.s, event.value);
+    if (!located) return false;
+    Hit hit{.kind = HitKind::user, .name = event.name};
+    hit.point = located->point;
+    hit.s_before = from.s + located->before;
+    hit.s_after = from.s + located->after;
+    found.push_back({std::move(hit), event.action == EventAction::stop});
+  }
   return true;
 }
 
 }  // namespace
 
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const std::optional<Index>& known_from,
+                          const std::optional<CurvePoint>& middle,
                           const std::vector<Event>& events) {
-  constexpr double vertical = 1e-10;  // below this lambda does not change along the curve at all
+  std::vector<const CurvePoint*> samples{&from};
+  if (middle && middle->s < to.s) samples.push_back(&*middle);
+  samples.push_back(&to);
+
   StepEvents result;
+  SingularPoints singular = singular_points(walker, samples);
+  result.doubt = singular.doubt;
+  result.unexplained = singular.unexplained;
   std::vector<Found> found;
-
-  long limit_points = 0;
-  const auto rate = [](const CurvePoint& p) { return p.tangent.dlambda; };
-  const bool moves = std::max(std::abs(rate(from)), std::abs(rate(to))) > vertical;
-  if (walker.options.limit_points && moves && crosses(rate(from), rate(to))) {
-    if (!add_crossing(walker, from, to, HitKind::limit_point, "limit point", false, rate, found))
-      result.failure = "a limit point could not be located";
-    ++limit_points;
-  }
-
-  if (walker.options.branch_points && known_from && to.negative) {
-    const long change = std::abs(static_cast<long>(*to.negative) - static_cast<long>(*known_from));
-    if (limit_points == 0 && change > 0) {
-      CurvePoint start = from;
-      start.negative = known_from;
-      const auto crossings = locate_crossings(walker, start, to);
-      if (!crossings) {
-        result.explained = false;
-      } else {
-        for (const CrossingPoint& c : *crossings)
-          found.push_back({Hit{.kind = HitKind::branch_point,
-                               .name = "branch point",
-                               .point = c.point,
-                               .multiplicity = c.multiplicity,
-                               .s_before = from.s + c.before,
-                               .s_after = from.s + c.after},
-                           false});
-      }
-    } else if (change != limit_points) {
-      result.explained = false;  // limit and branch points in one step: take a shorter one
-    }
-  }
-
-  for (const Event& event : events) {
-    if (!crosses(event.value(from), event.value(to))) continue;
-    const bool stops = event.action == EventAction::stop;
-    if (!add_crossing(walker, from, to, HitKind::user, event.name, stops, event.value, found))
-      result.failure = "event \"" + event.name + "\" could not be located";
-  }
+  for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
+  for (const Event& event : events)
+    if (!add_user_event(walker, samples, event, found))
+      result.doubt = "event \"" + event.name + "\" could not be located";
 
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });

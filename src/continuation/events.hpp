@@ -12,12 +12,14 @@ namespace springfold::continuation {
 struct StepEvents {
   std::vector<Hit> hits{};
   std::vector<bool> stops{};  ///< per hit: ends the trace
-  bool explained = true;      ///< false: the change of negative eigenvalues is not accounted for
-  std::string failure{};      ///< set: an event is there but could not be located
+  std::string doubt{};        ///< set: something happens here that these hits do not explain;
+                              ///< a shorter step may separate it
+  int unexplained = 1;        ///< with a doubt: how many eigenvalues change sign unexplained
 };
 
-/// @param known_from  negative eigenvalues on this side of `from`, if known
+/// @param middle  the curve's point half-way, or empty: then only the ends are compared
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const std::optional<Index>& known_from, const std::vector<Event>& events);
+                          const std::optional<CurvePoint>& middle,
+                          const std::vector<Event>& events);
 
 }  // namespace springfold::continuation

@@ -11,8 +11,8 @@ namespace {
 /// Smallest over largest pivot below this counts as singular.
 constexpr double singular_pivot = 1e-15;
 
-/// Corrections below this leave errors at rounding level.
-constexpr double refined_step = 1e-6;
+/// Newton stops only when the next correction would be shorter than this.
+constexpr double refined_step = 1e-13;
 
 double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
@@ -78,6 +78,7 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
   NewtonResult result{.x = x, .lambda = lambda};
   Linearisation at;
   Vector F;
+  double before = 0;
   for (;; ++result.iterations) {
     const bool inside = problem.residual(result.x, result.lambda, piece, F) && F.allFinite();
     if (!inside) return result;  // status is still outside_domain
@@ -85,8 +86,12 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     const double scale =
         std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
     const bool small = result.residual_norm <= options.residual_tolerance * scale;
-    // A correction of length c leaves an error of order c^2: after a short one the digits are full.
-    const bool refined = !result.corrections.empty() && result.corrections.back() <= refined_step;
+    // What is left to correct: the residual times the size of the inverse matrix that the last
+    // correction has shown.
+    const bool refined =
+        !result.corrections.empty() && before > 0 &&
+        result.residual_norm * (result.corrections.back() / before) <= refined_step * scale;
+    before = result.residual_norm;
     if (small && refined) {
       result.status = NewtonStatus::converged;
       return result;

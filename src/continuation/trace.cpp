@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "events.hpp"
+#include "springfold/continuation/evidence.hpp"
 #include "springfold/core/inertia.hpp"
 #include "words.hpp"
 
@@ -14,8 +15,7 @@ namespace {
 /// The tracer's whole memory between two steps.
 struct Progress {
   CurvePoint here{};
-  std::optional<Index> negative{};  ///< of the branch just behind or at `here`
-  std::vector<Index> left{};        ///< switches that are zero at `here` and being left
+  std::vector<Index> left{};  ///< switches that are zero at `here` and being left
   double ds = 0;
 };
 
@@ -74,7 +74,6 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   const CurvePoint& next = hit.leaving.front();
   if ((next.tangent.dlambda < 0) != (kink.point.tangent.dlambda < 0)) hit.kind = HitKind::corner;
   progress.here = next;
-  progress.negative = next.negative;
   progress.left = kink.active;
   progress.ds = std::min(progress.ds, walker.options.step.initial);
   curve.hits.push_back(std::move(hit));
@@ -89,6 +88,15 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
     refusal = step.refusal;
     return Outcome::shorten;
   }
+  std::optional<CurvePoint> middle;
+  if (walker.options.verify) {
+    Evidence evidence = examine(walker, progress.here, *step.point);
+    if (!evidence.doubt.empty()) {
+      refusal = evidence.doubt;
+      return Outcome::shorten;
+    }
+    middle = std::move(evidence.middle);
+  }
   const KinkSearch kink = first_kink(walker, progress.here, *step.point, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
     refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
@@ -97,16 +105,16 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   }
   const bool cut = kink.status == KinkSearch::Status::found;
   const CurvePoint& end = cut ? kink.point : *step.point;
-  StepEvents found = events_on_step(walker, progress.here, end, progress.negative, events);
-  if (!found.explained && progress.ds > 2 * walker.options.step.minimum) {
-    refusal = "special points too close together";
-    return Outcome::shorten;
-  }
-  if (!found.explained)
-    curve.hits.push_back({.kind = HitKind::unresolved, .name = "unresolved", .point = end});
-  if (!found.failure.empty()) {
-    refusal = found.failure;
-    return Outcome::shorten;
+  StepEvents found = events_on_step(walker, progress.here, end, middle, events);
+  if (!found.doubt.empty()) {
+    refusal = found.doubt;
+    if (progress.ds > 2 * walker.options.step.minimum) return Outcome::shorten;
+    Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
+    hit.point = end;
+    hit.multiplicity = std::max(1, found.unexplained);
+    hit.s_before = progress.here.s;
+    hit.s_after = end.s;
+    curve.hits.push_back(std::move(hit));
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
     const bool stops = found.stops[i];
@@ -123,7 +131,6 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   }
   progress.here = std::move(*step.point);
   progress.left.clear();
-  if (progress.here.negative) progress.negative = progress.here.negative;
   curve.points.push_back(progress.here);
   progress.ds = next_step_length(progress.ds, step.measures, walker.options.step);
   return Outcome::go_on;
@@ -189,7 +196,6 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
   progress.here = point_on_ray(walker, first, start);
   progress.left = active_switches(walker, x, lambda);
   progress.ds = options.step.initial;
-  progress.negative = progress.here.negative;
   Curve curve{.points = {progress.here}};
 
   curve.stop = StopReason::max_points;

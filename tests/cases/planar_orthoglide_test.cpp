@@ -172,17 +172,21 @@ TEST(PlanarOrthoglide, HasTheSameForceUnderPoseControl) {
   EXPECT_NEAR(at_event(pose, limits[1], "force"), limit_rows[1].F_second, 1e-11);
 }
 
-TEST(PlanarOrthoglide, DrivenByItsActuatorsTurnsBackInTheFlatSingularity) {
-  // rho(s) = s + sqrt(1 - s^2) has its maximum sqrt(2) at s = 1/sqrt(2).
+TEST(PlanarOrthoglide, DrivenByItsActuatorsMeetsABranchPointInTheFlatSingularity) {
+  // On the diagonal dV/ds = 2 (rho(s) - rho) rho'(s): the unloaded branch rho(s) = rho turns back
+  // where rho'(s) = 0, rho = sqrt(2), and is crossed there by the branch s = 1/sqrt(2).
   analysis::Study study;
   study.name = "actuators";
   study.control = analysis::ControlMode::actuator;
   study.actuators = {{"leg_x.drive", 1}, {"leg_y.drive", 1}};
-  study.until = {{"lambda", -0.5, 0.5}};
+  study.until = {{"tool.x", -0.5, 0.9}};
   const StudyResult result = run_study(planar_orthoglide(linear_knee(0)), study);
-  const auto limits = events_of_kind(result, EventKind::limit_point);
-  ASSERT_FALSE(limits.empty());
-  EXPECT_NEAR(at_event(result, limits[0], "leg_x.drive.rho"), std::numbers::sqrt2, 1e-10);
+  const auto crossings = events_of_kind(result, EventKind::branch_point);
+  ASSERT_EQ(crossings.size(), 1u);
+  EXPECT_NEAR(at_event(result, crossings[0], "leg_x.drive.rho"), std::numbers::sqrt2, 1e-10);
+  EXPECT_NEAR(at_event(result, crossings[0], "tool.x"), std::numbers::sqrt2 / 2, 1e-9);
+  EXPECT_TRUE(events_of_kind(result, EventKind::limit_point).empty());
+  EXPECT_TRUE(complete(result));
 }
 
 TEST(PlanarOrthoglide, FollowsAParameterOfTheCase) {

@@ -39,6 +39,7 @@ enum class HitKind {
   kink,            ///< one or more switching surfaces are crossed, one way out
   corner,          ///< the same, and lambda turns back there
   branching_kink,  ///< a kink with more than one way out
+  touch,           ///< an eigenvalue or lambda's rate is zero but keeps its sign: degenerate
   user,            ///< an event of the caller
   unresolved,      ///< the number of negative eigenvalues changed and no event explains it
 };

@@ -28,6 +28,7 @@ struct TraceOptions {
   StepOptions step{};
   NewtonOptions newton{};
   int maximum_points = 5000;
+  bool verify = true;  ///< look inside every accepted step (evidence.hpp)
   bool limit_points = true;
   bool branch_points = true;
   double location_tolerance = 1e-13;  ///< of special points, relative to the step they lie in
