@@ -1,14 +1,16 @@
 # One figure of curves: stable parts solid, unstable parts dashed, special points marked.
 #
 # Besides the values listed in style.gp the program has set:
-#   curve_parts     names of data blocks with lines, "stable_1 unstable_1 stable_2 ..."; the number
-#                   is that of the curve; each block holds x y, empty lines between separate parts
-#   first_stable, first_unstable   the blocks that stand for all others in the key
-#   point_codes     "start LP SA ...": codes that occur; block point_<code> holds x y
+#   curve_parts   names of data blocks with lines, "stable_1 stable_2 driven_1 unstable_1 ..."; the
+#                 number is that of the curve; a block holds x y, empty lines between separate parts
+#   first_parts   those of them that stand for the others of their kind in the key
+#   point_codes   "start LP SA ...": codes that occur; block point_<code> holds x y
 # Labels and their leader lines are set already.
 
-part_style(part) = part[1:1] eq 's' ? 1 : 2
-part_name(part) = part eq first_stable ? 'stable' : part eq first_unstable ? 'unstable' : ''
+part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
+part_kind(part) = part[1:6] eq 'stable' ? 'stable' : \
+                  part[1:6] eq 'driven' ? 'stable only while driven' : 'unstable'
+part_name(part) = strstrt(' '.first_parts.' ', ' '.part.' ') ? part_kind(part) : ''
 
 set lmargin at screen frame_left
 set rmargin at screen frame_right
@@ -22,9 +24,11 @@ if (y_low < 0 && y_high > 0) set xzeroaxis linestyle 5
 set title figure_title noenhanced font title_font textcolor rgb ink offset 0, 2.7
 set xlabel x_title noenhanced textcolor rgb ink offset 0, -0.4
 set ylabel y_title noenhanced textcolor rgb ink offset -0.6, 0
+# Two rows above the frame; more than eight entries stand closer.
+key_rows = words(first_parts) + words(point_codes) > 8 ? 3 : 2
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
-    horizontal Left reverse noenhanced samplen 3 spacing 1.25 width -1 \
-    textcolor rgb ink maxrows 2
+    vertical maxrows key_rows Left reverse noenhanced samplen 3 \
+    spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
 
 set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
 set output figure_name.'.png'
@@ -36,7 +40,7 @@ unset output
 
 # SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points.
 set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-    background rgb 'white' name figure_name
+    background rgb 'white'
 set output figure_name.'.svg'
 replot
 unset output

@@ -13,6 +13,7 @@ unset colorbox
 
 # Colours that stay apart for colour-blind readers and in grey print.
 stable_color = '#0072B2'
+driven_color = '#56B4E9'
 unstable_color = '#D55E00'
 ink = '#222222'
 pale = '#D9D9D9'
@@ -20,14 +21,17 @@ pale = '#D9D9D9'
 font_family = 'DejaVu Sans'
 base_font = font_family.',14'
 title_font = font_family.',18'
+key_font = font_family.',13'
 point_label_font = font_family.',13'
 point_label_color = ink
-curve_label_font = font_family.':Italic,14'
+curve_label_font = font_family.',14'
 curve_label_color = ink
 
-# 1 stable, 2 unstable, 3 grid, 4 line from a label to its point, 5 axes through zero
+# 1 stable, 2 unstable, 6 stable only while driven, 3 grid, 4 line from a label to its point,
+# 5 axes through zero
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
 set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (10, 6)
+set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (18, 5)
 set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
 set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
@@ -40,12 +44,13 @@ set style line 14 linecolor rgb ink pointtype 5 pointsize 1.7                 # 
 set style line 15 linecolor rgb ink pointtype 13 pointsize 2.3                # BP
 set style line 16 linecolor rgb ink pointtype 11 pointsize 2.2                # KB
 set style line 17 linecolor rgb ink pointtype 3 pointsize 2.2 linewidth 2     # KS
-set style line 18 linecolor rgb ink pointtype 2 pointsize 1.9 linewidth 2.2   # UZ
-set style line 19 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.5  # UR
+set style line 18 linecolor rgb ink pointtype 12 pointsize 2.2 linewidth 2.2  # TP
+set style line 19 linecolor rgb ink pointtype 2 pointsize 1.9 linewidth 2.2   # UZ
+set style line 20 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.5  # UR
 
 point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
-                    code eq 'KS' ? 17 : code eq 'UZ' ? 18 : 19
+                    code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : 20
 point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'LP' ? 'limit point (LP)' : \
                    code eq 'CL' ? 'corner limit point (CL)' : \
@@ -53,6 +58,7 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'BP' ? 'branch point (BP)' : \
                    code eq 'KB' ? 'branching kink (KB)' : \
                    code eq 'KS' ? 'kinematic singularity (KS)' : \
+                   code eq 'TP' ? 'touching point (TP)' : \
                    code eq 'UZ' ? 'marked value (UZ)' : \
                    code eq 'UR' ? 'unresolved (UR)' : ''
 

@@ -67,7 +67,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   run->add_option("--out", arguments.folder,
                   "Folder for results (results/<name of the case> when not given)")
       ->type_name("DIR");
-  run->add_flag("!--no-plots", arguments.draws_plots, "Draw no figures");
+  bool is_without_plots = false;
+  run->add_flag("--no-plots", is_without_plots, "Draw no figures");
   run->add_flag("--json", arguments.prints_json,
                 "Print summary.json instead of tables on standard output");
 
@@ -75,8 +76,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = app.get_subcommands();
-    parsed.text = (chosen.empty() ? &app : chosen.front())->help();
+    parsed.text = app.help();
     return parsed;
   } catch (const CLI::CallForVersion& call) {
     parsed.text = std::string{call.what()} + "\n";
@@ -87,6 +87,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   }
   for (const auto& text : settings)
     if (!add_override(text, arguments.overrides, parsed.error)) return parsed;
+  arguments.draws_plots = !is_without_plots;
   arguments.command = run->parsed() ? Command::run : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;

@@ -79,12 +79,7 @@ void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, con
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
-  auto [stable, unstable] = stability_parts(points, stability_of_steps(result, branch));
-  FigureCurve curve{label, std::move(stable), std::move(unstable)};
-  const auto first = std::find_if(points.begin(), points.end(), is_finite);
-  const auto last = std::find_if(points.rbegin(), points.rend(), is_finite);
-  if (first != points.end()) curve.ends = {*first, *last};
-  figure.curves.push_back(std::move(curve));
+  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch))});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
       add_mark(figure,
@@ -139,8 +134,7 @@ bool fit_axes(Figure& figure) {
   Range x, y;
   const auto include = [&](const PlotPoint& at) { x.include(at.first), y.include(at.second); };
   for (const auto& curve : figure.curves)
-    for (const auto* parts : {&curve.stable, &curve.unstable})
-      for (const auto& line : *parts) std::for_each(line.begin(), line.end(), include);
+    for (const auto& part : curve.parts) std::for_each(part.line.begin(), part.line.end(), include);
   for (const auto& mark : figure.marks) include(mark.at);
   if (!(x.low <= x.high)) return false;
   const Range padded_x = x.padded(), padded_y = y.padded();

@@ -13,12 +13,22 @@ namespace springfold::io {
 using PlotPoint = std::pair<double, double>;  // in the units of the axes
 using Polyline = std::vector<PlotPoint>;
 
+/// What a part of a curve is worth.
+enum class Stability {
+  stable,    ///< under the study's control and under dead load
+  driven,    ///< under the study's control only: let go, the mechanism would jump
+  unstable,  ///< under the study's control, or not known
+};
+
+struct CurvePart {
+  Stability stability = Stability::stable;
+  Polyline line{};
+};
+
 /// One branch, cut where its stability changes and where it is not defined.
 struct FigureCurve {
-  std::string label{};  ///< empty: not labelled
-  std::vector<Polyline> stable{};
-  std::vector<Polyline> unstable{};
-  std::vector<PlotPoint> ends{};  ///< first and last point of the branch that can be drawn
+  std::string label{};             ///< empty: not labelled
+  std::vector<CurvePart> parts{};  ///< in the order of the branch
 };
 
 /// A special point, or the start of a curve (code "start", no label).

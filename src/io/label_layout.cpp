@@ -44,7 +44,6 @@ double distance(const PlotPoint& a, const PlotPoint& b) {
 /// Everything that a label must not hide.
 struct Scene {
   std::vector<std::vector<PlotPoint>> curves{};  ///< evenly spaced points of each curve
-  std::vector<std::vector<PlotPoint>> ends{};    ///< of each curve
   std::vector<Box> marks{};
   std::vector<Box> labels{};
   PlotPoint zero{};  ///< where the axes through zero are
@@ -61,19 +60,17 @@ PlotPoint in_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint&
 std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
                                     const FigureCurve& curve) {
   std::vector<PlotPoint> dense;
-  for (const auto* parts : {&curve.stable, &curve.unstable}) {
-    for (const auto& line : *parts) {
-      std::optional<PlotPoint> last;  // end of the last stretch, `left_over` pixels after a point
-      double left_over = spacing;
-      for (const auto& at : line) {
-        const PlotPoint here = in_pixels(figure, canvas, at);
-        const double length = last ? distance(*last, here) : 0;
-        for (double along = spacing - left_over; last && along <= length; along += spacing)
-          dense.emplace_back(last->first + (here.first - last->first) * along / length,
-                             last->second + (here.second - last->second) * along / length);
-        left_over = std::fmod(left_over + length, spacing);
-        last = here;
-      }
+  for (const auto& part : curve.parts) {
+    std::optional<PlotPoint> last;  // end of the last stretch, `left_over` pixels after a point
+    double left_over = spacing;
+    for (const auto& at : part.line) {
+      const PlotPoint here = in_pixels(figure, canvas, at);
+      const double length = last ? distance(*last, here) : 0;
+      for (double along = spacing - left_over; last && along <= length; along += spacing)
+        dense.emplace_back(last->first + (here.first - last->first) * along / length,
+                           last->second + (here.second - last->second) * along / length);
+      left_over = std::fmod(left_over + length, spacing);
+      last = here;
     }
   }
   return dense;
@@ -81,11 +78,8 @@ std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
 
 Scene scene_of(const Figure& figure, const Canvas& canvas) {
   Scene scene;
-  for (const auto& curve : figure.curves) {
+  for (const auto& curve : figure.curves)
     scene.curves.push_back(dense_points(figure, canvas, curve));
-    auto& ends = scene.ends.emplace_back();
-    for (const auto& end : curve.ends) ends.push_back(in_pixels(figure, canvas, end));
-  }
   for (const auto& mark : figure.marks)
     scene.marks.push_back({in_pixels(figure, canvas, mark.at), mark_radius, mark_radius});
   scene.zero = in_pixels(figure, canvas, {0, 0});
@@ -149,6 +143,16 @@ void try_around(Candidate& best, const Scene& scene, Box box, const PlotPoint& a
   }
 }
 
+/// Curves that lie on each other have the same points: one label is enough.
+bool is_labelled_already(const Figure& figure, const Scene& scene, std::size_t mark) {
+  constexpr double near = 14;
+  for (std::size_t i = 0; i < mark; ++i)
+    if (figure.marks[i].label == figure.marks[mark].label &&
+        distance(scene.marks[i].centre, scene.marks[mark].centre) < near)
+      return true;
+  return false;
+}
+
 PlacedLabel placed(const std::string& text, const Candidate& best) {
   PlacedLabel label{.text = text, .at = best.box.centre};
   label.leader_from = best.anchor;
@@ -182,7 +186,9 @@ Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
       if (other != own)
         nearest_other = std::min(nearest_other, distance_to(scene.curves[other], anchor));
     const double ambiguity = 12 * std::max(0.0, 1 - nearest_other / 90);
-    const double inside = std::min(8.0, distance_to(scene.ends[own], anchor) / 30);
+    const double to_end =
+        std::min(distance(points.front(), anchor), distance(points.back(), anchor));
+    const double inside = std::min(8.0, to_end / 30);
     for (const double gap : {10.0, 16.0, 24.0, 40.0, 70.0})
       try_around(best, scene, box, anchor, gap, ambiguity + inside + 0.5 * gap);
   }
@@ -201,7 +207,7 @@ std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas
   };
   for (std::size_t i = 0; i < figure.marks.size(); ++i) {
     const auto& text = figure.marks[i].label;
-    if (text.empty()) continue;
+    if (text.empty() || is_labelled_already(figure, scene, i)) continue;
     keep(text, place_of_mark(scene, box_of(text, canvas), scene.marks[i].centre), false);
   }
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

@@ -93,32 +93,45 @@ void add_word(std::string& list, const std::string& word) {
   list += (list.empty() ? "" : " ") + word;
 }
 
+std::string word_of(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::driven:
+      return "driven";
+    case Stability::unstable:
+      return "unstable";
+  }
+  return "";
+}
+
 void send_curves(Gnuplot& gnuplot, const Figure& figure) {
-  std::string parts, first_stable, first_unstable;
-  const auto send = [&](const std::string& name, const std::vector<Polyline>& lines,
-                        std::string& first) {
-    if (lines.empty()) return;
-    gnuplot << "$" << name << begin_block;
-    gnuplot.send2d(lines);  // an empty line between polylines: gnuplot does not connect them
-    add_word(parts, name);
-    if (first.empty()) first = name;
-  };
-  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    const std::string number = std::to_string(i + 1);
-    send("stable_" + number, figure.curves[i].stable, first_stable);
-    send("unstable_" + number, figure.curves[i].unstable, first_unstable);
+  std::string parts, first_parts;
+  for (const auto stability : {Stability::stable, Stability::driven, Stability::unstable}) {
+    bool is_first = true;
+    for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+      std::vector<Polyline> lines;
+      for (const auto& part : figure.curves[i].parts)
+        if (part.stability == stability) lines.push_back(part.line);
+      if (lines.empty()) continue;
+      const std::string name = word_of(stability) + "_" + std::to_string(i + 1);
+      gnuplot << "$" << name << begin_block;
+      gnuplot.send2d(lines);  // an empty line between polylines: gnuplot does not connect them
+      add_word(parts, name);
+      if (is_first) add_word(first_parts, name);
+      is_first = false;
+    }
   }
   if (parts.empty()) {  // a figure of single points: gnuplot cannot iterate over nothing
     gnuplot << "$nothing" << begin_block << "e\n";
     parts = "nothing";
   }
-  gnuplot << assignment("curve_parts", parts) << assignment("first_stable", first_stable)
-          << assignment("first_unstable", first_unstable);
+  gnuplot << assignment("curve_parts", parts) << assignment("first_parts", first_parts);
 }
 
 void send_marks(Gnuplot& gnuplot, const Figure& figure) {
   std::string codes;
-  for (const std::string code : {"start", "LP", "CL", "SA", "BP", "KB", "KS", "UZ", "UR"}) {
+  for (const std::string code : {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "UZ", "UR"}) {
     std::vector<PlotPoint> points;
     for (const auto& mark : figure.marks)
       if (mark.code == code) points.push_back(mark.at);

@@ -15,7 +15,8 @@ using analysis::EventKind;
 enum class Trust { none, little, one_sided, full };
 
 struct RowIndex {
-  double index = 0;
+  double index = 0;        ///< under the study's control
+  double index_force = 0;  ///< under dead load
   Trust trust = Trust::full;
 };
 
@@ -31,6 +32,7 @@ Trust trust_at(EventKind kind) {
     case EventKind::limit_point:
     case EventKind::branch_point:
     case EventKind::kinematic_singularity:
+    case EventKind::touch:
     case EventKind::unresolved:
       return Trust::little;
   }
@@ -40,8 +42,10 @@ Trust trust_at(EventKind kind) {
 std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
                                       const analysis::Branch& branch) {
   std::vector<RowIndex> rows(branch.samples.size());
-  for (std::size_t row = 0; row < rows.size(); ++row)
+  for (std::size_t row = 0; row < rows.size(); ++row) {
     rows[row].index = value_at(result, branch, row, "index");
+    rows[row].index_force = value_at(result, branch, row, "index_force");
+  }
   const auto limit_trust = [&](std::size_t row, Trust trust) {
     if (row < rows.size()) rows[row].trust = std::min(rows[row].trust, trust);
   };
@@ -54,41 +58,42 @@ std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
   return rows;
 }
 
+Stability stability_of(const RowIndex& row) {
+  if (row.index != 0) return Stability::unstable;  // NaN as well
+  return row.index_force > 0 ? Stability::driven : Stability::stable;
+}
+
 }  // namespace
 
-std::vector<bool> stability_of_steps(const analysis::StudyResult& result,
-                                     const analysis::Branch& branch) {
+std::vector<Stability> stability_of_steps(const analysis::StudyResult& result,
+                                          const analysis::Branch& branch) {
   const auto rows = indices_of_rows(result, branch);
-  std::vector<bool> stable;
+  std::vector<Stability> steps;
   for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
     const RowIndex &a = rows[row], &b = rows[row + 1];
-    if (a.trust == Trust::none && b.trust == Trust::none)
-      stable.push_back(false);
-    else if (a.trust != b.trust)
-      stable.push_back((a.trust > b.trust ? a : b).index == 0);
-    else
-      stable.push_back(a.index == 0 && b.index == 0);
+    // Where both say as much, the worse one counts.
+    steps.push_back(a.trust > b.trust   ? stability_of(a)
+                    : b.trust > a.trust ? stability_of(b)
+                                        : std::max(stability_of(a), stability_of(b)));
   }
-  return stable;
+  return steps;
 }
 
 bool is_finite(const PlotPoint& at) { return std::isfinite(at.first) && std::isfinite(at.second); }
 
-std::pair<std::vector<Polyline>, std::vector<Polyline>> stability_parts(
-    const std::vector<PlotPoint>& points, const std::vector<bool>& step_is_stable) {
-  std::pair<std::vector<Polyline>, std::vector<Polyline>> parts;
-  std::vector<Polyline>* open = nullptr;  // the kind of the line that the last step went on with
-  for (std::size_t i = 0; i + 1 < points.size() && i < step_is_stable.size(); ++i) {
-    const bool is_gap = !is_finite(points[i]) || !is_finite(points[i + 1]);
-    if (is_gap) {
-      open = nullptr;
+std::vector<CurvePart> parts_of(const std::vector<PlotPoint>& points,
+                                const std::vector<Stability>& steps) {
+  std::vector<CurvePart> parts;
+  bool goes_on = false;  // the last part ends at points[i]
+  for (std::size_t i = 0; i + 1 < points.size() && i < steps.size(); ++i) {
+    if (!is_finite(points[i]) || !is_finite(points[i + 1])) {
+      goes_on = false;
       continue;
     }
     if (points[i] == points[i + 1]) continue;  // both sides of a switching spring
-    auto& kind = step_is_stable[i] ? parts.first : parts.second;
-    if (open != &kind) kind.push_back({points[i]});
-    kind.back().push_back(points[i + 1]);
-    open = &kind;
+    if (!goes_on || parts.back().stability != steps[i]) parts.push_back({steps[i], {points[i]}});
+    parts.back().line.push_back(points[i + 1]);
+    goes_on = true;
   }
   return parts;
 }

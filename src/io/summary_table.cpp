@@ -99,7 +99,7 @@ std::string stiffness_lines(const Matrix& stiffness) {
 
 /// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
 std::string index_text(const StudyResult& result, const Branch& branch,
-                       const analysis::Event& event) {
+                       const analysis::Event& event, std::string_view name) {
   using analysis::EventKind;
   const bool is_ordinary =
       event.kind == EventKind::user_value || event.kind == EventKind::end_of_range;
@@ -109,8 +109,8 @@ std::string index_text(const StudyResult& result, const Branch& branch,
     second = event.row + 1;
   else if (!is_ordinary && has_neighbours)
     first = event.row - 1, second = event.row + 1;
-  const double before = value_at(result, branch, first, "index");
-  const double after = value_at(result, branch, second, "index");
+  const double before = value_at(result, branch, first, name);
+  const double after = value_at(result, branch, second, name);
   if (before == after || std::isnan(after)) return rounded(before, digits);
   return rounded(before, digits) + " > " + rounded(after, digits);
 }
@@ -123,19 +123,21 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
     if (column_of(result, name)) columns.emplace_back(name);
   std::vector<std::vector<std::string>> rows = {{"points"}};
   rows.front().insert(rows.front().end(), columns.begin(), columns.end());
-  rows.front().insert(rows.front().end(), {"index", ""});
+  std::vector<std::string> indices = {"index"};
+  if (column_of(result, "index_force")) indices.emplace_back("index_force");
+  rows.front().insert(rows.front().end(), indices.begin(), indices.end());
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back();
     row.push_back(event.label);
     for (const auto& name : columns)
       row.push_back(rounded(value_at(result, branch, event.row, name), digits));
     const bool is_unresolved = event.kind == analysis::EventKind::unresolved;
-    row.push_back(index_text(result, branch, event));
+    for (const auto& name : indices) row.push_back(index_text(result, branch, event, name));
     row.push_back((is_unresolved ? "UNRESOLVED: " : "") + event.detail);
   }
-  std::vector<Align> align(columns.size() + 1, Align::right);
+  std::vector<Align> align(1 + columns.size() + indices.size(), Align::right);
   align.front() = Align::left;
-  align.insert(align.end(), {Align::right, Align::left});
+  align.push_back(Align::left);
   rows.front().front().resize(blank_label.size() - 2, ' ');
   return aligned(rows, align, indent);
 }

@@ -38,7 +38,8 @@ std::string shortest(double value) {
 std::string rounded(double value, int digits) {
   if (std::isnan(value)) return "nan";
   std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+  const double without_minus_zero = value + 0.0;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), without_minus_zero,
                                  std::chars_format::general, digits)
                        .ptr;
   return {text.data(), end};

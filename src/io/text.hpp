@@ -10,7 +10,8 @@ namespace springfold::io {
 /// Shortest decimal form that reads back to the same double; "nan", "inf", "-inf".
 std::string shortest(double value);
 
-/// At most `digits` significant digits, trailing zeros left out; "nan", "inf", "-inf".
+/// At most `digits` significant digits, trailing zeros left out, no "-0"; "nan", "inf",
+/// "-inf".
 std::string rounded(double value, int digits);
 
 /// A field of a CSV table: shortest form, nothing for NaN.

@@ -87,11 +87,11 @@ inline analysis::StudyResult result(const std::string& study, int run, const std
   branch.backward = {.reason = "deflection reached its lower limit"};
   branch.forward = {.reason = "deflection reached its upper limit"};
   branch.log = {{.s = 0.1, .step = 0.05, .reason = "no convergence, \"too long\""}};
-  const auto add_event = [&](analysis::EventKind kind, const std::string& label,
+  const auto add_event = [&](analysis::EventKind kind, const std::string& event_label,
                              const std::string& detail) {
     const std::size_t row = branch.samples.size() - 1;
-    branch.samples.back().event = label;
-    analysis::Event event{.kind = kind, .label = label, .detail = detail, .row = row};
+    branch.samples.back().event = event_label;
+    analysis::Event event{.kind = kind, .label = event_label, .detail = detail, .row = row};
     event.stiffness = Matrix{{0.5, -0.5}, {-0.5, 0.5}};
     event.rates_before = branch.samples.back().values;
     event.rates_after = branch.samples.back().values;

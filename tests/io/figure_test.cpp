@@ -1,0 +1,193 @@
+#include "io/figure.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "io/label_layout.hpp"
+#include "io/sample_results.hpp"
+#include "io/stability_parts.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A branch whose rows have these indices (under control, under dead load).
+struct IndexedBranch {
+  explicit IndexedBranch(const std::vector<std::pair<double, double>>& indices) {
+    result.quantities = {{"index"}, {"index_force"}};
+    for (const auto& [index, index_force] : indices)
+      branch.samples.push_back({.values = {index, index_force}});
+  }
+  void add(EventKind kind, std::size_t row) { branch.events.push_back({.kind = kind, .row = row}); }
+  std::vector<Stability> steps() const { return stability_of_steps(result, branch); }
+
+  analysis::StudyResult result{};
+  analysis::Branch branch{};
+};
+
+constexpr auto stable = Stability::stable;
+constexpr auto driven = Stability::driven;
+constexpr auto unstable = Stability::unstable;
+
+TEST(StabilityOfSteps, ChangesExactlyAtALimitPointWhicheverIndexItHas) {
+  for (const double at_fold : {0.0, 1.0}) {
+    IndexedBranch b{{{0, 0}, {0, 0}, {at_fold, at_fold}, {1, 1}}};
+    b.add(EventKind::limit_point, 2);
+    EXPECT_THAT(b.steps(), ElementsAre(stable, stable, unstable));
+  }
+}
+
+TEST(StabilityOfSteps, UsesBothSidesOfASwitchingSpring) {
+  IndexedBranch b{{{0, 0}, {0, 0}, {1, 1}, {1, 1}}};
+  b.add(EventKind::switching, 1);
+  const auto steps = b.steps();
+  EXPECT_EQ(steps.front(), stable);
+  EXPECT_EQ(steps.back(), unstable);
+}
+
+TEST(StabilityOfSteps, TellsDrivenFromStable) {
+  IndexedBranch b{{{0, 0}, {0, 1}, {0, 1}, {0, 0}}};
+  b.add(EventKind::limit_point, 1);
+  EXPECT_THAT(b.steps(), ElementsAre(stable, driven, driven));
+}
+
+TEST(StabilityOfSteps, TakesTheUnknownForUnstable) {
+  EXPECT_THAT((IndexedBranch{{{0, 0}, {nan, nan}, {nan, nan}, {0, 0}}}.steps()),
+              ElementsAre(stable, unstable, stable));
+}
+
+TEST(PartsOf, ShareTheirCommonPointAndStopAtGaps) {
+  const std::vector<PlotPoint> points = {{0, 0}, {1, 1}, {2, 2}, {nan, 3}, {4, 4}, {5, 5}};
+  const auto parts = parts_of(points, {stable, unstable, unstable, unstable, unstable});
+  ASSERT_THAT(parts, SizeIs(3));
+  EXPECT_THAT(parts[0].line, ElementsAre(PlotPoint{0, 0}, PlotPoint{1, 1}));
+  EXPECT_THAT(parts[1].line, ElementsAre(PlotPoint{1, 1}, PlotPoint{2, 2}));
+  EXPECT_THAT(parts[2].line, ElementsAre(PlotPoint{4, 4}, PlotPoint{5, 5}));
+}
+
+TEST(PartsOf, SkipTheStepBetweenBothSidesOfASwitchingSpring) {
+  const auto parts = parts_of({{0, 0}, {1, 1}, {1, 1}, {2, 2}}, {stable, unstable, stable});
+  ASSERT_THAT(parts, SizeIs(1));
+  EXPECT_THAT(parts[0].line, SizeIs(3));
+}
+
+TEST(FiguresOf, ShowOneFigurePerStudyWhenTheCaseAsksForNone) {
+  std::vector<std::string> problems;
+  const auto figures = figures_of(sample::two_runs(), sample::two_results(), problems);
+  ASSERT_THAT(figures, SizeIs(1));
+  EXPECT_THAT(problems, IsEmpty());
+  const Figure& figure = figures.front();
+  EXPECT_EQ(figure.name, "push_from_Q2");
+  EXPECT_EQ(figure.x_title, "deflection [m]");
+  EXPECT_EQ(figure.y_title, "force [N]");
+  ASSERT_THAT(figure.curves, SizeIs(2));
+  EXPECT_EQ(figure.curves[1].label, "Kv = 0.01");
+  ASSERT_THAT(figure.curves[0].parts, SizeIs(3)) << "stable, unstable between the folds, stable";
+  EXPECT_EQ(figure.curves[0].parts[1].stability, unstable);
+  EXPECT_THAT(figure.marks, SizeIs(6)) << "two folds and a start each, no ends";
+}
+
+TEST(FiguresOf, ApplyFactorsLabelsAndTheChoiceOfRuns) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a b", .title = "T", .x_label = "x", .x_factor = 2, .y_factor = -1}};
+  the_case.plots[0].curves = {{.study = "push from Q2", .runs = {2}, .labels = {"(2)"}}};
+  std::vector<std::string> problems;
+  const auto figures = figures_of(the_case, sample::two_results(), problems);
+  ASSERT_THAT(figures, SizeIs(1));
+  EXPECT_EQ(figures[0].name, "a_b");
+  EXPECT_EQ(figures[0].x_title, "x");
+  EXPECT_EQ(figures[0].y_title, "-1 · force [N]");
+  ASSERT_THAT(figures[0].curves, SizeIs(1));
+  EXPECT_EQ(figures[0].curves[0].label, "(2)");
+  ASSERT_EQ(figures[0].marks[0].label, "LP1");
+  EXPECT_NEAR(figures[0].marks[0].at.first, 2 * 0.20587635, 1e-7);
+  EXPECT_NEAR(figures[0].marks[0].at.second, -0.027008033908, 1e-11);
+}
+
+TEST(FiguresOf, KeepTheLabelsOfTheirRunsWhenOneIsMissing) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a"}};
+  the_case.plots[0].curves = {{.study = "push from Q2", .runs = {1, 2}, .labels = {"(1)", "(2)"}}};
+  auto results = sample::two_results();
+  results.erase(results.begin());
+  std::vector<std::string> problems;
+  EXPECT_EQ(figures_of(the_case, results, problems).at(0).curves.at(0).label, "(2)");
+}
+
+TEST(FiguresOf, SayWhichQuantityDoesNotExist) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .x = "nothing", .curves = {{.study = "push from Q2"}}}};
+  std::vector<std::string> problems;
+  EXPECT_THAT(figures_of(the_case, sample::two_results(), problems), IsEmpty());
+  ASSERT_FALSE(problems.empty());
+  EXPECT_THAT(problems[0], HasSubstr("has no quantity 'nothing'"));
+}
+
+TEST(FiguresOf, LeaveOutFiguresOfStudiesThatWereNotRun) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .curves = {{.study = "another"}}}};
+  std::vector<std::string> problems;
+  EXPECT_THAT(figures_of(the_case, sample::two_results(), problems), IsEmpty());
+  EXPECT_THAT(problems, IsEmpty());
+}
+
+TEST(FiguresOf, GiveASinglePointRoomAroundIt) {
+  auto results = sample::two_results();
+  results.resize(1);
+  auto& branch = results[0].branches[0];
+  branch.samples = {branch.samples[branch.start_row]};
+  branch.start_row = 0;
+  branch.events.clear();
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .curves = {{.study = "push from Q2"}}}};
+  std::vector<std::string> problems;
+  const auto figures = figures_of(the_case, results, problems);
+  ASSERT_THAT(figures, SizeIs(1));
+  EXPECT_LT(figures[0].low.first, figures[0].high.first);
+  EXPECT_LT(figures[0].low.second, figures[0].high.second);
+}
+
+/// Rough size of a label, as the layout counts.
+bool overlap(const PlacedLabel& a, const PlacedLabel& b) {
+  const auto half = [](const PlacedLabel& label) {
+    return 4.5 * static_cast<double>(label.text.size());
+  };
+  return std::abs(a.at.first - b.at.first) < half(a) + half(b) &&
+         std::abs(a.at.second - b.at.second) < 17;
+}
+
+TEST(PlaceLabels, KeepTextsApartAndInsideTheFrame) {
+  std::vector<std::string> problems;
+  auto results = sample::two_results();
+  results.push_back(sample::result("push from Q2", 3, "Kv = 0.05", {.k = 0.05}, 0.37, 0.9));
+  const auto figure = figures_of(sample::two_runs(), results, problems).at(0);
+  const Canvas canvas;
+  const auto labels = place_labels(figure, canvas);
+  EXPECT_THAT(labels, SizeIs(7)) << "four folds and three curves";
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_GT(labels[i].at.first, canvas.left);
+    EXPECT_LT(labels[i].at.first, canvas.right);
+    EXPECT_GT(labels[i].at.second, canvas.bottom);
+    EXPECT_LT(labels[i].at.second, canvas.top);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(overlap(labels[i], labels[j])) << labels[i].text << " on " << labels[j].text;
+  }
+}
+
+TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
+  Figure figure{.low = {0, 0}, .high = {1, 1}};
+  figure.marks = {
+      {"LP", "LP1", {0.5, 0.5}}, {"LP", "LP1", {0.501, 0.5}}, {"LP", "LP2", {0.5, 0.5}}};
+  EXPECT_THAT(place_labels(figure, {}), SizeIs(2));
+}
+
+}  // namespace
+}  // namespace springfold::io
