@@ -28,9 +28,10 @@ void check_direction(const StudyDraft& draft, model::TaskSpace space, const Valu
                      const std::string& when, Problems& problems) {
   if (draft.control != analysis::ControlMode::mixed || draft.direction.empty()) return;
   const auto lengths = static_cast<std::size_t>(model::translations(space));
-  bool translates = false, rotates = false;
+  bool translates = false, rotates = false, varies = false;
   for (std::size_t i = 0; i < draft.direction.size(); ++i) {
     if (!numbers.usable[draft.direction[i]]) return;
+    varies |= draft.numbers.definition(draft.direction[i]).formula.has_value();
     const bool moves = numbers.values[draft.direction[i]] != 0;
     (i < lengths ? translates : rotates) |= moves;
   }
@@ -39,7 +40,7 @@ void check_direction(const StudyDraft& draft, model::TaskSpace space, const Valu
                "got a translation and a rotation together, need one of them alone in control = "
                "\"mixed\": the force-free complement of a mixture would depend on the unit of "
                "length",
-               when);
+               varies ? when : "");
 }
 
 analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
