@@ -9,8 +9,9 @@
 //  rho         Joint::command, rho      commanded coordinates of the actuated joints     eq. (1)
 //  q           (role passive)           coordinates of joints without spring             eq. (1), (2)
 //  vartheta    (role preloaded)         coordinates of joints with a spring              eq. (3)
-//  theta       (role compliant,         coordinates of virtual springs, and of drive     eq. (2)
-//              name ".theta")           springs: an actuated joint stands at rho + theta
+//  theta       (role compliant,         coordinates of virtual springs (role "virtual"   eq. (2)
+//              name ".theta")           in case files) and of drive springs: an actuated
+//                                       joint stands at rho + theta
 //  x           ChainSlice::x            all unknown coordinates of one chain: q, vartheta and theta
 //                                       in the order of its joints
 //  tau, U      torque, energy           torque and energy of a spring                    eq. (2), (3)
