@@ -185,7 +185,7 @@ Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
     for (std::size_t other = 0; other < scene.curves.size(); ++other)
       if (other != own)
         nearest_other = std::min(nearest_other, distance_to(scene.curves[other], anchor));
-    const double ambiguity = 12 * std::max(0.0, 1 - nearest_other / 90);
+    const double ambiguity = 16 / (1 + nearest_other / 6);
     const double to_end =
         std::min(distance(points.front(), anchor), distance(points.back(), anchor));
     const double inside = std::min(8.0, to_end / 30);

@@ -177,13 +177,23 @@ TEST(DrawPlots, WarnsWhenGnuplotDiesByASignal) {
   EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("ended by signal 9")));
 }
 
-TEST(DrawPlots, StopsAGnuplotThatHangsTogetherWithItsChildren) {
+TEST(DrawPlots, StopsAGnuplotThatHangs) {
+  const ScratchFolder scratch;
+  const auto program = fake_gnuplot(scratch.path(), "exec sleep 600");
+  const auto outcome = draw(scratch.path(), {.gnuplot = program.string(), .timeout_seconds = 0.5});
+  EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("did not finish within 0.5 s")));
+}
+
+TEST(DrawPlots, StopsTheChildrenOfGnuplotAsWell) {
   const ScratchFolder scratch;
   const fs::path pid_file = scratch.path() / "child";
   const auto program =
-      fake_gnuplot(scratch.path(), "sleep 600 & echo $! > " + pid_file.string() + "; wait");
-  const auto outcome = draw(scratch.path(), {.gnuplot = program.string(), .timeout_seconds = 0.5});
-  EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("did not finish within 0.5 s")));
+      fake_gnuplot(scratch.path(), "sleep 600 & echo $! > " + pid_file.string() + ".part; mv " +
+                                       pid_file.string() + ".part " + pid_file.string() + "; wait");
+  const auto outcome =
+      draw(scratch.path(),
+           {.gnuplot = program.string(), .stop_requested = [&] { return fs::exists(pid_file); }});
+  EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("stopped on request")));
   ASSERT_FALSE(text_in(pid_file).empty());
   EXPECT_TRUE(has_ended(std::stoi(text_in(pid_file))));
 }

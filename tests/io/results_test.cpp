@@ -290,5 +290,19 @@ TEST(ComparisonTable, GroupsValuesAndWrapsNotes) {
   EXPECT_EQ(comparison_table({}, {}), "");
 }
 
+TEST(DataDictionary, HasEveryCodeAndEveryFile) {
+  const std::string text = text_in(fs::path{SPRINGFOLD_SOURCE_DIR} / "docs" / "results.md");
+  for (int kind = 0; kind <= static_cast<int>(analysis::EventKind::unresolved); ++kind) {
+    const std::string code = analysis::code_of(static_cast<analysis::EventKind>(kind));
+    EXPECT_THAT(text, HasSubstr("| `" + code + "` |"));
+  }
+  const ScratchFolder scratch;
+  write_results(scratch.path(), sample::two_runs(), sample::two_results());
+  for (const auto& entry : fs::directory_iterator{scratch.path()}) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_THAT(text, HasSubstr("| `" + entry.path().filename().string() + "` |"));
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io
