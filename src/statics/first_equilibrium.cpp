@@ -64,11 +64,33 @@ class Equations {
     return k < system_.size && system_.is_wrench[static_cast<std::size_t>(k)];
   }
 
+  bool is_pose(Index unknown) const {
+    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
+    return k >= system_.first_pose && k < system_.size;
+  }
+
   bool residual(const State& state, Vector& r) {
     const bool finite = equilibrium_residual(system_, piece_at(system_, state.z), state.z,
                                              state.inputs, work_, full_);
     r = full_(selection_.rows);
     return finite;
+  }
+
+  /// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
+  bool solved(const State& state, double tolerance) {
+    Vector r;
+    if (!residual(state, r)) return false;
+    double gap = 0, force = 0, size = 1, wrench = 1;
+    for (Index i = 0; i < r.size(); ++i) {
+      const Index row = selection_.rows[static_cast<std::size_t>(i)];
+      double& worst = system_.is_wrench[static_cast<std::size_t>(row)] ? gap : force;
+      worst = std::max(worst, std::abs(r[i]));
+    }
+    for (Index i = 0; i < system_.size; ++i) {
+      double& largest = system_.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
+      largest = std::max(largest, std::abs(state.z[i]));
+    }
+    return gap <= tolerance * size && force <= tolerance * std::max(size, wrench);
   }
 
   bool jacobian(const State& state, Matrix& J) {
@@ -80,16 +102,14 @@ class Equations {
     return finite;
   }
 
-  /// The closure equations alone, with respect to all unknowns but the wrenches.
-  bool closures(const State& state, Vector& e, Matrix& J) {
+  /// The closure equations alone and their derivatives by the unknowns `columns`.
+  bool closures(const State& state, const std::vector<Index>& columns, Vector& e, Matrix& J) {
     Matrix all;
     if (!jacobian(state, all)) return false;
-    std::vector<Index> rows, columns;
+    std::vector<Index> rows;
     for (std::size_t i = 0; i < selection_.rows.size(); ++i)
       if (system_.is_wrench[static_cast<std::size_t>(selection_.rows[i])])
         rows.push_back(static_cast<Index>(i));
-    for (Index i = 0; i < all.cols(); ++i)
-      if (!is_wrench(i)) columns.push_back(i);
     Vector r = full_(selection_.rows);
     e = r(rows);
     J = all(rows, columns);
@@ -104,14 +124,20 @@ class Equations {
   Matrix A_, dR_drho_;
 };
 
-/// Closes the chains: minimum-norm Newton steps of bounded length on the closure equations.
-bool assemble(Equations& equations, State& state) {
+/// Closes the chains by minimum-norm Newton steps of bounded length on the closure equations.
+/// @param move_bodies  false: the guessed poses stay, only the chains move
+bool assemble(Equations& equations, bool move_bodies, State& state) {
   constexpr double longest = 0.3;
+  std::vector<Index> moving;
+  const Index count = equations.pack(state).size();
+  for (Index i = 0; i < count; ++i)
+    if (!equations.is_wrench(i) && (move_bodies || !equations.is_pose(i))) moving.push_back(i);
   Vector e;
   Matrix J;
   for (int iteration = 0; iteration < 100; ++iteration) {
-    if (!equations.closures(state, e, J)) return false;
+    if (!equations.closures(state, moving, e, J)) return false;
     if (e.lpNorm<Eigen::Infinity>() < 1e-10) return true;
+    if (moving.empty()) return false;
     Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J);
     decomposition.setThreshold(1e-9);
     Vector step = -decomposition.solve(e);
@@ -119,8 +145,7 @@ bool assemble(Equations& equations, State& state) {
     if (!(length > 0) || !std::isfinite(length)) return false;
     if (length > longest) step *= longest / length;
     Vector y = equations.pack(state);
-    for (Index i = 0, k = 0; i < y.size(); ++i)
-      if (!equations.is_wrench(i)) y[i] += step[k++];
+    for (std::size_t k = 0; k < moving.size(); ++k) y[moving[k]] += step[static_cast<Index>(k)];
     equations.unpack(y, state);
   }
   return false;
@@ -199,7 +224,11 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
   for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {
     State state = guess;
     if (result.attempts > 1) perturb(equations, state, result.attempts - 1, random);
-    const bool assembled = assemble(equations, state);
+    // A guessed pose is worth more than guessed joint coordinates: keep it if the chains reach it.
+    State kept = state;
+    const bool reached = assemble(equations, false, kept);
+    if (reached) state = kept;
+    const bool assembled = reached || assemble(equations, true, state);
     if (assembled) result.status = StartStatus::no_equilibrium;
     estimate_wrenches(equations, state);
     State trial = state;
@@ -218,7 +247,7 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     result.residual = polish(equations, state, result.iterations);
     result.z = state.z;
     result.inputs = state.inputs;
-    if (result.residual <= 1e-12 * std::max(1.0, state.z.lpNorm<Eigen::Infinity>())) {
+    if (equations.solved(state, 1e-12)) {
       result.status = StartStatus::found;
       break;
     }

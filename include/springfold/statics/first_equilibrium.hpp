@@ -44,9 +44,9 @@ struct FirstEquilibrium {
   std::vector<int> chain_iterations{};  ///< paper's iteration: of every chain, last sweep
 };
 
-/// Closes the chains by damped minimum-norm Newton steps, then solves the equilibrium with KINSOL
-/// (Newton with line search, exact matrix), then corrects to full precision. If that fails, again
-/// from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
+/// Closes the chains by damped minimum-norm Newton steps, at the guessed poses if they reach them,
+/// then solves the equilibrium with KINSOL (Newton with line search, exact matrix), then corrects
+/// to full precision. If that fails, again from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
 /// order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
