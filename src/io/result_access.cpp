@@ -75,6 +75,7 @@ bool has_two_sides(const analysis::Event& event) {
     case EventKind::limit_point:
     case EventKind::branch_point:
     case EventKind::kinematic_singularity:
+    case EventKind::touch:
     case EventKind::user_value:
     case EventKind::end_of_range:
     case EventKind::unresolved:
