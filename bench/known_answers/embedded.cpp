@@ -40,8 +40,7 @@ Vector Embedded::embed(const Vector& z) const {
   Vector zw(n_);
   zw.head(k_) = z;
   for (Index i = 0; i < n_ - k_; ++i)
-    zw[k_ + i] =
-        amplitude_[i] * std::sin(frequency_[i] * z[follows_[static_cast<std::size_t>(i)]]);
+    zw[k_ + i] = amplitude_[i] * std::sin(frequency_[i] * z[follows_[static_cast<std::size_t>(i)]]);
   return to_q_ * zw;
 }
 

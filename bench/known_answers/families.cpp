@@ -74,7 +74,8 @@ Base springs_to_point(std::vector<Vector> anchors, double k, double l0, Vector l
               const double l = d.norm();
               if (!(l > 0)) return false;
               F += k * (1 - l0 / l) * d;
-              H += k * (1 - l0 / l) * Matrix::Identity(n, n) + k * l0 / (l * l * l) * d * d.transpose();
+              H += k * (1 - l0 / l) * Matrix::Identity(n, n) +
+                   k * l0 / (l * l * l) * d * d.transpose();
             }
             return true;
           }};
@@ -97,8 +98,7 @@ Draw fold_ladder(std::mt19937_64& random) {
     for (int m = 0; m < multiplicity.back(); ++m) slope = times_root(slope, a);
   }
   std::vector<double> p{0};
-  for (std::size_t i = 0; i < slope.size(); ++i)
-    p.push_back(slope[i] / static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < slope.size(); ++i) p.push_back(slope[i] / static_cast<double>(i + 1));
   draw.base = one_unknown([p, slope](double x, double lambda, double& F, double& F_x, double& F_l) {
     F = polynomial(p, x) - lambda;
     F_x = polynomial(slope, x);
@@ -164,11 +164,11 @@ Draw pitchfork(std::mt19937_64& random) {
     const double sign = (kind == 1) == (eta > 0) ? -1 : 1;
     draw.z_start = scalar(sign * uniform(random, 0.8, 0.95));
     draw.lambda_start = curve(draw.z_start[0]);
-    if (kind == 2)
-      draw.answers.push_back({AnswerKind::fold, l0 + 3 * fold * fold, scalar(fold)});
+    if (kind == 2) draw.answers.push_back({AnswerKind::fold, l0 + 3 * fold * fold, scalar(fold)});
   }
   draw.on_curve = [=](const Vector& z, double) {
-    return kind == 0 ? std::abs(z[0]) < 1e-9 : (z[0] > 0) == ((kind == 1) == (eta > 0) ? false : true);
+    return kind == 0 ? std::abs(z[0]) < 1e-9
+                     : (z[0] > 0) == ((kind == 1) == (eta > 0) ? false : true);
   };
   return draw;
 }
@@ -234,7 +234,8 @@ Draw n_pod_dome(std::mt19937_64& random) {
   const auto load = [=](double z) { return N * k * z * (L0 / std::hypot(R, z) - 1); };
   const double L_fold = std::cbrt(L0 * R * R), z_fold = std::sqrt(L_fold * L_fold - R * R);
   std::vector<std::pair<double, int>> places{{z_fold, 0}};
-  for (const double L : roots([=](double l) { return l * l * l - L0 * l * l + L0 * R * R / 2; }, R, L0))
+  for (const double L :
+       roots([=](double l) { return l * l * l - L0 * l * l + L0 * R * R / 2; }, R, L0))
     places.push_back({std::sqrt(L * L - R * R), 2});
   for (const auto& [z, multiplicity] : places)
     for (const double sign : {1.0, -1.0})
@@ -296,11 +297,13 @@ Draw link_column(std::mt19937_64& random) {
   draw.lambda_low = -0.1 * k / L, draw.lambda_high = 4.2 * k / L;
   draw.size = 4 * k / L;
   for (Index j = 1; j <= n; ++j) {
-    const double s = std::sin((2.0 * static_cast<double>(j) - 1) * pi / (4.0 * static_cast<double>(n) + 2));
+    const double s =
+        std::sin((2.0 * static_cast<double>(j) - 1) * pi / (4.0 * static_cast<double>(n) + 2));
     draw.answers.push_back({AnswerKind::branch_point, 4 * s * s * k / L, Vector::Zero(n)});
   }
   for (std::size_t i = 1; i < draw.answers.size(); ++i)
-    draw.gap = std::min(draw.gap, (draw.answers[i].lambda - draw.answers[i - 1].lambda) / draw.size);
+    draw.gap =
+        std::min(draw.gap, (draw.answers[i].lambda - draw.answers[i - 1].lambda) / draw.size);
   return draw;
 }
 
@@ -318,8 +321,8 @@ Draw trammel(std::mt19937_64& random) {
   draw.size = 3;
   const double fold = std::acos(std::cbrt(c0));
   for (const double sign : {1.0, -1.0})
-    draw.answers.push_back({AnswerKind::fold, sign * k * (std::cos(fold) - c0) * std::tan(fold),
-                            scalar(sign * fold)});
+    draw.answers.push_back(
+        {AnswerKind::fold, sign * k * (std::cos(fold) - c0) * std::tan(fold), scalar(sign * fold)});
   draw.gap = 2 * fold / draw.size;
   return draw;
 }

@@ -51,7 +51,7 @@ class Embedded {
   bool derivatives(const Vector& q, double lambda, Matrix& dF_dq, Vector& dF_dlambda) const;
   bool symmetric() const { return true; }
 
-  Vector embed(const Vector& z) const;      ///< q of a point with w_i = g_i(z)
+  Vector embed(const Vector& z) const;       ///< q of a point with w_i = g_i(z)
   Vector base_point(const Vector& q) const;  ///< z of q
   Index negative_extra() const { return negative_extra_; }
 

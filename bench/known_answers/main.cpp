@@ -65,10 +65,22 @@ void run(const Draw& draw, Index n, std::mt19937_64& random, long number, Tally&
     const Curve curve = trace(problem, x, draw.lambda_start, ray, events, options);
     if (curve.stop != continuation::StopReason::event) ++refused;
     if (std::getenv("KA_VERBOSE")) {
-      std::printf("stop %s %s points %zu\n", std::string(to_string(curve.stop)).c_str(), curve.stop_detail.c_str(), curve.points.size());
-      for (const auto& hit : curve.hits) { const Vector z = problem.base_point(hit.point.x); std::printf("  hit %d %s m=%d s=%.10g lambda=%.12g z=%.12g %.3g\n", (int)hit.kind, hit.name.c_str(), hit.multiplicity, hit.point.s, hit.point.lambda, z[0], z.norm()); }
-      for (std::size_t i = curve.log.size() > 12 ? curve.log.size() - 12 : 0; i < curve.log.size(); ++i) std::printf("  log s=%.8g ds=%.3g %s\n", curve.log[i].s, curve.log[i].step, curve.log[i].reason.c_str());
-      for (const auto& a : draw.answers) std::printf("  answer %d m=%d lambda=%.12g z=%.12g\n", (int)a.kind, a.multiplicity, a.lambda, a.z[0]);
+      std::printf("stop %s %s points %zu\n", std::string(to_string(curve.stop)).c_str(),
+                  curve.stop_detail.c_str(), curve.points.size());
+      for (const auto& hit : curve.hits) {
+        const Vector z = problem.base_point(hit.point.x);
+        std::printf("  hit %d %s m=%d s=%.10g lambda=%.12g z=%.12g %.3g\n", (int)hit.kind,
+                    hit.name.c_str(), hit.multiplicity, hit.point.s, hit.point.lambda, z[0],
+                    z.norm());
+      }
+      for (std::size_t i =
+               std::getenv("KA_ALL") ? 0 : (curve.log.size() > 12 ? curve.log.size() - 12 : 0);
+           i < curve.log.size(); ++i)
+        std::printf("  log s=%.8g ds=%.3g %s\n", curve.log[i].s, curve.log[i].step,
+                    curve.log[i].reason.c_str());
+      for (const auto& a : draw.answers)
+        std::printf("  answer %d m=%d lambda=%.12g z=%.12g\n", (int)a.kind, a.multiplicity,
+                    a.lambda, a.z[0]);
     }
     for (const auto& p : curve.points) {
       const Vector z = problem.base_point(p.x);
@@ -120,8 +132,8 @@ int main(int argc, char** argv) {
   const long count = argc > 1 ? std::atol(argv[1]) : 1000;
   const unsigned long long seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   const std::string only = argc > 3 ? argv[3] : "";
-  Draw (*families[])(std::mt19937_64&) = {fold_ladder,    strands,     pitchfork, two_mode, n_pod_dome,
-                                          von_mises_sway, link_column, trammel};
+  Draw (*families[])(std::mt19937_64&) = {fold_ladder, strands,        pitchfork,   two_mode,
+                                          n_pod_dome,  von_mises_sway, link_column, trammel};
   std::map<std::pair<std::string, int>, Tally> tallies;
   for (long i = 0; i < count; ++i) {
     std::mt19937_64 random(seed * 1000003ull + static_cast<unsigned long long>(i));

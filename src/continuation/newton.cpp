@@ -88,9 +88,12 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     const bool small = result.residual_norm <= options.residual_tolerance * scale;
     // What is left to correct: the residual times the size of the inverse matrix that the last
     // correction has shown.
+    const auto left_over = [&] {
+      return result.residual_norm * (result.corrections.back() / before);
+    };
     const bool refined =
-        !result.corrections.empty() && before > 0 &&
-        result.residual_norm * (result.corrections.back() / before) <= refined_step * scale;
+        !result.corrections.empty() &&
+        (result.residual_norm == 0 || (before > 0 && left_over() <= refined_step * scale));
     before = result.residual_norm;
     if (small && refined) {
       result.status = NewtonStatus::converged;

@@ -1,206 +1,125 @@
 #include "singular.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "zeros.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-constexpr double vertical = 1e-10;  // lambda does not change along the curve at all
-constexpr double together = 1e-5;   // arc length within which zeros are examined as one point
+constexpr double vertical = 1e-10;   // lambda does not change along the curve at all
+constexpr double together = 1e-5;    // arc length within which zeros are examined as one point
+constexpr double resolution = 1e-6;  // of features of one function
+constexpr double rounding = 1e-11;   // of a function against its size
 
 double rate_of(const CurvePoint& p) { return p.tangent.dlambda; }
 
-bool crosses(double a, double b) { return (a < 0 && b >= 0) || (a > 0 && b <= 0); }
-
-/// Samples of one step with what is watched on them.
-struct Watched {
-  const Walker& walker;
-  const CurvePoint& from;
-  std::vector<double> ds{};       ///< step length of every sample
-  std::vector<double> rates{};    ///< tangent's lambda-component
-  std::vector<Vector> spectra{};  ///< eigenvalues, if the problem is symmetric
-};
-
+/// A zero of a watched function, as a point of the curve.
 struct Zero {
   CurvePoint point{};
   double before = 0, after = 0;
+  bool touches = false;
 };
 
-/// Extremum of a sampled function that may reach zero without changing sign between the samples:
-/// the parabola through three of them comes close.
-bool may_touch(double f0, double fm, double f1) {
-  if ((f0 < 0) != (fm < 0) || (f0 < 0) != (f1 < 0)) return false;
-  const double a = 2 * (f0 + f1) - 4 * fm, b = 4 * fm - 3 * f0 - f1;
-  if (a == 0) return false;
-  const double t = -b / (2 * a);
-  if (!(t > 0 && t < 1)) return false;
-  const double extremum = f0 + t * (b + t * a);
-  const double least = std::min(std::abs(f0), std::abs(f1));
-  return (extremum < 0) != (f0 < 0) || std::abs(extremum) < 0.1 * least;
-}
-
-/// Stationary point of f near ds by the quartic through five points: error O(h^4).
-std::optional<double> stationary(const std::function<std::optional<double>(double)>& f, double ds,
-                                 double h) {
-  double v[5];
-  for (int i = 0; i < 5; ++i) {
-    const auto value = f(ds + (i - 2) * h);
-    if (!value) return std::nullopt;
-    v[i] = *value;
-  }
-  const double d1 = (v[0] - 8 * v[1] + 8 * v[3] - v[4]) / 12,
-               d2 = (-v[0] + 16 * v[1] - 30 * v[2] + 16 * v[3] - v[4]) / 12;
-  const double d3 = (-v[0] + 2 * v[1] - 2 * v[3] + v[4]) / 2,
-               d4 = v[0] - 4 * v[1] + 6 * v[2] - 4 * v[3] + v[4];
-  double t = 0;
-  for (int i = 0; i < 20; ++i)
-    t -= (d1 + t * (d2 + t * (d3 / 2 + t * d4 / 6))) / (d2 + t * (d3 + t * d4 / 2));
-  return std::abs(t) < 2 ? std::optional<double>(ds + t * h) : std::nullopt;
-}
-
-enum class TouchKind { none, touches, crosses_twice };
-
-struct Touch {
-  TouchKind kind = TouchKind::none;
-  double ds = 0;
+/// One step and the samples on it.
+struct Step {
+  const Walker& walker;
+  const CurvePoint& from;
+  double h = 0;
 };
 
-/// Minimum of |f| on a step on which f keeps its sign at the samples.
-Touch find_touch(const std::function<std::optional<double>(double)>& f, double h, double f0) {
-  const auto size = [&](double ds) {
-    const auto value = f(ds);
-    return value ? (f0 < 0 ? -*value : *value) : 0.0;
+/// Could a function with these samples be zero somewhere on the step? Far from zero, compared with
+/// how much it changes, it could not.
+bool within_reach(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if ((*low < 0) != (*high < 0) || *low == 0 || *high == 0) return true;
+  const double least = std::min(std::abs(*low), std::abs(*high));
+  return least < *high - *low;
+}
+
+/// All zeros of a function of the curve's point on the step.
+/// @param noise  values below this are not told from zero
+bool zeros_of(const Step& step,
+              const std::function<std::optional<double>(const CurvePoint&)>& value,
+              const std::vector<double>& values, double noise, std::vector<Zero>& zeros) {
+  double scale = 0;
+  for (const double v : values) scale = std::max(scale, std::abs(v));
+  const auto f = [&](double ds) -> std::optional<double> {
+    const auto point = point_at(step.walker, step.from, ds);
+    return point ? value(*point) : std::nullopt;
   };
-  std::uintmax_t most = 60;
-  const auto [ds, least] = boost::math::tools::brent_find_minima(size, 0.0, h, 40, most);
-  const double scale = std::max(size(0), size(h));
-  if (least < -1e-11 * scale) return {TouchKind::crosses_twice, ds};
-  if (least > 1e-10 * scale) return {};
-  const auto refined = stationary(f, ds, std::min(2e-3, 0.1 * h));
-  return {TouchKind::touches, refined ? *refined : ds};
+  const ZeroSearch search = find_zeros(f, 0, step.h, std::max(noise, rounding * scale), resolution);
+  for (const ZeroOf& zero : search.zeros) {
+    if (!(zero.at > 0)) continue;  // belongs to the step before
+    auto point = point_at(step.walker, step.from, zero.at);
+    for (const double nudge : {1e-9, 1e-8, 1e-7})  // singular to rounding exactly there
+      if (!point) point = point_at(step.walker, step.from, zero.at + nudge * step.h);
+    if (!point) return false;
+    // A change of sign without a zero: the curve was lost in between.
+    const auto least = value(*point);
+    if (!zero.touches && (!least || std::abs(*least) > 1e-4 * scale)) return false;
+    zeros.push_back({std::move(*point), zero.before, zero.after, zero.touches});
+  }
+  return search.resolved;
 }
 
-Hit hit_at(const Watched& w, HitKind kind, const char* name, CurvePoint point, double before,
+Hit hit_at(const Step& step, HitKind kind, const char* name, CurvePoint point, double before,
            double after, int multiplicity = 1) {
   Hit hit{.kind = kind, .name = name};
   hit.point = std::move(point);
   hit.point.negative.reset();
-  const Direction offset{hit.point.x - w.from.x, hit.point.lambda - w.from.lambda};
-  hit.point.s = w.from.s + metric_product(w.walker.weights, offset, w.from.tangent);
+  const Direction offset{hit.point.x - step.from.x, hit.point.lambda - step.from.lambda};
+  hit.point.s = step.from.s + metric_product(step.walker.weights, offset, step.from.tangent);
   hit.multiplicity = multiplicity;
-  hit.s_before = std::min(w.from.s + before, hit.point.s);
-  hit.s_after = std::max(w.from.s + after, hit.point.s);
+  hit.s_before = std::min(step.from.s + before, hit.point.s);
+  hit.s_after = std::max(step.from.s + after, hit.point.s);
   return hit;
 }
 
-std::optional<CurvePoint> refine(const Walker& walker, const CurvePoint& near, int multiplicity) {
-  return multiplicity == 1 ? refine_branch_point(walker, near)
-                           : refine_multiple_point(walker, near, multiplicity);
+/// The branch point nearby with this many zero eigenvalues, if there is one.
+std::optional<CurvePoint> branch_point_near(const Step& step, const CurvePoint& near, int m) {
+  auto point =
+      m == 1 ? refine_branch_point(step.walker, near) : refine_multiple_point(step.walker, near, m);
+  if (!point) return std::nullopt;
+  const Direction moved{point->x - near.x, point->lambda - near.lambda};
+  if (metric_product(step.walker.weights, moved, moved) > together * together) return std::nullopt;
+  return point;
 }
 
-/// Zeros of the tangent's lambda-component between the samples.
-bool find_turns(const Watched& w, std::vector<Zero>& turns) {
-  for (std::size_t i = 0; i + 1 < w.ds.size(); ++i) {
-    if (std::max(std::abs(w.rates[i]), std::abs(w.rates[i + 1])) <= vertical) continue;
-    if (!crosses(w.rates[i], w.rates[i + 1])) continue;
-    const auto located = locate(w.walker, w.from, w.ds[i], w.ds[i + 1], rate_of);
-    if (!located) return false;
-    turns.push_back({located->point, located->before, located->after});
-  }
-  return true;
-}
-
-/// Zeros of all eigenvalues between the samples.
-bool find_eigenvalue_zeros(const Watched& w, std::vector<Zero>& zeros) {
-  for (std::size_t i = 0; i + 1 < w.spectra.size(); ++i)
-    for (Index k = 0; k < w.spectra[i].size(); ++k) {
-      if (!crosses(w.spectra[i][k], w.spectra[i + 1][k])) continue;
-      const auto zero = eigenvalue_zero(w.walker, w.from, w.ds[i], w.ds[i + 1], k);
-      if (!zero) return false;
-      zeros.push_back({zero->point, zero->before, zero->after});
-    }
-  std::stable_sort(zeros.begin(), zeros.end(),
-                   [](const Zero& a, const Zero& b) { return a.point.s < b.point.s; });
-  return true;
-}
-
-/// A turn without an eigenvalue that changes sign: the branch turns at a branch point.
-bool add_turning_branch_point(const Watched& w, const Zero& turn, SingularPoints& result) {
-  for (const int corank : {1, 2, 3}) {
-    const auto point = refine(w.walker, turn.point, corank);
-    if (!point) continue;
-    const Direction moved{point->x - turn.point.x, point->lambda - turn.point.lambda};
-    if (metric_product(w.walker.weights, moved, moved) > together * together) continue;
-    result.hits.push_back(hit_at(w, HitKind::branch_point, "branch point", *point, turn.before,
-                                 turn.after, std::max(corank, corank_at(w.walker, *point, 1e-9))));
+/// What happens at zeros that lie together: turns of lambda and zeros of eigenvalues.
+bool explain(const Step& step, const std::vector<Zero>& turns, const std::vector<Zero>& eigenvalues,
+             SingularPoints& result) {
+  const Zero& first = turns.empty() ? eigenvalues.front() : turns.front();
+  const double before = first.before, after = first.after;
+  const auto add = [&](HitKind kind, const char* name, const CurvePoint& point, int m = 1) {
+    result.hits.push_back(hit_at(step, kind, name, point, before, after, m));
     return true;
-  }
-  return false;
-}
-
-/// Eigenvalue zeros without a turn: branch points, those close together as one of higher
-/// multiplicity if such a point exists, else one by one.
-bool add_branch_points(const Watched& w, std::vector<Zero> zeros, SingularPoints& result) {
-  while (!zeros.empty()) {
-    const auto end = std::find_if(zeros.begin(), zeros.end(), [&](const Zero& z) {
-      return z.point.s - zeros.front().point.s > together;
-    });
-    const auto m = static_cast<int>(end - zeros.begin());
-    if (m > 1) {
-      const auto point = refine(w.walker, zeros.front().point, m);
-      if (!point) {
-        result.unexplained = m;
-        return false;
-      }
-      result.hits.push_back(hit_at(w, HitKind::branch_point, "branch point", *point,
-                                   zeros.front().before, (end - 1)->after, m));
-    } else {
-      const auto point = refine(w.walker, zeros.front().point, 1);
-      result.hits.push_back(hit_at(w, HitKind::branch_point, "branch point",
-                                   point ? *point : zeros.front().point, zeros.front().before,
-                                   zeros.front().after));
-    }
-    zeros.erase(zeros.begin(), end);
-  }
-  return true;
-}
-
-/// Looks for zeros without change of sign of one watched function.
-bool add_touch(const Watched& w, const std::vector<double>& values,
-               const std::function<double(const CurvePoint&)>& value, SingularPoints& result) {
-  if (values.size() != 3 || !may_touch(values[0], values[1], values[2])) return true;
-  const auto f = [&](double ds) -> std::optional<double> {
-    const auto point = point_at(w.walker, w.from, ds);
-    return point ? std::optional<double>(value(*point)) : std::nullopt;
   };
-  const Touch touch = find_touch(f, w.ds.back(), values[0]);
-  if (touch.kind == TouchKind::none) return true;
-  if (touch.kind == TouchKind::crosses_twice) return false;
-  const auto point = point_at(w.walker, w.from, touch.ds);
-  if (!point) return false;
-  for (const Hit& hit : result.hits)
-    if (std::abs(hit.point.s - point->s) <= together) return true;  // known by another name
-  result.hits.push_back(hit_at(w, HitKind::touch, "touch", *point, 0, w.ds.back()));
-  return true;
-}
-
-Watched watch(const Walker& walker, const std::vector<const CurvePoint*>& samples) {
-  Watched w{walker, *samples.front()};
-  for (const CurvePoint* sample : samples) {
-    w.ds.push_back(sample->s - samples.front()->s);
-    w.rates.push_back(rate_of(*sample));
-    const auto spectrum = walker.problem.symmetric() && walker.options.branch_points
-                              ? spectrum_at(walker, *sample)
-                              : std::nullopt;
-    if (spectrum) w.spectra.push_back(*spectrum);
+  const auto crossing = std::count_if(eigenvalues.begin(), eigenvalues.end(),
+                                      [](const Zero& z) { return !z.touches; });
+  const auto turning =
+      std::count_if(turns.begin(), turns.end(), [](const Zero& z) { return !z.touches; });
+  const int m = std::max<int>(1, static_cast<int>(eigenvalues.size()));
+  // A fold: lambda turns and one eigenvalue passes zero.
+  if (turning == 1 && turns.size() == 1 && eigenvalues.size() <= 1 &&
+      (crossing == 1 || !step.walker.problem.symmetric() || !step.walker.options.branch_points))
+    return add(HitKind::limit_point, "limit point", turns.front().point);
+  // The branch turns at a branch point, or passes one.
+  if (turning == 1 || (turns.empty() && crossing > 0)) {
+    for (int k = m; k <= m + (turning == 1 ? 1 : 0); ++k)
+      if (const auto point = branch_point_near(step, first.point, k))
+        return add(HitKind::branch_point, "branch point", *point,
+                   std::max(k, corank_at(step.walker, *point, 1e-9)));
+    if (m == 1 && turns.empty()) return add(HitKind::branch_point, "branch point", first.point);
+    result.unexplained = static_cast<int>(std::max<long>(1, crossing));
+    return false;
   }
-  if (w.spectra.size() != samples.size()) w.spectra.clear();
-  return w;
+  if (turning == 0 && crossing == 0) return add(HitKind::touch, "touch", first.point, m);
+  result.unexplained = static_cast<int>(std::max<long>(1, crossing));
+  return false;
 }
 
 }  // namespace
@@ -208,46 +127,60 @@ Watched watch(const Walker& walker, const std::vector<const CurvePoint*>& sample
 SingularPoints singular_points(const Walker& walker,
                                const std::vector<const CurvePoint*>& samples) {
   SingularPoints result;
-  const Watched w = watch(walker, samples);
-  std::vector<Zero> turns, zeros;
-  if (walker.options.limit_points && !find_turns(w, turns)) {
-    result.doubt = "a limit point could not be located";
-    return result;
-  }
-  if (!find_eigenvalue_zeros(w, zeros)) {
-    result.doubt = "the number of negative eigenvalues jumps";
-    return result;
-  }
-  for (const Zero& turn : turns) {
-    const auto match = std::find_if(zeros.begin(), zeros.end(), [&](const Zero& z) {
-      return std::abs(z.point.s - turn.point.s) <= together;
-    });
-    if (match != zeros.end() || w.spectra.empty()) {
-      if (match != zeros.end()) zeros.erase(match);
-      result.hits.push_back(
-          hit_at(w, HitKind::limit_point, "limit point", turn.point, turn.before, turn.after));
-    } else if (!add_turning_branch_point(w, turn, result)) {
-      result.doubt = "lambda turns back but no eigenvalue passes zero";
-      return result;
+  const Step step{walker, *samples.front(), samples.back()->s - samples.front()->s};
+  std::vector<Zero> turns, eigenvalues;
+  bool clear = true;
+
+  std::vector<double> rates;
+  for (const CurvePoint* p : samples) rates.push_back(rate_of(*p));
+  const bool moves =
+      std::any_of(rates.begin(), rates.end(), [](double r) { return std::abs(r) > vertical; });
+  if (walker.options.limit_points && moves && within_reach(rates))
+    clear = zeros_of(
+        step, [](const CurvePoint& p) { return std::optional<double>(rate_of(p)); }, rates, 1e-14,
+        turns);
+
+  if (walker.options.branch_points && walker.problem.symmetric()) {
+    std::vector<Vector> spectra;
+    for (const CurvePoint* p : samples)
+      if (auto spectrum = spectrum_at(walker, *p)) spectra.push_back(std::move(*spectrum));
+    for (Index k = 0; spectra.size() == samples.size() && k < spectra.front().size(); ++k) {
+      std::vector<double> values;
+      for (const Vector& spectrum : spectra) values.push_back(spectrum[k]);
+      if (!within_reach(values)) continue;
+      const auto value = [&walker, k](const CurvePoint& p) -> std::optional<double> {
+        const auto spectrum = spectrum_at(walker, p);
+        return spectrum ? std::optional<double>((*spectrum)[k]) : std::nullopt;
+      };
+      const double noise = 1e-14 * spectra.front().cwiseAbs().maxCoeff();
+      clear = zeros_of(step, value, values, noise, eigenvalues) && clear;
     }
   }
-  if (!add_branch_points(w, std::move(zeros), result)) {
-    result.doubt = "several eigenvalues pass zero too close together";
+  if (!clear) {
+    result.doubt = "special points too close together";
     return result;
   }
-  bool clear = !walker.options.limit_points || add_touch(w, w.rates, rate_of, result);
-  for (Index k = 0; !w.spectra.empty() && clear && k < w.spectra.front().size(); ++k) {
-    std::vector<double> values;
-    for (const Vector& spectrum : w.spectra) values.push_back(spectrum[k]);
-    clear = add_touch(
-        w, values,
-        [&walker, k](const CurvePoint& p) {
-          const auto spectrum = spectrum_at(walker, p);
-          return spectrum ? (*spectrum)[k] : 0.0;
-        },
-        result);
+
+  const auto by_place = [](const Zero& a, const Zero& b) { return a.point.s < b.point.s; };
+  std::stable_sort(turns.begin(), turns.end(), by_place);
+  std::stable_sort(eigenvalues.begin(), eigenvalues.end(), by_place);
+  while (!turns.empty() || !eigenvalues.empty()) {
+    double first = std::numeric_limits<double>::infinity();
+    if (!turns.empty()) first = turns.front().point.s;
+    if (!eigenvalues.empty()) first = std::min(first, eigenvalues.front().point.s);
+    const auto take = [first](std::vector<Zero>& list) {
+      std::vector<Zero> taken;
+      while (!list.empty() && list.front().point.s <= first + together) {
+        taken.push_back(std::move(list.front()));
+        list.erase(list.begin());
+      }
+      return taken;
+    };
+    const std::vector<Zero> here_turns = take(turns), here_eigenvalues = take(eigenvalues);
+    if (explain(step, here_turns, here_eigenvalues, result)) continue;
+    result.doubt = "tangent and eigenvalues do not fit together";
+    return result;
   }
-  if (!clear) result.doubt = "something passes zero to and fro";
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "springfold/core/inertia.hpp"
@@ -75,7 +76,7 @@ StepResult try_step(const Walker& walker, const CurvePoint& from, double ds) {
 double next_step_length(double ds, const StepMeasures& m, const StepOptions& options) {
   // turn and deviation grow like ds, the contraction like its square
   const auto room = [&](double limit, double measured) {
-    return measured > 0 ? options.aim * limit / measured : options.growth;
+    return measured > 0 ? options.aim * limit / measured : std::numeric_limits<double>::infinity();
   };
   const double factor =
       std::min({options.growth, room(options.turn, m.turn), room(options.deviation, m.deviation),

@@ -1,0 +1,33 @@
+// All zeros of a smooth function on an interval, close ones and touching ones included. Private to
+// the engine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace springfold::continuation {
+
+struct ZeroOf {
+  double at = 0;
+  double before = 0, after = 0;  ///< bracket
+  bool touches = false;          ///< zero without change of sign
+};
+
+struct ZeroSearch {
+  std::vector<ZeroOf> zeros{};  ///< ascending
+  bool resolved = true;         ///< false: too close together or too rough to tell
+};
+
+/// f may fail (nothing) where its point cannot be computed.
+using SampledFunction = std::function<std::optional<double>(double)>;
+
+/// Samples f at nine points, interpolates, and looks where the interpolant is zero or stationary
+/// close to zero. Features that lie closer together than a tenth of the interval, and intervals on
+/// which the interpolant is not accurate, are examined again on smaller intervals, down to
+/// `resolution`. What is found is located on f itself.
+/// @param noise  values below this are not told from zero
+ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise,
+                      double resolution);
+
+}  // namespace springfold::continuation
