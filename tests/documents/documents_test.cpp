@@ -1,0 +1,136 @@
+// What README and docs promise: examples are the files that run, links lead somewhere.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "springfold/analysis/run.hpp"
+#include "springfold/io/case_file.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+
+const fs::path root{SPRINGFOLD_SOURCE_DIR};
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path}.rdbuf();
+  return text.str();
+}
+
+/// Contains the text, without printing whole documents when it does not.
+bool shows(const fs::path& path, const std::string& text) {
+  return text_of(path).find(text) != std::string::npos;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files{root / "README.md", root / "CHANGELOG.md"};
+  for (const char* folder : {"docs", "cases"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Places of headings as links name them: lower case, spaces as hyphens, no punctuation.
+std::vector<std::string> anchors_of(const std::string& text) {
+  std::vector<std::string> anchors;
+  std::istringstream lines{text};
+  bool in_code = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) in_code = !in_code;
+    const auto title = line.find_first_not_of('#');
+    if (in_code || !line.starts_with('#') || title == std::string::npos || line[title] != ' ')
+      continue;
+    std::string anchor;
+    for (const char c : line.substr(title + 1)) {
+      const auto letter = static_cast<unsigned char>(c);
+      if (c == ' ') anchor += '-';
+      if (letter >= 128 || std::isalnum(letter) || c == '-' || c == '_')
+        anchor += static_cast<char>(letter < 128 ? std::tolower(letter) : letter);
+    }
+    anchors.push_back(anchor);
+  }
+  return anchors;
+}
+
+/// Links of a document to other files of the source tree that lead nowhere.
+std::vector<std::string> broken_links(const fs::path& document) {
+  static const std::regex link{R"(\]\(([^)\s#]*)(#[^)\s]*)?\))"};
+  const std::string text = text_of(document);
+  std::vector<std::string> broken;
+  for (std::sregex_iterator match{text.begin(), text.end(), link}, end; match != end; ++match) {
+    const std::string file = (*match)[1], anchor = (*match)[2];
+    if (file.find("://") != std::string::npos) continue;
+    const fs::path target = file.empty() ? document : document.parent_path() / file;
+    const auto anchors = anchor.empty() ? std::vector<std::string>{} : anchors_of(text_of(target));
+    const bool leads_to_a_heading = anchor.empty() || std::find(anchors.begin(), anchors.end(),
+                                                                anchor.substr(1)) != anchors.end();
+    if (!fs::exists(target) || !leads_to_a_heading)
+      broken.push_back(document.lexically_relative(root).string() + ": " + file + anchor);
+  }
+  return broken;
+}
+
+TEST(Documents, LinkOnlyToWhatIsThere) {
+  for (const fs::path& document : documents()) EXPECT_THAT(broken_links(document), IsEmpty());
+}
+
+TEST(Documents, ShowTheFirstCaseAsItIs) {
+  const std::string first = text_of(root / "docs/examples/first.toml");
+  EXPECT_TRUE(shows(root / "README.md", "```toml\n" + first + "```"));
+}
+
+TEST(Documents, ShowTheStrutAsItIsCompiledByThePackageTest) {
+  const std::string strut = text_of(root / "docs/examples/strut.cpp");
+  const std::string printed = text_of(root / "docs/examples/strut.txt");
+  EXPECT_TRUE(shows(root / "docs/continuation.md", "```cpp\n" + strut + "```"));
+  EXPECT_TRUE(shows(root / "docs/continuation.md", "```text\n" + printed + "```"));
+  EXPECT_TRUE(shows(root / "tests/package/CMakeLists.txt", "examples/strut.cpp"));
+}
+
+TEST(FirstCase, GivesTheNumbersThatTheReadmeShows) {
+  const io::Case first = io::load_case(root / "docs/examples/first.toml");
+  ASSERT_EQ(first.runs.size(), 1u);
+
+  const auto result = analysis::run_study(first.runs[0].mechanism, first.runs[0].plan);
+
+  ASSERT_TRUE(complete(result));
+  const auto column = [&](const std::string& name) {
+    const auto q = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                [&](const auto& quantity) { return quantity.name == name; });
+    return static_cast<std::size_t>(q - result.quantities.begin());
+  };
+  const analysis::Branch& branch = result.branches.front();
+  std::vector<std::string> labels;
+  for (const auto& event : branch.events) labels.push_back(event.label);
+  ASSERT_THAT(labels, testing::ElementsAre("EP1", "LP1", "LP2", "EP2"));
+  const auto at = [&](std::size_t event, const std::string& name) {
+    return branch.samples[branch.events[event].row].values[column(name)];
+  };
+  EXPECT_NEAR(at(1, "force"), 0.027008033908, 1e-11);
+  EXPECT_NEAR(at(2, "force"), 0.000837559006, 1e-11);
+  EXPECT_NEAR(at(1, "deflection"), 0.20587635, 1e-8);
+  const auto& start = branch.samples[branch.start_row].values;
+  EXPECT_NEAR(start[column("leg_x.drive.rho")], 1.355785385, 1e-9);
+
+  const std::size_t between = branch.events[1].row + 2;
+  ASSERT_LT(between, branch.events[2].row);
+  EXPECT_EQ(branch.samples[between].values[column("index")], 0);
+  EXPECT_EQ(branch.samples[between].values[column("index_force")], 1);
+
+  std::istringstream lines{io::summary_table(first, {result})};
+  for (std::string line; std::getline(lines, line);)
+    for (const char* word : {"commands", "eigenvalues", "points", "EP1", "LP1", "LP2", "EP2"})
+      if (line.starts_with(std::string{"    "} + word))
+        EXPECT_TRUE(shows(root / "README.md", line)) << line;
+}
+
+}  // namespace
+}  // namespace springfold
