@@ -9,7 +9,7 @@
 
 part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
 part_kind(part) = part[1:6] eq 'stable' ? 'stable' : \
-                  part[1:6] eq 'driven' ? 'stable only while driven' : 'unstable'
+                  part[1:6] eq 'driven' ? 'unstable under dead load' : 'unstable'
 part_name(part) = strstrt(' '.first_parts.' ', ' '.part.' ') ? part_kind(part) : ''
 
 set lmargin at screen frame_left

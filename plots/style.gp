@@ -13,7 +13,7 @@ unset colorbox
 
 # Colours that stay apart for colour-blind readers and in grey print.
 stable_color = '#0072B2'
-driven_color = '#56B4E9'
+driven_color = '#D55E00'
 unstable_color = '#D55E00'
 ink = '#222222'
 pale = '#D9D9D9'
@@ -27,11 +27,11 @@ point_label_color = ink
 curve_label_font = font_family.',14'
 curve_label_color = ink
 
-# 1 stable, 2 unstable, 6 stable only while driven, 3 grid, 4 line from a label to its point,
+# 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 3 grid, 4 line from a label to its point,
 # 5 axes through zero
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
-set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (10, 6)
-set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (18, 5)
+set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4, 5)
+set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14, 6)
 set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
 set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
