@@ -24,8 +24,8 @@ if (y_low < 0 && y_high > 0) set xzeroaxis linestyle 5
 set title figure_title noenhanced font title_font textcolor rgb ink offset 0, 2.7
 set xlabel x_title noenhanced textcolor rgb ink offset 0, -0.4
 set ylabel y_title noenhanced textcolor rgb ink offset -0.6, 0
-# Up to four entries in a row above the frame; three rows stand closer.
-key_rows = (words(first_parts) + words(point_codes) + 3) / 4
+# Up to three entries in a row above the frame; three rows stand closer.
+key_rows = (words(first_parts) + words(point_codes) + 2) / 3
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
