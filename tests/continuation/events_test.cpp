@@ -1,0 +1,189 @@
+// Events of the caller, ways to end, and what is said when a trace cannot go on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tracing.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const ScalarProblem parabola =
+    graph([](double x) { return x * x; }, [](double x) { return 2 * x; });
+
+Event mark(const std::string& name, double x) {
+  return {name, [x](const CurvePoint& p) { return p.x[0] - x; }};
+}
+
+TEST(Events, AreLocatedToTenDigits) {
+  const Curve curve =
+      follow(strut(0.1), at(0.1, 0, 1, 1), {mark("a", 0.5), mark("b", 1.0), x_reaches(2)});
+  ASSERT_EQ(curve.hits.size(), 3u);
+  EXPECT_EQ(curve.hits[0].name, "a");
+  EXPECT_EQ(curve.hits[1].name, "b");
+  EXPECT_EQ(curve.hits[0].kind, HitKind::user);
+  EXPECT_NEAR(curve.hits[0].point.x[0], 0.5, 1e-12);
+  EXPECT_NEAR(curve.hits[0].point.lambda, 0.834331857173, 1e-12);
+  EXPECT_NEAR(curve.hits[1].point.lambda, 1.069555595200, 1e-12);
+}
+
+TEST(Events, MayStandInAnyNumberInOneStep) {
+  std::vector<Event> events{x_reaches(1)};
+  for (int i = 9; i >= 0; --i) events.push_back(mark(std::to_string(i), 0.5 + 1e-4 * i));
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), events);
+  ASSERT_EQ(curve.hits.size(), 11u);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(curve.hits[static_cast<std::size_t>(i)].name, std::to_string(i));
+    EXPECT_NEAR(curve.hits[static_cast<std::size_t>(i)].point.x[0], 0.5 + 1e-4 * i, 1e-12);
+  }
+}
+
+TEST(Events, ThatOnlyTouchZeroAreNone) {
+  const Event touching{"touch",
+                       [](const CurvePoint& p) { return std::pow(p.x[0] - 0.5, 2) + 1e-12; }};
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), {touching, x_reaches(1)});
+  EXPECT_EQ(curve.hits.size(), 1u);
+}
+
+TEST(Events, AtTheStartBelongToTheStartAndAreNotFoundAgain) {
+  const Curve curve = follow(parabola, at(0.5, 0.25, 1, 0), {mark("start", 0.5), x_reaches(1)});
+  EXPECT_EQ(curve.hits.size(), 1u);
+}
+
+TEST(StopEvents, EndTheCurveExactlyThere) {
+  const Curve curve = follow(strut(0.1), at(0.1, 0, 1, 1), {x_reaches(1), mark("beyond", 1.00001)});
+  EXPECT_EQ(curve.stop, StopReason::event);
+  EXPECT_EQ(curve.stop_detail, "x");
+  ASSERT_EQ(curve.hits.size(), 1u);
+  EXPECT_NEAR(curve.hits[0].point.x[0], 1, 1e-13);
+  for (const CurvePoint& p : curve.points) EXPECT_LT(p.x[0], 1);
+  EXPECT_LE(curve.points.back().s, curve.hits[0].point.s);
+}
+
+TEST(StopEvents, TheFirstOnTheWayCounts) {
+  const Curve curve = follow(strut(0.1), at(0.1, 0, 1, 1),
+                             {x_reaches(0.8001), lambda_reaches(0.5), x_reaches(0.8)});
+  ASSERT_EQ(curve.hits.size(), 1u);
+  EXPECT_EQ(curve.stop_detail, "lambda");
+}
+
+TEST(Ends, AtTheLargestNumberOfPoints) {
+  TraceOptions options;
+  options.maximum_points = 7;
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), {}, options);
+  EXPECT_EQ(curve.stop, StopReason::max_points);
+  EXPECT_EQ(curve.points.size(), 7u);
+}
+
+TEST(Ends, WhereTheObserverSaysSo) {
+  int seen = 0;
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), {}, {},
+                             [&seen](const CurvePoint&) { return ++seen < 5; });
+  EXPECT_EQ(curve.stop, StopReason::observer);
+  EXPECT_EQ(seen, 5);
+  EXPECT_EQ(curve.points.size(), 6u);  // the start and five steps
+}
+
+TEST(Observer, SeesEveryAcceptedPointOnceInItsOrder) {
+  std::vector<double> seen;
+  const Curve curve =
+      follow(parabola, at(0.1, 0.01, 1, 0), {x_reaches(1)}, {}, [&seen](const CurvePoint& p) {
+        seen.push_back(p.s);
+        return true;
+      });
+  ASSERT_EQ(seen.size() + 1, curve.points.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], curve.points[i + 1].s);
+}
+
+/// x = sqrt(1 - lambda): a leg that reaches no further than lambda = 1.
+ScalarProblem reach() {
+  ScalarProblem problem{[](double x, double l) { return x - std::sqrt(1 - l); },
+                        [](double, double) { return 1.0; },
+                        [](double, double l) { return 0.5 / std::sqrt(1 - l); }};
+  problem.inside = [](double, double l) { return l < 1; };
+  return problem;
+}
+
+TEST(Domain, TheTraceComesCloseToItsEndAndSaysWhyItStops) {
+  const Curve curve = follow(reach(), at(1, 0, 0, 1), {});
+  EXPECT_EQ(curve.stop, StopReason::step_too_small);
+  EXPECT_FALSE(curve.stop_detail.empty());
+  EXPECT_GT(curve.points.back().lambda, 1 - 1e-6);
+  EXPECT_LT(curve.points.back().lambda, 1);
+  ASSERT_FALSE(curve.log.empty());
+  EXPECT_EQ(curve.log.back().reason, curve.stop_detail);
+}
+
+TEST(Domain, AStepThatLeavesItIsRefusedWithThatReason) {
+  const Curve curve = follow(reach(), at(1, 0, 0, 1), {});
+  const auto outside = [](const StepNote& note) {
+    return note.reason == to_string(NewtonStatus::outside_domain);
+  };
+  EXPECT_TRUE(std::any_of(curve.log.begin(), curve.log.end(), outside));
+}
+
+TEST(Domain, AStartOutsideHasNoWays) {
+  const Rays rays = rays_from(reach(), Vector::Ones(1), 2, {}, {});
+  EXPECT_TRUE(rays.rays.empty());
+  EXPECT_FALSE(rays.complete);
+  EXPECT_THAT(rays.why, HasSubstr("not defined"));
+}
+
+TEST(Start, HasTwoOppositeWaysOnACurve) {
+  const Rays rays = rays_from(circle(), Vector{{0.6}}, 0.8, {}, {});
+  ASSERT_EQ(rays.rays.size(), 2u);
+  EXPECT_TRUE(rays.complete);
+  EXPECT_NEAR(rays.rays[0].tangent.dlambda + rays.rays[1].tangent.dlambda, 0, 1e-15);
+  EXPECT_NEAR(std::abs(rays.rays[0].tangent.dlambda), 0.6, 1e-15);
+}
+
+TEST(Start, IsNotTakenWhereBranchesCross) {
+  const Rays rays = rays_from(pitchfork(), Vector::Zero(1), 0, {}, {});
+  EXPECT_TRUE(rays.rays.empty());
+  EXPECT_FALSE(rays.complete);
+  EXPECT_THAT(rays.why, HasSubstr("more than one curve"));
+}
+
+TEST(StepLog, TellsWhereAndWhyStepsWereRefused) {
+  TraceOptions options = steps_up_to(1);
+  options.step.initial = 1;
+  const Curve curve = follow(circle(), at(1, 0, 0, 1), {x_reaches(-0.9)}, options);
+  ASSERT_FALSE(curve.log.empty()) << "a step of 1 on the unit circle cannot pass";
+  EXPECT_EQ(curve.log[0].s, 0);
+  EXPECT_EQ(curve.log[0].step, 1);
+  EXPECT_THAT(curve.log[0].reason, Not(testing::IsEmpty()));
+  EXPECT_EQ(curve.log[1].step, 0.5);
+}
+
+TEST(StepLog, RefusedStepsLeaveNoTraceInTheCurve) {
+  TraceOptions options = steps_up_to(1);
+  options.step.initial = 1;
+  const Curve bold = follow(circle(), at(1, 0, 0, 1), {x_reaches(-0.9)}, options);
+  options.step.initial = bold.points[1].s;  // the first length that was accepted
+  const Curve shy = follow(circle(), at(1, 0, 0, 1), {x_reaches(-0.9)}, options);
+  ASSERT_EQ(bold.points.size(), shy.points.size());
+  for (std::size_t i = 0; i < bold.points.size(); ++i) {
+    EXPECT_EQ(bold.points[i].s, shy.points[i].s);
+    EXPECT_EQ(bold.points[i].x, shy.points[i].x);
+    EXPECT_EQ(bold.points[i].lambda, shy.points[i].lambda);
+  }
+}
+
+TEST(StepControl, KeepsWithinItsLimits) {
+  TraceOptions options = steps_up_to(0.03);
+  options.step.turn = 0.02;
+  const Curve curve = follow(fold_ladder(), at(0, 0, 1, 1), {x_reaches(2)}, options);
+  ASSERT_EQ(curve.stop, StopReason::event);
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const CurvePoint &a = curve.points[i - 1], &b = curve.points[i];
+    EXPECT_LE(b.s - a.s, 0.03 * (1 + 1e-12));
+    const double turned = std::acos(
+        std::min(1.0, a.tangent.dx[0] * b.tangent.dx[0] + a.tangent.dlambda * b.tangent.dlambda));
+    EXPECT_LE(turned, 0.02 + 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace springfold::continuation
