@@ -1,140 +1,21 @@
 #include "springfold/analysis/run.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <ctime>
 
 #include "branch_rows.hpp"
+#include "limits.hpp"
+#include "setup.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/inertia.hpp"
-#include "springfold/core/scaling.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 using continuation::CurvePoint;
-
-/// Orthonormal basis of the pose coordinates that stay free beside `direction`.
-Matrix free_directions(ControlMode control, const Vector& direction, Index d) {
-  if (control == ControlMode::pose) return Matrix(d, 0);
-  if (control != ControlMode::mixed) return Matrix::Identity(d, d);
-  const Eigen::HouseholderQR<Matrix> qr(direction);
-  const Matrix Q = qr.householderQ() * Matrix::Identity(d, d);
-  return Q.rightCols(d - 1);
-}
-
-/// Largest rate in units of the scales sets the scale of lambda, again a power of two.
-double lambda_scale_for(const Vector& rate, const Vector& units) {
-  return 1 / power_of_two_near(rate.cwiseQuotient(units).lpNorm<Eigen::Infinity>());
-}
-
-/// A study made dimensionless.
-struct Setup {
-  Scales scales{};
-  double lambda_scale = 1;  ///< physical lambda = lambda_scale * dimensionless lambda
-  double lambda_start = 0;  ///< dimensionless
-  statics::System system{};
-  PathRule rule{};
-};
-
-Vector body_load(const statics::System& system, const Study& study, const Vector& load,
-                 const Scales& scales) {
-  Vector W = Vector::Zero(system.load_size);
-  if (load.size() == 0) return W;
-  const auto b = static_cast<std::size_t>(study.body - 1);
-  W.segment(system.body_slices[b].W, system.body_slices[b].count) =
-      load.cwiseQuotient(wrench_scales(system.mechanism.bodies[b].task_space, scales));
-  return W;
-}
-
-/// Natural size of a parameter: its start value, or the range it is to run through.
-double parameter_scale(const Study& study, double start) {
-  double size = std::abs(start);
-  for (const Limit& limit : study.until)
-    if (limit.quantity == "lambda")
-      for (const double end : {limit.low, limit.high})
-        if (std::isfinite(end) && size == 0) size = std::abs(end);
-  return power_of_two_near(size);
-}
-
-void set_control(const Study& study, const ParameterFamily* family, Setup& setup) {
-  const auto b = static_cast<std::size_t>(study.body - 1);
-  const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
-  const Index d = dimension(space);
-  PathRule& rule = setup.rule;
-  rule.t_rate = Vector::Zero(d);
-  rule.rho_rate = Vector::Zero(setup.system.commands.size());
-  rule.W_rate = Vector::Zero(setup.system.load_size);
-  switch (study.control) {
-    case ControlMode::load: {
-      const Vector units = wrench_scales(space, setup.scales);
-      setup.lambda_scale = lambda_scale_for(study.direction, units);
-      rule.W_rate.segment(setup.system.body_slices[b].W, d) =
-          study.direction.cwiseQuotient(units) * setup.lambda_scale;
-      break;
-    }
-    case ControlMode::pose:
-    case ControlMode::mixed: {
-      const Vector units = pose_scales(space, setup.scales);
-      setup.lambda_scale = lambda_scale_for(study.direction, units);
-      rule.t_rate = study.direction.cwiseQuotient(units) * setup.lambda_scale;
-      break;
-    }
-    case ControlMode::actuator: {
-      Vector rate = Vector::Zero(setup.system.commands.size()), units = Vector::Ones(rate.size());
-      for (Index i = 0; i < rate.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (setup.system.command_is_length[k]) units[i] = setup.scales.length;
-        for (const ActuatorRate& r : study.actuators)
-          if (r.actuator == setup.system.command_names[k]) rate[i] = r.rate;
-      }
-      setup.lambda_scale = lambda_scale_for(rate, units);
-      rule.rho_rate = rate.cwiseQuotient(units) * setup.lambda_scale;
-      break;
-    }
-    case ControlMode::parameter: {
-      assert(family != nullptr);
-      setup.lambda_scale = parameter_scale(study, family->value);
-      setup.lambda_start = family->value / setup.lambda_scale;
-      const Scales scales = setup.scales;
-      const double unit = setup.lambda_scale;
-      rule.family = [family, study, scales, unit](double lambda) {
-        const Situation now = family->at(unit * lambda);
-        statics::System system = statics::prepare(dimensionless(now.mechanism, scales));
-        Vector W = body_load(system, study, now.constant_load, scales);
-        return std::pair{std::move(system), std::move(W)};
-      };
-      break;
-    }
-  }
-}
-
-Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family) {
-  Setup setup;
-  setup.scales = scales_for(mechanism, study.constant_load);
-  setup.system = statics::prepare(dimensionless(mechanism, setup.scales));
-  const auto b = static_cast<std::size_t>(study.body - 1);
-  const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
-  setup.rule.body = study.body;
-  setup.rule.W_start = body_load(setup.system, study, study.constant_load, setup.scales);
-  if (study.kind == StudyKind::force_deflection) {
-    set_control(study, family, setup);
-  } else {
-    setup.rule.t_rate = Vector::Zero(dimension(space));
-    setup.rule.rho_rate = Vector::Zero(setup.system.commands.size());
-    setup.rule.W_rate = Vector::Zero(setup.system.load_size);
-  }
-  const ControlMode free = study.kind == StudyKind::equilibrium ? ControlMode::load : study.control;
-  setup.rule.N = free_directions(free, study.direction, dimension(space));
-  if (space == model::TaskSpace::spatial)
-    for (const Vector* load : {&setup.rule.W_start, &setup.rule.W_rate})
-      if (!load->segment(setup.system.body_slices[b].W + 3, 3).isZero(0))
-        setup.rule.symmetric = false;
-  return setup;
-}
 
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study) {
   statics::StartProblem problem;
@@ -171,6 +52,8 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
   report.method = study.start.solver == StartSolver::newton
                       ? "globalised Newton (KINSOL), then exact Newton"
                       : "fixed-point iteration of paper eq. (6)";
+  if (report.found && first.attempts > 1)
+    report.method += ", from a perturbed guess: see whether this is the equilibrium you mean";
   report.attempts = first.attempts;
   report.iterations = first.iterations;
   report.chain_iterations = first.chain_iterations;
@@ -191,38 +74,6 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
       break;
   }
   return report;
-}
-
-/// Limits and marks as events of the engine.
-std::vector<continuation::Event> events_of(const Study& study, const Evaluator& evaluator,
-                                           const std::vector<QuantityDefinition>& quantities) {
-  std::vector<continuation::Event> events;
-  const auto add = [&](const std::string& name, double value, continuation::EventAction action,
-                       std::string label) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == name; });
-    assert(q != quantities.end());
-    events.push_back({std::move(label),
-                      [&evaluator, definition = *q, value](const CurvePoint& point) {
-                        return evaluator.value(definition, point) - value;
-                      },
-                      action});
-  };
-  if (study.control == ControlMode::pose || study.control == ControlMode::mixed)
-    events.push_back({force_limit,
-                      [&evaluator](const CurvePoint& point) { return evaluator.force_rate(point); },
-                      continuation::EventAction::record});
-  for (const Limit& limit : study.until) {
-    if (std::isfinite(limit.low))
-      add(limit.quantity, limit.low, continuation::EventAction::stop,
-          limit.quantity + " reaches its lower limit");
-    if (std::isfinite(limit.high))
-      add(limit.quantity, limit.high, continuation::EventAction::stop,
-          limit.quantity + " reaches its upper limit");
-  }
-  for (const Mark& mark : study.marks)
-    add(mark.quantity, mark.value, continuation::EventAction::record, mark.quantity);
-  return events;
 }
 
 continuation::TraceOptions options_of(const TraceSettings& settings) {
@@ -260,10 +111,12 @@ Branch trace_both_ways(const PathProblem& problem, const CurvePoint& start, cons
       return !observer || observer(points, sign * point.s);
     };
   };
-  const auto forward =
-      trace(problem, start.x, start.lambda, rays.rays[0], events, options, observe(1));
-  const auto backward =
-      trace(problem, start.x, start.lambda, rays.rays[1], events, options, observe(-1));
+  const auto follow = [&](const continuation::Ray& ray, double sign) {
+    auto ended = ended_at_start(study, evaluator, quantities, start, ray);
+    return ended ? *ended
+                 : trace(problem, start.x, start.lambda, ray, events, options, observe(sign));
+  };
+  const continuation::Curve forward = follow(rays.rays[0], 1), backward = follow(rays.rays[1], -1);
   return join(backward, forward, evaluator, quantities, problem);
 }
 

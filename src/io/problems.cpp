@@ -66,11 +66,17 @@ std::string nearest(std::string_view got, const std::vector<std::string>& known)
   const auto difference = [&got](const std::string& name) {
     return std::max(got.size(), name.size()) - std::min(got.size(), name.size());
   };
+  // Words that begin alike, "studies" and "study", may differ by one letter more.
+  const auto begins_alike = [&got](const std::string& name) {
+    constexpr std::size_t letters = 4;
+    return name.size() >= letters && got.substr(0, letters) == name.substr(0, letters);
+  };
   std::string best;
-  std::pair least{most + 1, std::size_t{0}};
+  std::pair least{most + 2, std::size_t{0}};
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(got, candidate);
     if (distance >= std::max(got.size(), candidate.size())) continue;
+    if (distance > most + (begins_alike(candidate) ? 1 : 0)) continue;
     const std::pair rank{distance, difference(candidate)};
     if (rank >= least) continue;
     least = rank;

@@ -121,7 +121,7 @@ std::string syntax_message(const toml::parse_error& error) {
   for (char& c : what)
     if (c == '\n' || c == '\r') c = ' ';
   const auto says = [&what](const char* words) { return what.find(words) != std::string::npos; };
-  if (says("could not determine value type"))
+  if (says("could not determine value type") || says("while parsing boolean"))
     what += "; text and formulas stand in quotes: \"2*L\"";
   else if (says("inline table") && says("\\n"))
     what += "; what stands in { } stays on one line";

@@ -1,0 +1,24 @@
+// Limits and marks of a study on a path. Private to analysis.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "quantities.hpp"
+#include "springfold/continuation/kink.hpp"
+
+namespace springfold::analysis {
+
+/// Limits and marks as events of the engine; under displacement control also the extrema of the
+/// force. The evaluator must outlive them.
+std::vector<continuation::Event> events_of(const Study& study, const Evaluator& evaluator,
+                                           const std::vector<QuantityDefinition>& quantities);
+
+/// The curve in a direction in which a limit ends it already at the start, because the start is
+/// outside of the range or on its edge and the direction leads out; otherwise nothing.
+std::optional<continuation::Curve> ended_at_start(const Study& study, const Evaluator& evaluator,
+                                                  const std::vector<QuantityDefinition>& quantities,
+                                                  const continuation::CurvePoint& start,
+                                                  const continuation::Ray& ray);
+
+}  // namespace springfold::analysis
