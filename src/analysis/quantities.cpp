@@ -191,7 +191,10 @@ std::optional<Evaluator::Assembled> Evaluator::assemble(
                           at.A))
     return std::nullopt;
   at.platform = statics::platform_stiffness(system, at.A);
-  at.stability = statics::stability(system, at.A);
+  if (problem_.symmetric())
+    at.stability = statics::stability(system, at.A);
+  else
+    at.platform.eigenvalues.resize(0);  // counts and signs mean nothing without a potential
   return at;
 }
 

@@ -33,7 +33,10 @@ std::string code_of(EventKind kind) {
 bool complete(const StudyResult& result) {
   return result.start.found &&
          std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
-           return branch.backward.complete && branch.forward.complete;
+           return branch.backward.complete && branch.forward.complete &&
+                  std::none_of(branch.events.begin(), branch.events.end(), [](const Event& event) {
+                    return event.kind == EventKind::unresolved;
+                  });
          });
 }
 

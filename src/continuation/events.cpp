@@ -1,39 +1,50 @@
 #include "events.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "singular.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "zeros.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-/// Half-open: a zero at `to` belongs to this step, one at `from` to the step before.
-bool crosses(double at_from, double at_to) {
-  return (at_from < 0 && at_to >= 0) || (at_from > 0 && at_to <= 0);
-}
 
 struct Found {
   Hit hit{};
   bool stops = false;
 };
 
-/// Zeros of the caller's event between the samples.
+/// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
+/// the step before; zeros without change of sign do not count.
 bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& samples,
                     const Event& event, std::vector<Found>& found) {
   const CurvePoint& from = *samples.front();
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    if (!crosses(event.value(*samples[i]), event.value(*samples[i + 1]))) continue;
-    const auto located =
-        locate(walker, from, samples[i]->s - from.s, samples[i + 1]->s - from.s, event.value);
-    if (!located) return false;
+  const double h = samples.back()->s - from.s;
+  std::vector<double> values;
+  double scale = 0;
+  for (const CurvePoint* sample : samples) {
+    values.push_back(event.value(*sample));
+    scale = std::max(scale, std::abs(values.back()));
+  }
+  if (!within_reach(values)) return true;
+  const auto value = [&](double ds) -> std::optional<double> {
+    const auto point = point_at(walker, from, ds);
+    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
+  };
+  constexpr double rounding = 1e-14, resolution = 1e-9;
+  const ZeroSearch search = find_zeros(value, 0, h, rounding * scale, resolution * h);
+  for (const ZeroOf& zero : search.zeros) {
+    if (zero.touches || !(zero.at > 1e-13 * h)) continue;
+    auto point = point_at(walker, from, zero.at);
+    if (!point) return false;
     Hit hit{.kind = HitKind::user, .name = event.name};
-    hit.point = located->point;
-    hit.s_before = from.s + located->before;
-    hit.s_after = from.s + located->after;
+    hit.point = std::move(*point);
+    hit.s_before = from.s + zero.before;
+    hit.s_after = from.s + zero.after;
     found.push_back({std::move(hit), event.action == EventAction::stop});
   }
-  return true;
+  return search.resolved;
 }
 
 }  // namespace

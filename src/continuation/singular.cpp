@@ -31,15 +31,6 @@ struct Step {
   double h = 0;
 };
 
-/// Could a function with these samples be zero somewhere on the step? Far from zero, compared with
-/// how much it changes, it could not.
-bool within_reach(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  if ((*low < 0) != (*high < 0) || *low == 0 || *high == 0) return true;
-  const double least = std::min(std::abs(*low), std::abs(*high));
-  return least < *high - *low;
-}
-
 /// All zeros of a function of the curve's point on the step.
 /// @param noise  values below this are not told from zero
 bool zeros_of(const Step& step,

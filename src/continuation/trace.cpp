@@ -80,6 +80,27 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   return Outcome::go_on;
 }
 
+/// Steps are not shortened below this to separate special points; what is left is one cluster.
+constexpr double unresolved_length = 1e-6;
+
+/// Neighbouring unresolved steps are one cluster with its total multiplicity.
+void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,
+                    Curve& curve) {
+  const int count = std::max(1, found.unexplained);
+  if (!curve.hits.empty() && curve.hits.back().kind == HitKind::unresolved &&
+      from.s - curve.hits.back().s_after < 1000 * unresolved_length) {
+    curve.hits.back().s_after = to.s;
+    curve.hits.back().multiplicity += count;
+    return;
+  }
+  Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
+  hit.point = to;
+  hit.multiplicity = count;
+  hit.s_before = from.s;
+  hit.s_after = to.s;
+  curve.hits.push_back(std::move(hit));
+}
+
 /// One step: predict, correct, look for switching surfaces and events, record.
 Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress& progress,
                 Curve& curve, std::string& refusal) {
@@ -108,13 +129,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   StepEvents found = events_on_step(walker, progress.here, end, middle, events);
   if (!found.doubt.empty()) {
     refusal = found.doubt;
-    if (progress.ds > 2 * walker.options.step.minimum) return Outcome::shorten;
-    Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
-    hit.point = end;
-    hit.multiplicity = std::max(1, found.unexplained);
-    hit.s_before = progress.here.s;
-    hit.s_after = end.s;
-    curve.hits.push_back(std::move(hit));
+    if (progress.ds > unresolved_length) return Outcome::shorten;
+    add_unresolved(progress.here, end, found, curve);
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
     const bool stops = found.stops[i];
@@ -132,7 +148,10 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   progress.here = std::move(*step.point);
   progress.left.clear();
   curve.points.push_back(progress.here);
-  progress.ds = next_step_length(progress.ds, step.measures, walker.options.step);
+  // Past something unresolved the next step gets away from it.
+  progress.ds = found.doubt.empty()
+                    ? next_step_length(progress.ds, step.measures, walker.options.step)
+                    : std::min(100 * unresolved_length, walker.options.step.maximum);
   return Outcome::go_on;
 }
 

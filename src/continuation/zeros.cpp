@@ -204,6 +204,12 @@ class Search {
 
 }  // namespace
 
+bool within_reach(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if ((*low < 0) != (*high < 0) || *low == 0 || *high == 0) return true;
+  return std::min(std::abs(*low), std::abs(*high)) < *high - *low;
+}
+
 ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise,
                       double resolution) {
   Search search(f, noise, resolution);

@@ -19,6 +19,10 @@ struct ZeroSearch {
   bool resolved = true;         ///< false: too close together or too rough to tell
 };
 
+/// Could a function with these samples be zero between them? Far from zero, compared with how much it
+/// changes, it could not.
+bool within_reach(const std::vector<double>& values);
+
 /// f may fail (nothing) where its point cannot be computed.
 using SampledFunction = std::function<std::optional<double>(double)>;
 

@@ -108,7 +108,7 @@ struct StudyResult {
   double seconds = 0;              ///< CPU time used; never part of reproducible output
 };
 
-/// All branches complete and the start found.
+/// The start found, all branches complete and nothing on them unresolved.
 bool complete(const StudyResult& result);
 
 }  // namespace springfold::analysis
