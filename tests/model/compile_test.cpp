@@ -149,10 +149,12 @@ TEST(Compile, AChainWalkedBackwardsHasTheSameGap) {
     v << t, c;
     evaluate_closure<double>(backward, v, nullptr, back);
     EXPECT_NEAR(there.e.tail(3).norm(), back.e.tail(3).norm(), 1e-12);
-    // The body's origin lies off the chain's end as the base's origin lies off the other end.
-    const Mat3<double> R_body = exp_rotation<double>(Vec3<double>(t.tail(3)));
-    const Pose<double> end = end_of(forward, c);
-    EXPECT_LT((R_body * end.R.transpose() * there.e.head(3) + back.e.head(3)).norm(), 1e-12);
+    // Forward the chain's end p is compared with the body's origin t, backward the base's origin
+    // with t - E^T p, where E turns the body into the chain's end.
+    const Mat3<double> E =
+        end_of(forward, c).R * exp_rotation<double>(Vec3<double>(t.tail(3))).transpose();
+    const Vec3<double> p = there.e.head(3) + t.head(3);
+    EXPECT_LT((back.e.head(3) - (t.head(3) - E.transpose() * p)).norm(), 1e-12);
   }
 }
 
