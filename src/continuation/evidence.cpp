@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "words.hpp"
 
@@ -50,6 +51,14 @@ double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint&
   return length(walker.weights, off);
 }
 
+/// Errors that residuals at rounding level leave where dF/dx is nearly singular.
+double corrector_noise(const Walker& walker, const CurvePoint& point) {
+  const auto spectrum = walker.problem.symmetric() ? spectrum_at(walker, point) : std::nullopt;
+  if (!spectrum || spectrum->size() == 0) return 0;
+  const double least = spectrum->cwiseAbs().minCoeff(), scale = std::max(1.0, point.x.norm());
+  return least > 0 ? 1e-13 * scale / least : 1;
+}
+
 }  // namespace
 
 Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
@@ -70,7 +79,8 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     d.dlambda -= along * from.tangent.dlambda;
     return length(walker.weights, d);
   };
-  constexpr double share = 0.1, noise = 1e-11;
+  constexpr double share = 0.1;
+  const double noise = 1e-11 + corrector_noise(walker, middle);
   const double off = off_cubic(walker, from, to, middle);
   const double allowed = share * std::max(bend(middle), 0.25 * bend(to)) + noise;
   if (off > allowed) {

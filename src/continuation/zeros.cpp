@@ -6,6 +6,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace springfold::continuation {
 namespace {
@@ -119,6 +120,7 @@ class Search {
       : f_{f}, noise_{noise}, resolution_{resolution} {}
 
   ZeroSearch result{};
+  std::vector<std::pair<double, double>> suspects{};  ///< rough there, near zero, same signs
 
   void examine(double a, double b, int depth) {
     const auto p = interpolate(f_, a, b);
@@ -154,8 +156,9 @@ class Search {
   /// have kinks where several vanish together); without one, values near zero stay unexplained.
   void last_resort(double a, double b) {
     const auto fa = f_(a), fb = f_(b);
-    if (fa && fb && (*fa < 0) != (*fb < 0)) return add_crossing(a, b);
-    give_up();
+    if (!fa || !fb) return give_up();
+    if ((*fa < 0) != (*fb < 0)) return add_crossing(a, b);
+    suspects.emplace_back(a, b);
   }
 
   void examine_again(double a, double b, int depth) {
@@ -216,6 +219,13 @@ ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise
   search.examine(a, b, 0);
   auto& zeros = search.result.zeros;
   std::sort(zeros.begin(), zeros.end(), [](const auto& l, const auto& r) { return l.at < r.at; });
+  // Roughness beside a crossing is that crossing's kink; elsewhere it may hide a zero.
+  for (const auto& [left, right] : search.suspects) {
+    const bool beside = std::any_of(zeros.begin(), zeros.end(), [&](const ZeroOf& zero) {
+      return zero.at > left - 4 * resolution && zero.at < right + 4 * resolution;
+    });
+    search.result.resolved = search.result.resolved && beside;
+  }
   return search.result;
 }
 
