@@ -122,15 +122,35 @@ struct Candidate {
   double badness = std::numeric_limits<double>::infinity();
 };
 
+double gap_between(const Box& box, const std::vector<PlotPoint>& points) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& point : points) nearest = std::min(nearest, distance(box.nearest(point), point));
+  return nearest;
+}
+
+/// How much nearer the text is to another curve than to the one that it names.
+double misleading(const Scene& scene, const Box& box, std::size_t own) {
+  double nearest_other = std::numeric_limits<double>::infinity();
+  for (std::size_t other = 0; other < scene.curves.size(); ++other)
+    if (other != own)
+      nearest_other = std::min(nearest_other, gap_between(box, scene.curves[other]));
+  return 1.5 * std::max(0.0, gap_between(box, scene.curves[own]) - nearest_other);
+}
+
+/// Curve that a text names; none for a special point.
+using Owner = std::optional<std::size_t>;
+
 /// Keeps the better one; the earlier one when both are as good.
-void consider(Candidate& best, const Scene& scene, Box box, const PlotPoint& anchor, double extra) {
-  const double value = badness(scene, box) + extra;
+void consider(Candidate& best, const Scene& scene, const Box& box, const PlotPoint& anchor,
+              double extra, Owner owner) {
+  double value = badness(scene, box) + extra;
+  if (owner && value < best.badness) value += misleading(scene, box, *owner);
   if (value < best.badness) best = {box, anchor, value};
 }
 
 /// Tries places around the anchor, `gap` pixels between it and the text.
 void try_around(Candidate& best, const Scene& scene, Box box, const PlotPoint& anchor, double gap,
-                double extra) {
+                double extra, Owner owner = std::nullopt) {
   // Above and to the right first: where readers look first.
   constexpr std::array<double, 12> eighths = {1, 2, 0, 7, 3, 6, 4, 5, 0.5, 1.5, 2.5, 6.5};
   for (std::size_t i = 0; i < eighths.size(); ++i) {
@@ -139,7 +159,7 @@ void try_around(Candidate& best, const Scene& scene, Box box, const PlotPoint& a
     const double larger = std::max(std::abs(c), std::abs(s));  // along the sides of a rectangle
     box.centre = {anchor.first + box.half_width * c / larger + gap * c,
                   anchor.second + box.half_height * s / larger + gap * s};
-    consider(best, scene, box, anchor, extra + 0.01 * static_cast<double>(i));
+    consider(best, scene, box, anchor, extra + 0.01 * static_cast<double>(i), owner);
   }
 }
 
@@ -168,12 +188,6 @@ Candidate place_of_mark(const Scene& scene, const Box& box, const PlotPoint& anc
   return best;
 }
 
-double distance_to(const std::vector<PlotPoint>& points, const PlotPoint& from) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& point : points) nearest = std::min(nearest, distance(point, from));
-  return nearest;
-}
-
 /// Beside its curve, rather at an end than in the middle, where all other curves are farther away.
 Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
   const auto& points = scene.curves[own];
@@ -184,13 +198,13 @@ Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
     double nearest_other = std::numeric_limits<double>::infinity();
     for (std::size_t other = 0; other < scene.curves.size(); ++other)
       if (other != own)
-        nearest_other = std::min(nearest_other, distance_to(scene.curves[other], anchor));
-    const double ambiguity = 16 / (1 + nearest_other / 6);
+        nearest_other = std::min(nearest_other, gap_between({anchor, 0, 0}, scene.curves[other]));
+    const double ambiguity = 30 / (1 + nearest_other / 4);
     const double to_end =
         std::min(distance(points.front(), anchor), distance(points.back(), anchor));
     const double inside = std::min(8.0, to_end / 30);
     for (const double gap : {10.0, 16.0, 24.0, 40.0, 70.0})
-      try_around(best, scene, box, anchor, gap, ambiguity + inside + 0.5 * gap);
+      try_around(best, scene, box, anchor, gap, ambiguity + inside + 0.5 * gap, own);
   }
   return best;
 }
