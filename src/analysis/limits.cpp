@@ -60,6 +60,7 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
     const double change = evaluator.value(*q, ahead) / q->scale - here;
     for (const auto& [edge, outwards, name] :
          {std::tuple{limit.low / q->scale, -1.0, "lower"}, {limit.high / q->scale, 1.0, "upper"}}) {
+      if (!std::isfinite(edge)) continue;
       const double beyond = outwards * (here - edge);
       const double rounding = 1e-12 * std::max(1.0, std::abs(edge));
       if (beyond < -rounding || (beyond <= rounding && outwards * change <= 0)) continue;

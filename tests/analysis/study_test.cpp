@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "cases/planar_orthoglide.hpp"
 
 namespace springfold {
@@ -29,6 +31,16 @@ TEST(Limits, OnWhoseEdgeTheStartLiesEndTheBranchThere) {
   EXPECT_EQ(up.branches.front().samples.front().event, "EP1");
   EXPECT_EQ(down.branches.front().start_row + 1, down.branches.front().samples.size());
   EXPECT_GT(up.branches.front().samples.size(), 5u);
+}
+
+TEST(Limits, ThatAreInfiniteDoNotEndTheBranch) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const StudyResult result = within({{"deflection", -0.02, infinity}, {"force", -infinity, 0.12}});
+  ASSERT_TRUE(complete(result));
+  const auto& samples = result.branches.front().samples;
+  EXPECT_NEAR(samples.front().values[column(result, "deflection")], -0.02, 1e-12);
+  EXPECT_NEAR(samples.back().values[column(result, "force")], 0.12, 1e-12);
+  EXPECT_EQ(events_of_kind(result, EventKind::limit_point).size(), 2u);
 }
 
 TEST(Limits, OutsideOfWhichTheStartLiesMakeTheResultIncomplete) {
