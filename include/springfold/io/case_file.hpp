@@ -31,8 +31,8 @@ struct UnitLabels {
 /// One study with one set of parameter values.
 struct PlannedRun {
   std::string study{};
-  int run = 1;           ///< 1, 2, ... along the study's `vary` list
-  std::string label{};   ///< "Kv = 0.01", or empty
+  int run = 1;          ///< 1, 2, ... along the study's `vary` list
+  std::string label{};  ///< "Kv = 0.01", or empty
   model::Mechanism mechanism{};
   analysis::Study plan{};
   std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
@@ -42,12 +42,12 @@ struct PlannedRun {
 /// One curve (or several) of a figure.
 struct PlotCurves {
   std::string study{};
-  std::vector<int> runs{};             ///< empty: all of the study
-  std::vector<std::string> labels{};   ///< one per run; empty: the runs' own labels
+  std::vector<int> runs{};            ///< empty: all of the study
+  std::vector<std::string> labels{};  ///< one per run; empty: the runs' own labels
 };
 
 struct PlotSpec {
-  std::string name{};    ///< file name without ending
+  std::string name{};  ///< file name without ending
   std::string title{};
   std::string x = "deflection", y = "force";  ///< quantity names
   std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
@@ -57,15 +57,15 @@ struct PlotSpec {
 
 /// A published or closed-form value that a run is compared with.
 struct ExpectedValue {
-  std::string name{};     ///< as printed: "rho at Q1, Kv = 0.01"
-  std::string group{};    ///< heading under which it is printed
+  std::string name{};   ///< as printed: "rho at Q1, Kv = 0.01"
+  std::string group{};  ///< heading under which it is printed
   std::string study{};
   int run = 1;
   std::string at = "start";  ///< "start", "end", or an event label such as "LP1"
   std::string quantity{};    ///< a quantity name, or "count.LP" and the like
   double expected = 0;
-  double tolerance = 0;      ///< absolute
-  double factor = 1;         ///< compared value = factor * quantity
+  double tolerance = 0;  ///< absolute
+  double factor = 1;     ///< compared value = factor * quantity
   std::string source{};
 };
 
