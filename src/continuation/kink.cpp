@@ -109,6 +109,8 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   const Index m = walker.problem.switch_count();
   if (m == 0) return result;
   const double h = to.s - from.s;
+  // Step lengths are measured along from.tangent: slopes by the arc at `to` are smaller by this.
+  const double along = metric_product(walker.weights, to.tangent, from.tangent);
   Vector g0, g1, dl0, dl1;
   Matrix dg0, dg1;
   if (!walker.problem.switches(from.x, from.lambda, g0) ||
@@ -122,7 +124,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     const bool leaves = std::find(left.begin(), left.end(), j) != left.end();
     const double f0 = leaves ? 0 : side * g0[j], f1 = side * g1[j];
     const double d0 = side * slope(dg0, dl0, j, from.tangent);
-    const double d1 = side * slope(dg1, dl1, j, to.tangent);
+    const double d1 = side * slope(dg1, dl1, j, to.tangent) / along;
     if (f1 >= 0) {
       const bool dips = cubic_dips(leaves ? 1e-12 * h : f0, d0, f1, d1, h);
       if (!dips) continue;

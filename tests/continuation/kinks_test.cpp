@@ -233,7 +233,7 @@ struct Grazing {
 };
 
 TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
-  for (const double height : {0.1, 1e-3, 1e-5}) {
+  for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
     const Grazing path{height};
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
