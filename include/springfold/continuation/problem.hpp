@@ -40,6 +40,7 @@ concept PiecewiseSmoothProblem = requires(const P& problem, const Vector& x, dou
 /// Optional members of a problem are used where they exist:
 ///     bool symmetric() const          dF/dx is symmetric; inertia is then counted
 ///     Vector metric() const           n weights >= 0 of the arc length (0: does not enter)
+///     Vector periods() const          n periods: x and x + period are the same point (0: none)
 ///     std::string switch_name(Index) const
 class ProblemView {
  public:
@@ -65,6 +66,7 @@ class ProblemView {
   }
   bool symmetric() const { return calls_->symmetric(problem_); }
   Vector metric() const { return calls_->metric(problem_); }
+  Vector periods() const { return calls_->periods(problem_); }
   std::string switch_name(Index j) const { return calls_->switch_name(problem_, j); }
 
  private:
@@ -77,6 +79,7 @@ class ProblemView {
     bool (*switch_gradients)(const void*, const Vector&, double, Matrix&, Vector&);
     bool (*symmetric)(const void*);
     Vector (*metric)(const void*);
+    Vector (*periods)(const void*);
     std::string (*switch_name)(const void*, Index);
   };
 
@@ -130,6 +133,12 @@ class ProblemView {
           return as<P>(p).metric();
         else
           return Vector::Ones(static_cast<Index>(as<P>(p).size()));
+      },
+      [](const void* p) -> Vector {
+        if constexpr (requires { as<P>(p).periods(); })
+          return as<P>(p).periods();
+        else
+          return Vector::Zero(static_cast<Index>(as<P>(p).size()));
       },
       [](const void* p, Index j) -> std::string {
         if constexpr (requires { as<P>(p).switch_name(j); })
