@@ -34,6 +34,8 @@ EventKind kind_of(const Hit& hit) {
       return EventKind::branching_kink;
     case HitKind::touch:
       return EventKind::touch;
+    case HitKind::family:
+      return EventKind::family;
     case HitKind::user:
       return hit.name == force_limit ? EventKind::limit_point : EventKind::user_value;
     case HitKind::unresolved:

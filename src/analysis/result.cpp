@@ -20,6 +20,8 @@ std::string code_of(EventKind kind) {
       return "KS";
     case EventKind::touch:
       return "TP";
+    case EventKind::family:
+      return "FM";
     case EventKind::user_value:
       return "UZ";
     case EventKind::end_of_range:

@@ -1,59 +1,208 @@
 #include "springfold/continuation/kink.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "kink_rays.hpp"
 #include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Unit kernel vector of [dF/dx dF/dlambda]; nothing if the kernel is not one-dimensional.
-std::optional<Direction> kernel(const Linearisation& at, const Vector& weights) {
-  const Index n = at.dF_dx.rows();
-  Matrix A(n, n + 1);
-  A << at.dF_dx, at.dF_dlambda;
-  Eigen::FullPivLU<Matrix> lu(A);
-  lu.setThreshold(1e-12);
-  if (n > 0 && lu.dimensionOfKernel() != 1) return std::nullopt;
-  const Vector v = n > 0 ? Vector(lu.kernel().col(0)) : Vector::Ones(1);
-  Direction tangent{v.head(n), v[n]};
-  const double length = std::sqrt(metric_product(weights, tangent, tangent));
+/// Tangents of the curves of one piece through a point, one of each opposite pair.
+struct Tangents {
+  std::vector<Direction> list{};
+  double accuracy = 0;  ///< of the directions
+  std::string why{};    ///< set: not all of them could be found
+};
+
+std::optional<Direction> unit(const Vector& v, const Vector& weights) {
+  const Index n = v.size() - 1;
+  Direction d{v.head(n), v[n]};
+  const double length = std::sqrt(metric_product(weights, d, d));
   if (!(length > 1e-14 * v.norm())) return std::nullopt;
-  tangent.dx /= length;
-  tangent.dlambda /= length;
-  return tangent;
+  d.dx /= length;
+  d.dlambda /= length;
+  return d;
 }
 
-std::string names_of(const Walker& walker, const std::vector<Index>& switches) {
-  std::string names;
-  for (const Index j : switches)
-    names += (names.empty() ? "" : ", ") + walker.problem.switch_name(j);
-  return names;
+Matrix extended(const Linearisation& at) {
+  Matrix A(at.dF_dx.rows(), at.dF_dx.rows() + 1);
+  A << at.dF_dx, at.dF_dlambda;
+  return A;
 }
 
-/// Does a cubic with these end values and slopes change sign inside (0, h)? Looks at its extrema.
-bool cubic_dips(double f0, double d0, double f1, double d1, double h) {
-  // p(t) = f0 + d0 t + a t^2 + b t^3
-  const double a = (3 * (f1 - f0) / h - 2 * d0 - d1) / h;
-  const double b = (d0 + d1 - 2 * (f1 - f0) / h) / (h * h);
-  const auto p = [&](double t) { return f0 + t * (d0 + t * (a + t * b)); };
-  const double discriminant = a * a - 3 * b * d0;
-  if (discriminant < 0) return false;
-  const double root = std::sqrt(discriminant);
-  const double q = -(a + std::copysign(root, a));  // p'(t) = d0 + 2 a t + 3 b t^2
-  for (const double t : {b != 0 ? q / (3 * b) : -1.0, q != 0 ? d0 / q : -1.0})
-    if (t > 0 && t < h && (p(t) < 0) != (f0 < 0)) return true;
-  return false;
+/// Roots (c1 : c2) of a c1^2 + 2 b c1 c2 + c c2^2 = 0; none unless there are two different ones.
+std::vector<std::pair<double, double>> projective_roots(double a, double b, double c) {
+  const double size = std::max({std::abs(a), std::abs(b), std::abs(c)});
+  const double discriminant = b * b - a * c;
+  if (!(discriminant > 1e-8 * size * size)) return {};
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+  return {{q, a}, {c, q}};
 }
 
-double slope(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& tangent) {
-  return dg_dx.row(j).dot(tangent.dx) + dg_dlambda[j] * tangent.dlambda;
+/// Simple branch point of a piece: with the kernel e_1, e_2 of the extended Jacobian and its left
+/// null vector w, the tangents c_1 e_1 + c_2 e_2 of the two branches solve
+///
+///     sum_ij c_i c_j  w . D^2F[e_i, e_j] = 0
+///
+/// (Keller 1977). Second derivatives by central differences of the exact first ones.
+Tangents crossing_tangents(const Walker& walker, const CurvePoint& at, const Matrix& A) {
+  const Index n = A.rows();
+  Tangents result{.accuracy = 1e-6,
+                  .why = "more than one curve, or none, passes through this point"};
+  const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector w = svd.matrixU().col(n - 1);
+  const Matrix kernel = svd.matrixV().rightCols(2);
+  const double h = 1e-5 * std::max(1.0, at.x.norm());
+  Matrix form(2, 2);
+  for (Index i = 0; i < 2; ++i) {
+    Linearisation plus, minus;
+    const Vector e = h * kernel.col(i);
+    if (!linearise(walker.problem, at.x + e.head(n), at.lambda + e[n], at.piece, plus) ||
+        !linearise(walker.problem, at.x - e.head(n), at.lambda - e[n], at.piece, minus))
+      return result;
+    form.row(i) = w.transpose() * (extended(plus) - extended(minus)) * kernel / (2 * h);
+  }
+  if (!(form.cwiseAbs().maxCoeff() > 1e-7 * A.cwiseAbs().maxCoeff())) return result;
+  for (const auto& [c1, c2] :
+       projective_roots(form(0, 0), 0.5 * (form(0, 1) + form(1, 0)), form(1, 1)))
+    if (const auto d = unit(c1 * kernel.col(0) + c2 * kernel.col(1), walker.weights))
+      result.list.push_back(*d);
+  if (result.list.size() == 2) result.why.clear();
+  return result;
+}
+
+/// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
+Tangents tangents_of_piece(const Walker& walker, const CurvePoint& at, bool on_surface,
+                           double full_rank) {
+  Linearisation linear;
+  if (!linearise(walker.problem, at.x, at.lambda, at.piece, linear))
+    return {.why = "derivatives are not defined here"};
+  const Index n = linear.dF_dx.rows();
+  const Matrix A = extended(linear);
+  if (n == 0) return {.list = {{Vector(0), 1.0}}};
+  const Eigen::ColPivHouseholderQR<Matrix> qr(A.transpose());
+  const auto pivot = [&](Index i) { return std::abs(qr.matrixQR()(i, i)); };
+  if (!(pivot(n - 1) > full_rank * pivot(0))) {
+    const bool simple = n == 1 || pivot(n - 2) > full_rank * pivot(0);
+    if (on_surface && simple) return crossing_tangents(walker, at, A);
+    return {.why = "more than one curve, or none, passes through this point"};
+  }
+  Vector last = Vector::Unit(n + 1, n);
+  last.applyOnTheLeft(qr.householderQ());
+  const auto d = unit(last, walker.weights);
+  if (!d) return {.why = "the metric gives the tangent no length"};
+  return {.list = {*d}, .accuracy = 1e-9};
+}
+
+enum class Side { in, out, rests, unclear };
+
+/// To which side of the surfaces `grazed`, tangential here, does the curve of a piece bend?
+/// rests: it stays within the surface.
+std::vector<Side> sides_of(const Walker& walker, const CurvePoint& start,
+                           const std::vector<Index>& grazed) {
+  const double zero = walker.options.simultaneous, clear = 10 * zero;
+  std::vector<Side> sides(grazed.size(), Side::unclear);
+  for (const double ds : {1e-4, 1e-3, 1e-2}) {
+    const auto point = point_at(walker, start, ds);
+    Vector g;
+    if (!point || !walker.problem.switches(point->x, point->lambda, g)) continue;
+    for (std::size_t i = 0; i < grazed.size(); ++i) {
+      if (sides[i] == Side::in || sides[i] == Side::out) continue;
+      const double value = start.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]];
+      if (std::abs(value) > clear)
+        sides[i] = value > 0 ? Side::in : Side::out;
+      else
+        sides[i] = std::abs(value) <= zero ? Side::rests : Side::unclear;
+    }
+  }
+  return sides;
+}
+
+/// Collects rays; one that several pieces share because switches rest on it is kept once.
+class Collector {
+ public:
+  Collector(const Walker& walker, const Piece& preferred)
+      : walker_{walker}, preferred_{preferred} {}
+
+  Rays result{};
+
+  void doubt(std::string why) {
+    result.complete = false;
+    result.why = std::move(why);
+  }
+
+  /// True if this ray of this piece is known already from a piece beyond its resting switches.
+  bool known(const Piece& piece, const Direction& d, double accuracy) {
+    for (Ray& ray : result.rays) {
+      if (!differ_only(ray.piece, piece, ray.resting) ||
+          !same_direction(walker_.weights, ray.tangent, d, 10 * accuracy))
+        continue;
+      if (!ray.resting.empty() && differ_only(piece, preferred_, others(ray.resting)))
+        ray.piece = piece;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
+    for (std::size_t j = 0; j < a.size(); ++j)
+      if (a[j] != b[j] &&
+          std::find(where.begin(), where.end(), static_cast<Index>(j)) == where.end())
+        return false;
+    return true;
+  }
+  std::vector<Index> others(const std::vector<Index>& resting) const {
+    std::vector<Index> rest;
+    for (Index j = 0; j < static_cast<Index>(preferred_.size()); ++j)
+      if (std::find(resting.begin(), resting.end(), j) == resting.end()) rest.push_back(j);
+    return rest;
+  }
+
+  const Walker& walker_;
+  const Piece& preferred_;
+};
+
+/// Keeps one direction of one piece if it leads into the piece.
+void judge(const Walker& walker, const CurvePoint& ray, const std::vector<Index>& active,
+           const Matrix& dg_dx, const Vector& dg_dlambda, double accuracy, Collector& collector) {
+  std::vector<Index> grazed, resting;
+  for (const Index j : active) {
+    const double rate =
+        ray.piece[static_cast<std::size_t>(j)] * switch_rate(dg_dx, dg_dlambda, j, ray.tangent);
+    if (rate < -accuracy) return;
+    if (rate <= accuracy) grazed.push_back(j);
+  }
+  if (collector.known(ray.piece, ray.tangent, accuracy)) return;
+  if (!grazed.empty()) {
+    const std::vector<Side> sides = sides_of(walker, ray, grazed);
+    if (std::find(sides.begin(), sides.end(), Side::out) != sides.end()) return;
+    for (std::size_t i = 0; i < grazed.size(); ++i) {
+      if (sides[i] == Side::rests) resting.push_back(grazed[i]);
+      if (sides[i] == Side::unclear)
+        return collector.doubt("the curve grazes a switching surface: " +
+                               walker.problem.switch_name(grazed[i]));
+    }
+  }
+  collector.result.rays.push_back({ray.piece, ray.tangent, std::move(resting)});
 }
 
 }  // namespace
+
+double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
+  return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
+}
+
+bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
+                    double tolerance) {
+  const Direction d{a.dx - b.dx, a.dlambda - b.dlambda};
+  return metric_product(weights, d, d) <= tolerance * tolerance;
+}
 
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda) {
   std::vector<Index> active;
@@ -64,95 +213,36 @@ std::vector<Index> active_switches(const Walker& walker, const Vector& x, double
   return active;
 }
 
-Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
-             const std::vector<Index>& active) {
+Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
+                 double full_rank) {
   assert(active.size() <= 12);
-  constexpr double grazing = 1e-9;  // a tangent closer to a surface than this has no clear side
-  Rays result;
   Matrix dg_dx;
   Vector dg_dlambda;
-  if (!active.empty() && !walker.problem.switch_gradients(x, lambda, dg_dx, dg_dlambda))
+  if (!active.empty() && !walker.problem.switch_gradients(at.x, at.lambda, dg_dx, dg_dlambda))
     return {.complete = false, .why = "switching functions are not defined here"};
-  Linearisation at;
+  Collector collector(walker, at.piece);
+  CurvePoint ray = at;
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
-    Piece side = piece;
     for (std::size_t k = 0; k < active.size(); ++k)
-      side[static_cast<std::size_t>(active[k])] = (pattern >> k) & 1u ? 1 : -1;
-    const bool defined = linearise(walker.problem, x, lambda, side, at);
-    const auto tangent = defined ? kernel(at, walker.weights) : std::nullopt;
-    if (!tangent) {
-      result.complete = false;
-      result.why = defined ? "more than one curve, or none, passes through this point"
-                           : "derivatives are not defined here";
-      continue;
-    }
-    for (const double sign : {1.0, -1.0}) {
-      const Direction ray{sign * tangent->dx, sign * tangent->dlambda};
-      double least = 1;
-      for (const Index j : active)
-        least =
-            std::min(least, side[static_cast<std::size_t>(j)] * slope(dg_dx, dg_dlambda, j, ray));
-      if (least > grazing) {
-        result.rays.push_back({side, ray});
-      } else if (least > -grazing) {
-        result.complete = false;
-        result.why = "the curve grazes a switching surface: " + names_of(walker, active);
+      ray.piece[static_cast<std::size_t>(active[k])] = (pattern >> k) & 1u ? 1 : -1;
+    const Tangents tangents = tangents_of_piece(walker, ray, !active.empty(), full_rank);
+    if (!tangents.why.empty()) collector.doubt(tangents.why);
+    for (const Direction& tangent : tangents.list)
+      for (const double sign : {1.0, -1.0}) {
+        ray.tangent = {sign * tangent.dx, sign * tangent.dlambda};
+        judge(walker, ray, active, dg_dx, dg_dlambda, tangents.accuracy, collector);
       }
-    }
   }
-  return result;
+  return std::move(collector.result);
 }
 
-KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                      const std::vector<Index>& left) {
-  KinkSearch result;
-  const Index m = walker.problem.switch_count();
-  if (m == 0) return result;
-  const double h = to.s - from.s;
-  // Step lengths are measured along from.tangent: slopes by the arc at `to` are smaller by this.
-  const double along = metric_product(walker.weights, to.tangent, from.tangent);
-  Vector g0, g1, dl0, dl1;
-  Matrix dg0, dg1;
-  if (!walker.problem.switches(from.x, from.lambda, g0) ||
-      !walker.problem.switches(to.x, to.lambda, g1) ||
-      !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
-      !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
-    return {.status = KinkSearch::Status::suspicious};
-
-  for (Index j = 0; j < m; ++j) {
-    const double side = from.piece[static_cast<std::size_t>(j)];
-    const bool leaves = std::find(left.begin(), left.end(), j) != left.end();
-    const double f0 = leaves ? 0 : side * g0[j], f1 = side * g1[j];
-    const double d0 = side * slope(dg0, dl0, j, from.tangent);
-    const double d1 = side * slope(dg1, dl1, j, to.tangent) / along;
-    if (f1 >= 0) {
-      const bool dips = cubic_dips(leaves ? 1e-12 * h : f0, d0, f1, d1, h);
-      if (!dips) continue;
-      // A double crossing inside the step, or nearly one: look closer.
-      return {.status = KinkSearch::Status::suspicious, .suspect = j};
-    }
-    const auto value = [&walker, j, side](const CurvePoint& p) {
-      Vector g;
-      return walker.problem.switches(p.x, p.lambda, g) ? side * g[j]
-                                                       : std::numeric_limits<double>::quiet_NaN();
-    };
-    // A switch that is being left starts at zero: begin the bracket where it is clearly positive.
-    const double start = leaves ? 1e-3 * h : 0;
-    const double end = result.status == KinkSearch::Status::found ? result.after : h;
-    if (result.status == KinkSearch::Status::found) {
-      const auto early = point_at(walker, from, end);
-      if (!early || value(*early) >= -walker.options.simultaneous) continue;  // later, or the same
-    }
-    const auto located = locate(walker, from, start, end, value);
-    if (!located) return {.status = KinkSearch::Status::suspicious, .suspect = j};
-    result.status = KinkSearch::Status::found;
-    result.point = located->point;
-    result.before = located->before;
-    result.after = located->after;
-  }
-  if (result.status == KinkSearch::Status::found)
-    result.active = active_switches(walker, result.point.x, result.point.lambda);
-  return result;
+Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
+             const std::vector<Index>& active) {
+  CurvePoint at;
+  at.x = x;
+  at.lambda = lambda;
+  at.piece = piece;
+  return rays_around(walker, at, active, 1e-12);
 }
 
 }  // namespace springfold::continuation

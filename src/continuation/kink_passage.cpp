@@ -1,11 +1,168 @@
 #include "kink_passage.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
+#include "kink_half_branches.hpp"
+#include "kink_rays.hpp"
+#include "springfold/continuation/locate.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
+namespace {
+
+constexpr double vertical = 1e-10;   // lambda does not change along the curve at all
+constexpr double turns_here = 1e-9;  // lambda's rate at a kink that is taken for zero
+constexpr std::size_t most_active = 12;
+
+/// The curve on one side of a kink, as near as lambda's rate can be told from zero.
+struct Beside {
+  CurvePoint point{};
+  int sense = 0;       ///< sign of lambda's rate; 0: it stays zero
+  bool moved = false;  ///< `point` is not the kink itself
+};
+
+/// @param direction  +1: ahead along the tangent, -1: back
+/// @param room       no further away than this
+Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
+  const auto sense_of = [](const CurvePoint& p) { return p.tangent.dlambda > 0 ? 1 : -1; };
+  if (std::abs(at.tangent.dlambda) > turns_here) return {at, sense_of(at)};
+  for (const double distance : {1e-8, 1e-6, 1e-4}) {
+    const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
+    if (point && std::abs(point->tangent.dlambda) > 1e-11) return {*point, sense_of(*point), true};
+  }
+  return {at, 0};
+}
+
+bool is_way_back(const Walker& walker, const Ray& ray, const CurvePoint& arrived) {
+  for (std::size_t j = 0; j < ray.piece.size(); ++j)
+    if (ray.piece[j] != arrived.piece[j] && std::find(ray.resting.begin(), ray.resting.end(),
+                                                      static_cast<Index>(j)) == ray.resting.end())
+      return false;
+  const Direction back{-arrived.tangent.dx, -arrived.tangent.dlambda};
+  return same_direction(walker.weights, ray.tangent, back, 1e-6);
+}
+
+bool upright(const CurvePoint& p) { return std::abs(p.tangent.dlambda) <= vertical; }
+
+/// Negative eigenvalues of dF/dx + tau tau^T: within a family tau is in the kernel of dF/dx, and this
+/// counts the others.
+std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) {
+  Linearisation at;
+  if (!walker.problem.symmetric() || !linearise(walker.problem, p.x, p.lambda, p.piece, at))
+    return std::nullopt;
+  const double scale = std::max(1e-300, at.dF_dx.cwiseAbs().maxCoeff());
+  const auto inertia = inertia_of(at.dF_dx + scale * p.tangent.dx * p.tangent.dx.transpose());
+  return inertia && inertia->zero == 0 ? std::optional<Index>(inertia->negative) : std::nullopt;
+}
+
+/// Extends the family that ends at `from`, or begins one there.
+void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found, Curve& curve) {
+  for (auto hit = curve.hits.rbegin(); hit != curve.hits.rend(); ++hit)
+    if (hit->kind == HitKind::family && hit->s_after >= from.s) {
+      hit->s_after = to.s;
+      return;
+    }
+  Hit hit{.kind = HitKind::family,
+          .name = "family at one lambda",
+          .point = from,
+          .s_before = from.s,
+          .s_after = to.s};
+  hit.point.negative.reset();
+  found.hits.insert(found.hits.begin(), std::move(hit));
+  found.stops.insert(found.stops.begin(), false);
+}
+
+Walker without_special_points(const Walker& walker) {
+  Walker plain = walker;
+  plain.options.limit_points = plain.options.branch_points = false;
+  return plain;
+}
+
+StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoint& to,
+                         const std::optional<CurvePoint>& middle, const std::vector<Event>& events,
+                         Curve& curve) {
+  to.negative.reset();
+  StepEvents found = events_on_step(without_special_points(walker), from, to, middle, events);
+  const auto before = other_negatives(walker, from), after = other_negatives(walker, to);
+  if (before && after && *before != *after) {
+    found.doubt = "an eigenvalue changes its sign within a family";
+    found.unexplained = static_cast<int>(std::abs(*after - *before));
+  }
+  note_family(from, to, found, curve);
+  return found;
+}
+
+/// Special points between the bounds, events of the caller on the whole step.
+StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                          const CurvePoint& end, const CurvePoint& begin,
+                          const std::optional<CurvePoint>& middle,
+                          const std::vector<Event>& events) {
+  StepEvents found = events_on_step(without_special_points(walker), begin, end, middle, events);
+  if (!(to.s > from.s)) return found;
+  std::optional<CurvePoint> inside = middle;
+  if (inside && !(inside->s > from.s && inside->s < to.s)) inside.reset();
+  StepEvents special = events_on_step(walker, from, to, inside, {});
+  for (std::size_t i = 0; i < special.hits.size(); ++i) {
+    const auto after = std::find_if(found.hits.begin(), found.hits.end(), [&](const Hit& hit) {
+      return hit.point.s > special.hits[i].point.s;
+    });
+    found.stops.insert(found.stops.begin() + (after - found.hits.begin()), special.stops[i]);
+    found.hits.insert(after, std::move(special.hits[i]));
+  }
+  if (found.doubt.empty()) found.doubt = special.doubt;
+  found.unexplained = special.unexplained;
+  return found;
+}
+
+/// Once where the curve begins to rest: what the pieces beside it say of stability.
+void note_resting(const Walker& walker, const CurvePoint& at, const std::vector<Index>& resting,
+                  std::vector<StepNote>& log) {
+  StepNote note{at.s, 0, "stays on the surface of " + names_of(walker.problem, resting)};
+  CurvePoint p = at;
+  std::string counts;
+  for (const Index j : resting) {
+    auto& side = p.piece[static_cast<std::size_t>(j)];
+    side = side > 0 ? -1 : 1;
+    const CurvePoint other = point_on_ray(walker, p, {p.piece, p.tangent});
+    if (at.negative && other.negative && *at.negative != *other.negative)
+      counts += ", " + std::to_string(*other.negative) + " beyond " + walker.problem.switch_name(j);
+    side = side > 0 ? -1 : 1;
+  }
+  if (!counts.empty())
+    note.reason += "; negative eigenvalues: " + std::to_string(*at.negative) + counts;
+  const bool known = std::any_of(log.begin(), log.end(),
+                                 [&](const StepNote& n) { return n.reason == note.reason; });
+  if (!known) log.push_back(std::move(note));
+}
+
+/// Switches of a kink that do not only rest on their surfaces before and after it.
+std::vector<Index> crossed(const KinkSearch& kink, const std::vector<Index>& rested,
+                           const std::vector<Ray>& ways) {
+  std::vector<Index> switches;
+  for (const Index j : kink.active) {
+    const auto rests = [j](const std::vector<Index>& list) {
+      return std::find(list.begin(), list.end(), j) != list.end();
+    };
+    const bool all = rests(rested) && std::all_of(ways.begin(), ways.end(), [&](const Ray& ray) {
+                       return rests(ray.resting);
+                     });
+    if (!all) switches.push_back(j);
+  }
+  return switches;
+}
+
+Rays ways_out(const Walker& walker, const KinkSearch& kink) {
+  if (kink.active.size() > most_active)
+    return {.complete = false, .why = "too many switches act at one point"};
+  Rays rays = rays_at(walker, kink.point.x, kink.point.lambda, kink.point.piece, kink.active);
+  std::erase_if(rays.rays, [&](const Ray& ray) { return is_way_back(walker, ray, kink.point); });
+  return rays;
+}
+
+}  // namespace
 
 std::string names_of(ProblemView problem, const std::vector<Index>& switches) {
   std::string names;
@@ -28,19 +185,23 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 
 Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve) {
   Hit hit{.kind = HitKind::kink,
-          .name = names_of(walker.problem, kink.active),
           .point = kink.point,
-          .switches = kink.active,
           .s_before = progress.here.s + kink.before,
           .s_after = progress.here.s + kink.after};
-  const Rays rays =
-      kink.active.size() <= 12
-          ? rays_at(walker, kink.point.x, kink.point.lambda, kink.point.piece, kink.active)
-          : Rays{.complete = false, .why = "too many switches act at one point"};
+  const Rays rays = ways_out(walker, kink);
+  hit.switches = crossed(kink, resting_switches(walker, progress.here, kink.point), rays.rays);
+  hit.name = names_of(walker.problem, hit.switches);
+  constexpr double any = 1;
+  const Beside before = beside(walker, kink.point, -1, kink.point.s - progress.here.s);
+  if (before.moved || before.sense == 0) hit.point.negative = before.point.negative;
+  if (before.sense == 0) hit.point.negative.reset();
+  std::vector<int> senses;
   for (const Ray& ray : rays.rays) {
-    const bool back = ray.piece == kink.point.piece &&
-                      metric_product(walker.weights, ray.tangent, kink.point.tangent) < 0;
-    if (!back) hit.leaving.push_back(point_on_ray(walker, kink.point, ray));
+    hit.leaving.push_back(point_on_ray(walker, kink.point, ray));
+    const Beside after = beside(walker, hit.leaving.back(), 1, any);
+    if (after.moved) hit.leaving.back().negative = after.point.negative;
+    if (after.sense == 0) hit.leaving.back().negative.reset();
+    senses.push_back(after.sense);
   }
   const auto stop = [&](StopReason reason, std::string detail) {
     curve.stop = reason;
@@ -48,21 +209,55 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;
   };
-  if (hit.leaving.empty()) return stop(StopReason::no_way_out, "no way out at " + hit.name);
+  const bool too_many = kink.active.size() > most_active;
+  if (hit.leaving.empty() && !too_many)
+    return stop(StopReason::no_way_out,
+                "no way out at " + hit.name + (rays.complete ? "" : ": " + rays.why));
+  if (!rays.complete) {
+    hit.kind = HitKind::unresolved;
+    hit.name = "unresolved kink: " + hit.name + ": " + rays.why;
+    return stop(StopReason::several_ways, hit.name);
+  }
   if (hit.leaving.size() > 1) {
     hit.kind = HitKind::branching_kink;
     const std::string ways = std::to_string(hit.leaving.size());
     return stop(StopReason::several_ways, ways + " ways out at " + hit.name);
   }
-  if (!rays.complete) return stop(StopReason::several_ways, "unresolved kink: " + rays.why);
-
-  const CurvePoint& next = hit.leaving.front();
-  if ((next.tangent.dlambda < 0) != (kink.point.tangent.dlambda < 0)) hit.kind = HitKind::corner;
-  progress.here = next;
+  const int arrived = before.sense != 0 ? before.sense : progress.sense;
+  if (arrived * senses.front() < 0) hit.kind = HitKind::corner;
+  progress.sense = senses.front() == 0 ? arrived : 0;
+  progress.here = hit.leaving.front();
   progress.left = kink.active;
   progress.ds = std::min(progress.ds, walker.options.step.initial);
   curve.hits.push_back(std::move(hit));
   return Outcome::go_on;
+}
+
+StepEvents passage_events(const Walker& walker, const Progress& progress, const KinkSearch& kink,
+                          CurvePoint& end, const std::optional<CurvePoint>& middle,
+                          const std::vector<Event>& events, Curve& curve) {
+  const CurvePoint& begin = progress.here;
+  const double length = end.s - begin.s;
+  const bool inside = middle && middle->s < end.s;
+  for (const Index j : kink.touched)
+    curve.log.push_back(
+        {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
+  if (upright(begin) && upright(end) && (!inside || upright(*middle)))
+    return family_events(walker, begin, end, middle, events, curve);
+  Beside from{begin}, to{end};
+  if (!progress.left.empty()) from = beside(walker, begin, 1, length);
+  if (kink.status == KinkSearch::Status::found) to = beside(walker, end, -1, length);
+  StepEvents found = from.moved || to.moved
+                         ? events_between(walker, from.point, to.point, end, begin, middle, events)
+                         : events_on_step(walker, begin, end, middle, events);
+  const std::vector<Index> resting = resting_switches(walker, begin, end);
+  if (resting.empty()) return found;
+  if (!progress.left.empty()) note_resting(walker, begin, resting, curve.log);
+  std::vector<const CurvePoint*> samples{&from.point};
+  if (inside) samples.push_back(&*middle);
+  samples.push_back(&to.point);
+  add_half_branches(walker, samples, resting, found, curve.log);
+  return found;
 }
 
 }  // namespace springfold::continuation

@@ -50,15 +50,15 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
     }
     middle = std::move(evidence.middle);
   }
-  const KinkSearch kink = first_kink(walker, progress.here, *step.point, progress.left);
+  KinkSearch kink = first_kink(walker, progress.here, *step.point, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
     refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
                                                : std::string("a switching surface"));
     return Outcome::shorten;
   }
   const bool cut = kink.status == KinkSearch::Status::found;
-  const CurvePoint& end = cut ? kink.point : *step.point;
-  StepEvents found = events_on_step(walker, progress.here, end, middle, events);
+  CurvePoint& end = cut ? kink.point : *step.point;
+  StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
   if (!found.doubt.empty()) {
     refusal = found.doubt;
     if (progress.ds > unresolved_length) return Outcome::shorten;

@@ -76,6 +76,7 @@ bool has_two_sides(const analysis::Event& event) {
     case EventKind::branch_point:
     case EventKind::kinematic_singularity:
     case EventKind::touch:
+    case EventKind::family:
     case EventKind::user_value:
     case EventKind::end_of_range:
     case EventKind::unresolved:

@@ -33,6 +33,7 @@ Trust trust_at(EventKind kind) {
     case EventKind::branch_point:
     case EventKind::kinematic_singularity:
     case EventKind::touch:
+    case EventKind::family:
     case EventKind::unresolved:
       return Trust::little;
   }

@@ -35,12 +35,13 @@ enum class EventKind {
   branching_kink,         ///< KB: a switching with more than one way out
   kinematic_singularity,  ///< KS: closure loses rank
   touch,                  ///< TP: an eigenvalue touches zero without changing sign
+  family,                 ///< FM: lambda stands still: a continuum of equilibria begins here
   user_value,             ///< UZ: a marked value
   end_of_range,           ///< EP: a limit of the study, or where tracing stopped
   unresolved,             ///< UR: something happens here that could not be resolved
 };
 
-/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "UZ", "EP", "UR".
+/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "UR".
 std::string code_of(EventKind kind);
 
 /// One row of the branch table: a point of the branch.

@@ -40,6 +40,7 @@ enum class HitKind {
   corner,          ///< the same, and lambda turns back there
   branching_kink,  ///< a kink with more than one way out
   touch,           ///< an eigenvalue or lambda's rate is zero but keeps its sign: degenerate
+  family,          ///< lambda stands still from s_before to s_after: equilibria at one load
   user,            ///< an event of the caller
   unresolved,      ///< the number of negative eigenvalues changed and no event explains it
 };

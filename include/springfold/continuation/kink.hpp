@@ -12,21 +12,30 @@ namespace springfold::continuation {
 struct Ray {
   Piece piece{};
   Direction tangent{};
+  std::vector<Index> resting{};  ///< switches that stay zero along it
 };
 
 struct Rays {
   std::vector<Ray> rays{};
-  bool complete = true;  ///< false: some piece has no unique tangent here, or one that grazes a
-                         ///< switching surface; `why` says which
+  bool complete = true;  ///< false: some piece has no derivatives or no unique tangent here, or one
+                         ///< whose side of a surface could not be told; `why` says which
   std::string why{};
 };
 
-/// All ways to leave a point of the curve on which the switches `active` are zero. Every one of
-/// the 2^k pieces around it is linearised; of its two tangents those are kept that lead into it:
+/// All ways to leave a point of the curve on which the switches `active` are zero. Every one of the
+/// 2^k pieces around it is linearised, and of its two tangents those are kept that lead into it (a
+/// one-sided linear complementarity problem, solved by enumeration; Cottle, Pang and Stone 1992):
 ///
 ///     | dF/dx  dF/dlambda | tau = 0,      piece_j (dg_j . tau) > 0  for all active j.
 ///
-/// Without active switches these are the two directions of the curve.
+/// Where dg_j . tau = 0, corrected points of the piece's own curve, up to 1e-2 away, decide: if the
+/// curve bends to the piece's side it is a way out, if to the other side it is none, and if it stays
+/// within the surface the switch rests: both pieces beside it share this ray, and it is given once,
+/// in `piece` if that is one of the two. Where the kernel of a piece is two-dimensional its tangents
+/// come from the algebraic bifurcation equation (branch point of a piece on a surface).
+///
+/// The order is fixed: by pieces, counted in binary with the first active switch as the lowest
+/// digit. Without active switches these are the two directions of the curve.
 /// @pre active.size() <= 12
 Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
              const std::vector<Index>& active);
@@ -34,20 +43,30 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
 /// Switches that are zero at a point, within options.simultaneous.
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda);
 
+/// Switches that stay zero along the whole step: the curve runs within their surfaces.
+std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
+                                    const CurvePoint& to);
+
 /// The first switching surface that the curve meets on the step from -> to.
 struct KinkSearch {
   enum class Status {
     none,        ///< the step stays in its piece
     found,       ///< `point` is on the first surface
-    suspicious,  ///< a surface is nearly touched, or could not be located: take a shorter step
+    suspicious,  ///< a surface could not be located: take a shorter step
   };
   Status status = Status::none;
   CurvePoint point{};
   double before = 0, after = 0;  ///< step lengths that bracket it
   std::vector<Index> active{};   ///< switches that are zero there
   Index suspect = -1;            ///< the switch that asks for a shorter step
+  std::vector<Index> touched{};  ///< switches that touch zero on this step without crossing it
 };
 
+/// Each switching function is judged by its values and slopes at both ends and by its value
+/// half-way. Where these leave room for more than one zero, or for none, all its zeros on the step
+/// are looked for on the curve itself, so that a surface crossed and crossed back within one step is
+/// found twice. An extremum that reaches zero within the rounding of the corrected points (about
+/// 1e-12) is a touch and no kink. Switches that rest are passed over.
 /// @param left  switches that are zero at `from` because the curve leaves them there
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);

@@ -1,0 +1,249 @@
+// Zeros of the switching functions on one step.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kink_rays.hpp"
+#include "springfold/continuation/locate.hpp"
+#include "zeros.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+constexpr double flat = 1e-9;        // rates below this run along a surface
+constexpr double resolution = 1e-9;  // of zeros on one step
+
+/// One switching function on one step, positive on the side of the step's piece.
+struct Watched {
+  const Walker& walker;
+  const CurvePoint& from;
+  double h = 0;
+  Index j = 0;
+  double side = 1;
+  double noise = 0;  ///< values below this are rounding of the corrected points
+
+  std::optional<double> value(double ds) const {
+    const auto point = point_at(walker, from, ds);
+    return point ? value(*point) : std::nullopt;
+  }
+  std::optional<double> value(const CurvePoint& p) const {
+    Vector g;
+    if (!walker.problem.switches(p.x, p.lambda, g)) return std::nullopt;
+    return side * g[j];
+  }
+};
+
+/// What was found of one switching function.
+struct Crossing {
+  bool clear = true;                 ///< false: could not be told
+  bool touches = false;              ///< touches zero before it crosses, or without
+  std::optional<Located> located{};  ///< its first crossing
+};
+
+Crossing crossing_in(const Watched& f, double a, double b) {
+  const auto value = [&f](const CurvePoint& p) {
+    return f.value(p).value_or(std::numeric_limits<double>::quiet_NaN());
+  };
+  Crossing result{.located = locate(f.walker, f.from, a, b, value)};
+  result.clear = result.located.has_value();
+  return result;
+}
+
+/// All zeros between step lengths a and b are looked for; the first crossing counts.
+Crossing first_of_all(const Watched& f, double a, double b) {
+  const auto value = [&f](double ds) { return f.value(ds); };
+  const ZeroSearch search = find_zeros(value, a, b, f.noise, resolution * f.h);
+  Crossing result{.clear = search.resolved};
+  double start = a;
+  for (const ZeroOf& zero : search.zeros) {
+    if (zero.touches) {
+      result.touches = true;
+      continue;
+    }
+    // Bracket it by values beyond rounding; it can lie very near to the next one.
+    for (const double reach : {1e-6 * f.h, 1e-3 * f.h, 0.1 * f.h}) {
+      const double low = std::max(start, zero.at - reach), high = std::min(b, zero.at + reach);
+      const auto f0 = f.value(low), f1 = f.value(high);
+      if (f0 && f1 && *f0 > 0 && *f1 < 0) {
+        Crossing crossing = crossing_in(f, low, high);
+        crossing.touches = result.touches;
+        return crossing;
+      }
+    }
+    result.located = {{}, zero.before, zero.after};
+    auto point = point_at(f.walker, f.from, zero.at);
+    if (!point || !(zero.at > 0)) return {.clear = false};
+    result.located->point = std::move(*point);
+    return result;
+  }
+  return result;
+}
+
+/// Cubic by values and slopes at both ends of an interval.
+struct Cubic {
+  double f0 = 0, d0 = 0, f1 = 0, d1 = 0, h = 1;
+
+  double operator()(double t) const {  // f0 + d0 t + a t^2 + b t^3
+    const double a = (3 * (f1 - f0) / h - 2 * d0 - d1) / h;
+    const double b = (d0 + d1 - 2 * (f1 - f0) / h) / (h * h);
+    return f0 + t * (d0 + t * (a + t * b));
+  }
+  /// Least distance from zero that it keeps where it should: everywhere, or outside its one zero.
+  double least() const {
+    constexpr int grid = 64;
+    double low = std::min(f0, f1);
+    for (int i = 1; i < grid; ++i) low = std::min(low, (*this)(h * i / grid));
+    return low;
+  }
+  int zeros() const {
+    constexpr int grid = 64;
+    int count = 0;
+    bool positive = f0 >= 0;
+    for (int i = 1; i <= grid; ++i) {
+      const bool next = (i == grid ? f1 : (*this)(h * i / grid)) >= 0;
+      count += next != positive;
+      positive = next;
+    }
+    return count;
+  }
+};
+
+/// Judges by ends and middle; looks closer only where that leaves a doubt.
+Crossing judge(const Watched& f, double a, const Cubic& cubic) {
+  const double change = std::max(
+      {std::abs(cubic.f1 - cubic.f0), cubic.h * std::abs(cubic.d0), cubic.h * std::abs(cubic.d1)});
+  const double near = std::min(cubic.f0, std::abs(cubic.f1));
+  if (cubic.f1 >= 0 && near > 2 * change) return {};
+  const auto middle = f.value(a + 0.5 * cubic.h);
+  if (!middle) return {.clear = false};
+  const bool fits = std::abs(*middle - cubic(0.5 * cubic.h)) <= 0.02 * change;
+  if (cubic.f1 >= 0) {
+    const double margin = std::max(0.02 * change, std::abs(*middle - cubic(0.5 * cubic.h)));
+    const bool interior = cubic.d0 < 0 || cubic.d1 > 0 || !fits;  // else the ends are the least
+    if (!interior || (fits && cubic.least() > margin)) return {};
+    if (fits && cubic.d0 >= 0 && cubic.d1 >= 0 && cubic.least() >= std::min(cubic.f0, cubic.f1))
+      return {};
+    return first_of_all(f, a, a + cubic.h);
+  }
+  if (fits && cubic.zeros() == 1) {
+    // One zero, unless there is a near touch on the positive side before it.
+    if (cubic.d0 <= 0 && cubic.d1 <= 0) return crossing_in(f, a, a + cubic.h);
+  }
+  return first_of_all(f, a, a + cubic.h);
+}
+
+/// A switch that is being left starts at zero: the step length at which it is clearly positive.
+std::optional<double> departure(const Watched& f) {
+  for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    const auto value = f.value(share * f.h);
+    if (!value || *value < -f.noise) return std::nullopt;
+    if (*value > f.noise) return share * f.h;
+  }
+  return std::nullopt;
+}
+
+double rate_at(const Watched& f, const CurvePoint& p) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
+    return std::numeric_limits<double>::quiet_NaN();
+  const double along = metric_product(f.walker.weights, p.tangent, f.from.tangent);
+  // Step lengths are measured along from.tangent: rates by the arc are smaller by this.
+  return f.side * switch_rate(dg_dx, dg_dlambda, f.j, p.tangent) / along;
+}
+
+/// The curve ends its step on a surface, or just before: take the surface into this step, or, where
+/// it is nearly tangential, let the step end elsewhere.
+Crossing at_the_end(const Watched& f, double f1, double d1) {
+  if (!(d1 < -1e-4)) return {.clear = false};
+  return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
+}
+
+Crossing crossing_of(const Watched& f, const CurvePoint& to, bool leaves) {
+  const auto f0 = f.value(f.from), f1 = f.value(to);
+  if (!f0 || !f1) return {.clear = false};
+  double a = 0;
+  Cubic cubic{*f0, rate_at(f, f.from), *f1, rate_at(f, to), f.h};
+  if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
+  const bool near_end = *f1 >= 0 && *f1 <= f.walker.options.simultaneous;
+  if (leaves || *f0 <= f.noise) {
+    const auto start = departure(f);
+    if (!start) return {.clear = false};
+    if (*start < f.h) {
+      const auto point = point_at(f.walker, f.from, *start);
+      if (!point) return {.clear = false};
+      a = *start;
+      cubic = {*f.value(*point), rate_at(f, *point), *f1, cubic.d1, f.h - a};
+    } else if (!near_end) {
+      return {};
+    }
+  }
+  if (near_end) return at_the_end(f, *f1, cubic.d1);
+  return judge(f, a, cubic);
+}
+
+double largest(const CurvePoint& p) {
+  return std::max({1.0, p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda)});
+}
+
+}  // namespace
+
+std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
+                                    const CurvePoint& to) {
+  std::vector<Index> resting;
+  Vector g0, g1, dl0, dl1;
+  Matrix dg0, dg1;
+  if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
+      !walker.problem.switches(from.x, from.lambda, g0) ||
+      !walker.problem.switches(to.x, to.lambda, g1) ||
+      !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
+      !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
+    return resting;
+  for (Index j = 0; j < g0.size(); ++j) {
+    if (std::max(std::abs(g0[j]), std::abs(g1[j])) > walker.options.simultaneous) continue;
+    if (std::max(std::abs(switch_rate(dg0, dl0, j, from.tangent)),
+                 std::abs(switch_rate(dg1, dl1, j, to.tangent))) > flat)
+      continue;
+    bool stays = true;
+    for (const double share : {0.31, 0.62}) {
+      const auto point = point_at(walker, from, share * (to.s - from.s));
+      Vector g;
+      stays = stays && point && walker.problem.switches(point->x, point->lambda, g) &&
+              std::abs(g[j]) <= walker.options.simultaneous;
+    }
+    if (stays) resting.push_back(j);
+  }
+  return resting;
+}
+
+KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                      const std::vector<Index>& left) {
+  KinkSearch result;
+  const Index m = walker.problem.switch_count();
+  if (m == 0) return result;
+  const double h = to.s - from.s, noise = 1e-12 * std::max(largest(from), largest(to));
+  const std::vector<Index> resting = resting_switches(walker, from, to);
+  const auto among = [](const std::vector<Index>& list, Index j) {
+    return std::find(list.begin(), list.end(), j) != list.end();
+  };
+  for (Index j = 0; j < m; ++j) {
+    if (among(resting, j)) continue;
+    const double side = from.piece[static_cast<std::size_t>(j)];
+    const Watched watched{walker, from, h, j, side, noise};
+    Crossing crossing = crossing_of(watched, to, among(left, j));
+    if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
+    if (crossing.touches) result.touched.push_back(j);
+    if (!crossing.located ||
+        (result.status == KinkSearch::Status::found && crossing.located->point.s >= result.point.s))
+      continue;
+    result.status = KinkSearch::Status::found;
+    result.point = std::move(crossing.located->point);
+    result.before = crossing.located->before;
+    result.after = crossing.located->after;
+  }
+  if (result.status == KinkSearch::Status::found)
+    result.active = active_switches(walker, result.point.x, result.point.lambda);
+  return result;
+}
+
+}  // namespace springfold::continuation
