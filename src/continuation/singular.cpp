@@ -1,116 +1,361 @@
 #include "singular.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "bordered_test.hpp"
+#include "chebyshev.hpp"
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "springfold/core/inertia.hpp"
 #include "zeros.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-constexpr double vertical = 1e-10;   // lambda does not change along the curve at all
-constexpr double together = 1e-5;    // arc length within which zeros are examined as one point
-constexpr double resolution = 1e-6;  // of features of one function
-constexpr double rounding = 1e-11;   // of a function against its size
+constexpr double vertical = 1e-10;    // lambda does not change along the curve at all
+constexpr double together = 1e-5;     // arc length within which zeros are examined as one point
+constexpr double resolution = 1e-7;   // of features of one function
+constexpr double rounding = 1e-11;    // of a function against its size
+constexpr double unit_noise = 1e-13;  // rounding of a tangent's component
+constexpr double merged = 1e-7;       // zeros that are closer are one multiple zero
+constexpr double beyond = 0.03;       // share of the step after its end that is searched as well
 
-double rate_of(const CurvePoint& p) { return p.tangent.dlambda; }
+/// One step, its points (each computed once), and what is watched on it.
+class Arc {
+ public:
+  Arc(const Walker& walker, const CurvePoint& from, double length)
+      : walker_{walker}, from_{from}, length_{length} {}
 
-/// A zero of a watched function, as a point of the curve.
-struct Zero {
-  CurvePoint point{};
-  double before = 0, after = 0;
-  bool touches = false;
-};
+  const Walker& walker() const { return walker_; }
+  const CurvePoint& from() const { return from_; }
+  double length() const { return length_; }
+  double low() const { return -beyond * length_; }
+  double high() const { return (1 + beyond) * length_; }
 
-/// One step and the samples on it.
-struct Step {
-  const Walker& walker;
-  const CurvePoint& from;
-  double h = 0;
-};
-
-/// All zeros of a function of the curve's point on the step.
-/// @param noise  values below this are not told from zero
-bool zeros_of(const Step& step,
-              const std::function<std::optional<double>(const CurvePoint&)>& value,
-              const std::vector<double>& values, double noise, std::vector<Zero>& zeros) {
-  double scale = 0;
-  for (const double v : values) scale = std::max(scale, std::abs(v));
-  const auto f = [&](double ds) -> std::optional<double> {
-    const auto point = point_at(step.walker, step.from, ds);
-    return point ? value(*point) : std::nullopt;
-  };
-  const ZeroSearch search = find_zeros(f, 0, step.h, std::max(noise, rounding * scale), resolution);
-  for (const ZeroOf& zero : search.zeros) {
-    if (!(zero.at > 0)) continue;  // belongs to the step before
-    auto point = point_at(step.walker, step.from, zero.at);
-    for (const double nudge : {1e-9, 1e-8, 1e-7})  // singular to rounding exactly there
-      if (!point) point = point_at(step.walker, step.from, zero.at + nudge * step.h);
-    if (!point) return false;
-    // A change of sign without a zero: the curve was lost in between.
-    const auto least = value(*point);
-    if (!zero.touches && (!least || std::abs(*least) > 1e-4 * scale)) return false;
-    zeros.push_back({std::move(*point), zero.before, zero.after, zero.touches});
+  const std::optional<CurvePoint>& point(double ds) const {
+    auto found = points_.find(ds);
+    if (found == points_.end()) found = points_.emplace(ds, point_at(walker_, from_, ds)).first;
+    return found->second;
   }
-  return search.resolved;
+  std::optional<double> rate(double ds) const {
+    const auto& p = point(ds);
+    return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
+  }
+  std::optional<Matrix> matrix(const CurvePoint& p) const {
+    Linearisation at;
+    if (!linearise(walker_.problem, p.x, p.lambda, p.piece, at)) return std::nullopt;
+    return extended_matrix(at, walker_.weights, from_.tangent);
+  }
+  std::optional<Matrix> sigma(double ds, const Borders& borders) const {
+    const auto& p = point(ds);
+    const auto E = p ? matrix(*p) : std::nullopt;
+    return E ? sigma_of(*E, borders) : std::nullopt;
+  }
+
+ private:
+  const Walker& walker_;
+  const CurvePoint& from_;
+  double length_;
+  mutable std::map<double, std::optional<CurvePoint>> points_{};
+};
+
+/// A special point on the arc before its label is final.
+struct Candidate {
+  double at = 0, before = 0, after = 0;
+  CurvePoint point{};
+  HitKind kind = HitKind::limit_point;
+  int multiplicity = 1;
+  bool odd = false;  ///< an odd number of eigenvalues change sign here
+};
+
+/// A branch point on the arc, from the curve's points around it: (x, lambda), the tangent's rate and
+/// Sigma are interpolated on a window; none of them is ever computed at the singular point itself.
+struct Singularity {
+  double at = 0;
+  Vector u{};       ///< (x, lambda)
+  double rate = 0;  ///< of lambda along the arc there
+  double rate_scale = 0;
+  double doubt = 0;  ///< how far the place may be off
+};
+
+/// The curve's points and rates near t, interpolated.
+std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
+  const auto [a, b] = window_around(t, length, arc.low(), arc.high());
+  return interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto& p = arc.point(ds);
+        if (!p) return std::nullopt;
+        Vector u(p->x.size() + 2);
+        u << p->x, p->lambda, p->tangent.dlambda;
+        return u;
+      },
+      a, b);
 }
 
-Hit hit_at(const Step& step, HitKind kind, const char* name, CurvePoint point, double before,
-           double after, int multiplicity = 1) {
-  Hit hit{.kind = kind, .name = name};
-  hit.point = std::move(point);
-  hit.point.negative.reset();
-  const Direction offset{hit.point.x - step.from.x, hit.point.lambda - step.from.lambda};
-  hit.point.s = step.from.s + metric_product(step.walker.weights, offset, step.from.tangent);
-  hit.multiplicity = multiplicity;
-  hit.s_before = std::min(step.from.s + before, hit.point.s);
-  hit.s_after = std::max(step.from.s + after, hit.point.s);
-  return hit;
+Singularity on_curve(const Interpolant& curve, double t) {
+  const Vector u = curve(t);
+  const Index n = u.size() - 2;
+  return {t, u.head(n + 1), u[n + 1], curve.values.row(n + 1).cwiseAbs().maxCoeff()};
 }
 
-/// The branch point nearby with this many zero eigenvalues, if there is one.
-std::optional<CurvePoint> branch_point_near(const Step& step, const CurvePoint& near, int m) {
-  auto point =
-      m == 1 ? refine_branch_point(step.walker, near) : refine_multiple_point(step.walker, near, m);
-  if (!point) return std::nullopt;
-  const Direction moved{point->x - near.x, point->lambda - near.lambda};
-  if (metric_product(step.walker.weights, moved, moved) > together * together) return std::nullopt;
-  return point;
+/// Place where all m x m entries of Sigma vanish, near t; nothing if they do not.
+std::optional<Singularity> multiple_zero_on(const Arc& arc, double t, double length, Index m) {
+  const auto curve = curve_near(arc, t, length);
+  if (!curve) return std::nullopt;
+  const Index n = arc.from().x.size();
+  CurvePoint centre = arc.from();
+  centre.x = (*curve)(t).head(n);
+  centre.lambda = (*curve)(t)[n];
+  const auto E = arc.matrix(centre);
+  if (!E) return std::nullopt;
+  const Borders borders = borders_of(*E, m);
+  const auto Sigma = interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto entries = arc.sigma(ds, borders);
+        return entries ? std::optional<Vector>(entries->reshaped()) : std::nullopt;
+      },
+      curve->a, curve->b);
+  if (!Sigma) return std::nullopt;
+  // Least squares: all entries are multiples of t - t* near the place.
+  for (int i = 0; i < 12; ++i) {
+    const Vector s = (*Sigma)(t), d = Sigma->slope(t);
+    const double step = -d.dot(s) / d.squaredNorm();
+    if (!std::isfinite(step) || t + step < curve->a || t + step > curve->b) return std::nullopt;
+    t += step;
+    if (std::abs(step) < 1e-15) break;
+  }
+  // What is left of Sigma, as an error of the place.
+  const double left = (*Sigma)(t).norm() / Sigma->slope(t).norm();
+  if (!(left <= merged)) return std::nullopt;
+  Singularity result = on_curve(*curve, t);
+  result.doubt = left;
+  return result;
 }
 
-/// What happens at zeros that lie together: turns of lambda and zeros of eigenvalues.
-bool explain(const Step& step, const std::vector<Zero>& turns, const std::vector<Zero>& eigenvalues,
-             SingularPoints& result) {
-  const Zero& first = turns.empty() ? eigenvalues.front() : turns.front();
-  const double before = first.before, after = first.after;
-  const auto add = [&](HitKind kind, const char* name, const CurvePoint& point, int m = 1) {
-    result.hits.push_back(hit_at(step, kind, name, point, before, after, m));
+/// The better one of a wide window, on which rounding matters less, and a narrow one.
+std::optional<Singularity> multiple_zero(const Arc& arc, double t, double free, Index m) {
+  const double wide = std::min(arc.high() - arc.low(), 0.8 * free);
+  auto best = multiple_zero_on(arc, t, wide, m);
+  if (best && best->doubt < 1e-11) return best;
+  const auto other = multiple_zero_on(arc, t, 0.25 * wide, m);
+  return !best || (other && other->doubt < best->doubt) ? other : best;
+}
+
+/// Removes what is left of the residual within the directions that dF sees well.
+void polish(const Arc& arc, CurvePoint& point, Index corank) {
+  const auto& walker = arc.walker();
+  Vector F;
+  for (int i = 0; i < 2; ++i) {
+    const auto E = arc.matrix(point);
+    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return;
+    const Borders borders = borders_of(*E, corank);
+    const Index n = F.size(), m = corank;
+    Matrix A(n + 1 + m, n + 1 + m);
+    A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
+    Vector right = Vector::Zero(n + 1 + m);
+    right.head(n) = -F;
+    const Vector step = A.partialPivLu().solve(right);
+    if (!step.allFinite() || step.head(n + 1).norm() > 1e-6) return;
+    point.x += step.head(n);
+    point.lambda += step[n];
+  }
+}
+
+/// A branch point re-solved by its augmented system, if that agrees.
+std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) {
+  if (found.kind != HitKind::branch_point) return std::nullopt;
+  if (found.multiplicity > 1 && !arc.walker().problem.symmetric()) return std::nullopt;
+  auto refined = found.multiplicity == 1
+                     ? refine_branch_point(arc.walker(), found.point)
+                     : refine_multiple_point(arc.walker(), found.point, found.multiplicity);
+  if (!refined) return std::nullopt;
+  const Direction moved{refined->x - found.point.x, refined->lambda - found.point.lambda};
+  if (metric_product(arc.walker().weights, moved, moved) > merged * merged) return std::nullopt;
+  return refined;
+}
+
+/// A branch point where zeros of det Sigma lie together: a multiple one if all entries vanish in one
+/// place, otherwise a simple one, where the zero is.
+std::optional<Candidate> branch_point_at(const Arc& arc, const std::vector<ZeroOf>& zeros,
+                                         Index most, double free) {
+  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
+  const bool touches = zeros.size() == 1 && zeros.front().touches;
+  std::optional<Singularity> found;
+  Index m = most;
+  for (; m > 1 && !found; --m) {
+    found = multiple_zero(arc, middle, free, m);
+    if (found) break;
+  }
+  if (!found && zeros.size() > 1) return std::nullopt;
+  if (!found) {
+    const auto curve = curve_near(arc, middle, 0.2 * arc.length());
+    if (!curve) return std::nullopt;
+    found = on_curve(*curve, middle);
+  }
+  Candidate result{.at = found->at, .before = zeros.front().before, .after = zeros.back().after};
+  result.point = arc.from();
+  const Index n = arc.from().x.size();
+  result.point.x = found->u.head(n);
+  result.point.lambda = found->u[n];
+  result.multiplicity = static_cast<int>(m);
+  result.kind = touches && m == 1 ? HitKind::touch : HitKind::branch_point;
+  polish(arc, result.point, m);
+  if (const auto refined = refined_point(arc, result)) result.point = *refined;
+  const bool turns = std::abs(found->rate) <= 1e-5 * found->rate_scale;
+  const auto crossings =
+      std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
+  result.odd = (crossings % 2 == 1) != turns;
+  return result;
+}
+
+struct Search {
+  std::vector<ZeroOf> zeros{};
+  bool resolved = true;
+  Index order = 1;
+};
+
+Search turns_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
+  std::vector<double> rates;
+  double scale = 0;
+  for (const CurvePoint* p : samples) rates.push_back(p->tangent.dlambda);
+  for (const double r : rates) scale = std::max(scale, std::abs(r));
+  if (!arc.walker().options.limit_points || scale <= vertical || !within_reach(rates)) return {};
+  const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(),
+                                      std::max(rounding * scale, unit_noise), resolution);
+  return {found.zeros, found.resolved};
+}
+
+Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
+  if (!arc.walker().options.branch_points) return {};
+  std::vector<Matrix> E;
+  for (const CurvePoint* p : samples) {
+    const auto matrix = arc.matrix(*p);
+    if (!matrix) return {.resolved = false};
+    E.push_back(*matrix);
+  }
+  bool regular = true;
+  double reach = 0;
+  const std::size_t middle = E.size() / 2;
+  for (std::size_t i = 0; i < E.size(); ++i) {
+    if (i == middle) continue;
+    regular = regular && surely_regular(E[middle], E[i]);
+    reach = std::max(reach, (E[i] - E[middle]).norm());
+  }
+  if (regular) return {};
+  Search result{.order = small_singular_values(E[middle], 2 * reach)};
+  const Borders borders = borders_of(E[middle], result.order);
+  double scale = 0, entries = 0;
+  const auto determinant = [&](double ds) -> std::optional<double> {
+    const auto Sigma = arc.sigma(ds, borders);
+    if (!Sigma) return std::nullopt;
+    const double value = Sigma->determinant();
+    scale = std::max(scale, std::abs(value));
+    entries = std::max(entries, Sigma->norm());
+    return value;
+  };
+  for (const double t : {0.0, 0.5, 1.0})
+    if (!determinant(t * arc.length())) return {.resolved = false};
+  const ZeroSearch found =
+      find_zeros(determinant, 0, (1 + beyond) * arc.length(), rounding * scale, resolution);
+  result.zeros = found.zeros;
+  result.resolved = found.resolved;
+  return result;
+}
+
+/// Distance from zeros[first..last] to the nearest other one.
+double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::size_t last,
+                   double length) {
+  double free = length;
+  if (first > 0) free = std::min(free, zeros[first].at - zeros[first - 1].at);
+  if (last + 1 < zeros.size()) free = std::min(free, zeros[last + 1].at - zeros[last].at);
+  return free;
+}
+
+/// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
+bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroOf>& turns,
+                       std::vector<Candidate>& found) {
+  const auto& zeros = singular.zeros;
+  const auto add = [&](const std::vector<ZeroOf>& group, double free) {
+    auto candidate = branch_point_at(arc, group, singular.order, free);
+    if (!candidate) return false;
+    std::erase_if(
+        turns, [&](const ZeroOf& turn) { return std::abs(turn.at - candidate->at) <= together; });
+    found.push_back(std::move(*candidate));
     return true;
   };
-  const auto crossing = std::count_if(eigenvalues.begin(), eigenvalues.end(),
-                                      [](const Zero& z) { return !z.touches; });
-  const auto turning =
-      std::count_if(turns.begin(), turns.end(), [](const Zero& z) { return !z.touches; });
-  const int m = std::max<int>(1, static_cast<int>(eigenvalues.size()));
-  // A fold: lambda turns and one eigenvalue passes zero.
-  if (turning == 1 && turns.size() == 1 && eigenvalues.size() <= 1 &&
-      (crossing == 1 || !step.walker.problem.symmetric() || !step.walker.options.branch_points))
-    return add(HitKind::limit_point, "limit point", turns.front().point);
-  // The branch turns at a branch point, or passes one.
-  if (turning == 1 || (turns.empty() && crossing > 0)) {
-    for (int k = m; k <= m + (turning == 1 ? 1 : 0); ++k)
-      if (const auto point = branch_point_near(step, first.point, k))
-        return add(HitKind::branch_point, "branch point", *point,
-                   std::max(k, corank_at(step.walker, *point, 1e-9)));
-    if (m == 1 && turns.empty()) return add(HitKind::branch_point, "branch point", first.point);
-    result.unexplained = static_cast<int>(std::max<long>(1, crossing));
-    return false;
+  for (std::size_t i = 0; i < zeros.size();) {
+    std::size_t last = i;
+    while (last + 1 < zeros.size() && zeros[last + 1].at - zeros[last].at < together) ++last;
+    const double free = free_length(zeros, i, last, arc.length());
+    const std::vector<ZeroOf> group(zeros.begin() + static_cast<std::ptrdiff_t>(i),
+                                    zeros.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    bool explained = add(group, free);
+    if (!explained && last > i) {  // close, but not one point
+      explained = true;
+      for (std::size_t k = i; k <= last; ++k)
+        explained = add({zeros[k]}, free_length(zeros, k, k, arc.length())) && explained;
+    }
+    if (!explained) return false;
+    i = last + 1;
   }
-  if (turning == 0 && crossing == 0) return add(HitKind::touch, "touch", first.point, m);
-  result.unexplained = static_cast<int>(std::max<long>(1, crossing));
-  return false;
+  return true;
+}
+
+bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
+                      std::vector<Candidate>& found) {
+  for (const ZeroOf& turn : turns) {
+    const auto& point = arc.point(turn.at);
+    if (!point) return false;
+    Candidate candidate{.at = turn.at, .before = turn.before, .after = turn.after, .point = *point};
+    candidate.kind = turn.touches ? HitKind::touch : HitKind::limit_point;
+    candidate.odd = !turn.touches;
+    found.push_back(std::move(candidate));
+  }
+  return true;
+}
+
+/// Number of negative eigenvalues on the arc, counted away from special points.
+std::optional<Index> negative_at(const Arc& arc, double ds) {
+  const auto& p = arc.point(ds);
+  return p ? p->negative : std::nullopt;
+}
+
+/// Between any two neighbouring special points the count must not change, and at each one only as
+/// much as it explains.
+std::string accounting(const Arc& arc, const std::vector<Candidate>& found, const CurvePoint& to) {
+  std::optional<Index> before = arc.from().negative;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double next = i + 1 < found.size() ? found[i + 1].at : arc.length();
+    const auto after =
+        i + 1 < found.size() ? negative_at(arc, 0.5 * (found[i].at + next)) : to.negative;
+    if (before && after) {
+      const auto change = static_cast<int>(std::abs(*after - *before));
+      const int most = found[i].kind == HitKind::touch ? 0 : found[i].multiplicity + 1;
+      if (change > most || (change % 2 == 1) != found[i].odd)
+        return "number of negative eigenvalues and special points do not fit together";
+    }
+    before = after;
+  }
+  if (found.empty() && before && to.negative && *before != *to.negative)
+    return "number of negative eigenvalues changes without a special point";
+  return {};
+}
+
+Hit hit_of(const Arc& arc, Candidate candidate) {
+  const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
+                     : candidate.kind == HitKind::branch_point ? "branch point"
+                                                               : "touch";
+  Hit hit{.kind = candidate.kind, .name = name};
+  hit.point = std::move(candidate.point);
+  hit.point.negative.reset();
+  hit.point.s = arc.from().s + candidate.at;
+  hit.multiplicity = candidate.multiplicity;
+  hit.s_before = std::min(arc.from().s + candidate.before, hit.point.s);
+  hit.s_after = std::max(arc.from().s + candidate.after, hit.point.s);
+  return hit;
 }
 
 }  // namespace
@@ -118,60 +363,32 @@ bool explain(const Step& step, const std::vector<Zero>& turns, const std::vector
 SingularPoints singular_points(const Walker& walker,
                                const std::vector<const CurvePoint*>& samples) {
   SingularPoints result;
-  const Step step{walker, *samples.front(), samples.back()->s - samples.front()->s};
-  std::vector<Zero> turns, eigenvalues;
-  bool clear = true;
-
-  std::vector<double> rates;
-  for (const CurvePoint* p : samples) rates.push_back(rate_of(*p));
-  const bool moves =
-      std::any_of(rates.begin(), rates.end(), [](double r) { return std::abs(r) > vertical; });
-  if (walker.options.limit_points && moves && within_reach(rates))
-    clear = zeros_of(
-        step, [](const CurvePoint& p) { return std::optional<double>(rate_of(p)); }, rates, 1e-14,
-        turns);
-
-  if (walker.options.branch_points && walker.problem.symmetric()) {
-    std::vector<Vector> spectra;
-    for (const CurvePoint* p : samples)
-      if (auto spectrum = spectrum_at(walker, *p)) spectra.push_back(std::move(*spectrum));
-    for (Index k = 0; spectra.size() == samples.size() && k < spectra.front().size(); ++k) {
-      std::vector<double> values;
-      for (const Vector& spectrum : spectra) values.push_back(spectrum[k]);
-      if (!within_reach(values)) continue;
-      const auto value = [&walker, k](const CurvePoint& p) -> std::optional<double> {
-        const auto spectrum = spectrum_at(walker, p);
-        return spectrum ? std::optional<double>((*spectrum)[k]) : std::nullopt;
-      };
-      const double noise = 1e-14 * spectra.front().cwiseAbs().maxCoeff();
-      clear = zeros_of(step, value, values, noise, eigenvalues) && clear;
-    }
-  }
-  if (!clear) {
+  const CurvePoint &from = *samples.front(), &to = *samples.back();
+  const Arc arc(walker, from, to.s - from.s);
+  Search turns = turns_on(arc, samples);
+  const Search singular = singularities_on(arc, samples);
+  if (!turns.resolved || !singular.resolved) {
     result.doubt = "special points too close together";
     return result;
   }
-
-  const auto by_place = [](const Zero& a, const Zero& b) { return a.point.s < b.point.s; };
-  std::stable_sort(turns.begin(), turns.end(), by_place);
-  std::stable_sort(eigenvalues.begin(), eigenvalues.end(), by_place);
-  while (!turns.empty() || !eigenvalues.empty()) {
-    double first = std::numeric_limits<double>::infinity();
-    if (!turns.empty()) first = turns.front().point.s;
-    if (!eigenvalues.empty()) first = std::min(first, eigenvalues.front().point.s);
-    const auto take = [first](std::vector<Zero>& list) {
-      std::vector<Zero> taken;
-      while (!list.empty() && list.front().point.s <= first + together) {
-        taken.push_back(std::move(list.front()));
-        list.erase(list.begin());
-      }
-      return taken;
-    };
-    const std::vector<Zero> here_turns = take(turns), here_eigenvalues = take(eigenvalues);
-    if (explain(step, here_turns, here_eigenvalues, result)) continue;
-    result.doubt = "tangent and eigenvalues do not fit together";
+  std::vector<Candidate> found;
+  if (!add_branch_points(arc, singular, turns.zeros, found) ||
+      !add_limit_points(arc, turns.zeros, found)) {
+    result.doubt = "special point not resolved";
+    result.unexplained = static_cast<int>(std::max<std::size_t>(1, singular.zeros.size()));
     return result;
   }
+  std::erase_if(found, [](const Candidate& c) { return !(c.at > 1e-9); });  // the start itself
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
+  if (!found.empty() && found.back().at > (1 - beyond) * arc.length()) {
+    result.doubt = "step ends at a special point";
+    return result;
+  }
+  if (walker.options.limit_points && walker.options.branch_points)
+    result.doubt = accounting(arc, found, to);
+  if (!result.doubt.empty()) return result;
+  for (Candidate& candidate : found) result.hits.push_back(hit_of(arc, std::move(candidate)));
   return result;
 }
 

@@ -1,0 +1,53 @@
+#include "bordered_test.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace springfold::continuation {
+
+Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau) {
+  const Index n = at.dF_dx.rows();
+  Matrix E(n + 1, n + 1);
+  E << at.dF_dx, at.dF_dlambda, (weights.array() * tau.dx.array()).matrix().transpose(),
+      tau.dlambda;
+  return E;
+}
+
+bool surely_regular(const Matrix& E0, const Matrix& E1) {
+  const Eigen::PartialPivLU<Matrix> lu(E0);
+  const Matrix X = lu.solve(E1 - E0).cwiseAbs();
+  if (!X.allFinite()) return false;
+  Vector d = Vector::Ones(X.cols());
+  for (int i = 0; i < 8; ++i) {
+    const Vector Xd = X * d;
+    if ((Xd.array() / d.array()).maxCoeff() < 0.5) return true;
+    const double largest = Xd.maxCoeff();
+    if (!(largest > 0)) return true;
+    d = (Xd / largest).cwiseMax(1e-12);
+  }
+  return false;
+}
+
+Index small_singular_values(const Matrix& E, double reach) {
+  const Eigen::BDCSVD<Matrix> svd(E);
+  return std::max<Index>(1, (svd.singularValues().array() < reach).count());
+}
+
+Borders borders_of(const Matrix& E, Index m) {
+  const Eigen::JacobiSVD<Matrix> svd(E, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {svd.matrixU().rightCols(m), svd.matrixV().rightCols(m)};
+}
+
+std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders) {
+  const Index n = E.rows(), m = borders.B.cols();
+  Matrix A(n + m, n + m);
+  A << E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
+  Matrix right = Matrix::Zero(n + m, m);
+  right.bottomRows(m).setIdentity();
+  Matrix Sigma = A.partialPivLu().solve(right).bottomRows(m);
+  if (!Sigma.allFinite()) return std::nullopt;
+  return Sigma;
+}
+
+}  // namespace springfold::continuation

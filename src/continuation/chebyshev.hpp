@@ -1,0 +1,35 @@
+// Interpolation at Chebyshev points: of functions along a step, of the step's points themselves.
+// Private to the engine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "springfold/core/types.hpp"
+
+namespace springfold::continuation {
+
+/// Polynomial of degree 9 through ten Chebyshev-Lobatto points of [a, b], in barycentric form
+/// (Berrut and Trefethen 2004). No point lies in the middle, where a singular point is expected.
+struct Interpolant {
+  static constexpr int samples = 10;
+  double a = 0, b = 1;
+  std::vector<double> at{};           ///< places of the samples, from b down to a
+  std::vector<double> barycentric{};  ///< weights
+  Matrix values{};                    ///< one column per sample
+
+  Vector operator()(double t) const;
+  Vector slope(double t) const;
+  double first(double t) const { return (*this)(t)[0]; }
+  double first_slope(double t) const { return slope(t)[0]; }
+};
+
+/// f may fail (nothing) where its point cannot be computed; then there is no interpolant.
+std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
+                                       double a, double b);
+
+/// A window of the given length around t, inside [a, b].
+std::pair<double, double> window_around(double t, double length, double a, double b);
+
+}  // namespace springfold::continuation
