@@ -164,13 +164,10 @@ void polish(const Arc& arc, CurvePoint& point, Index corank) {
   }
 }
 
-/// A branch point re-solved by its augmented system, if that agrees.
+/// A simple branch point re-solved by its augmented system, if that agrees.
 std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) {
-  if (found.kind != HitKind::branch_point) return std::nullopt;
-  if (found.multiplicity > 1 && !arc.walker().problem.symmetric()) return std::nullopt;
-  auto refined = found.multiplicity == 1
-                     ? refine_branch_point(arc.walker(), found.point)
-                     : refine_multiple_point(arc.walker(), found.point, found.multiplicity);
+  if (found.kind != HitKind::branch_point || found.multiplicity != 1) return std::nullopt;
+  auto refined = refine_branch_point(arc.walker(), found.point);
   if (!refined) return std::nullopt;
   const Direction moved{refined->x - found.point.x, refined->lambda - found.point.lambda};
   if (metric_product(arc.walker().weights, moved, moved) > merged * merged) return std::nullopt;

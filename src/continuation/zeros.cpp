@@ -89,7 +89,7 @@ class Search {
       return;
     }
     const std::vector<double> places = features_of(p, level_of(fit.error, scale));
-    const bool accurate = fit.error * (b - a) <= location * scale;
+    const bool accurate = fit.error * (b - a) <= location * scale || fit.error <= noise_;
     for (std::size_t i = 0; i < places.size();) {
       std::size_t end = i;
       while (!accurate && end + 1 < places.size() && places[end + 1] - places[end] < 0.15 * (b - a))
@@ -104,8 +104,8 @@ class Search {
   bool look(const Fit& fit, double first, double end, bool last, int depth) {
     const Interpolant& p = *fit.polynomial;
     const double length = p.b - p.a, scale = p.values.cwiseAbs().maxCoeff();
-    if (first == end && fit.error * length <= location * scale && locate(fit, first, false))
-      return true;
+    const bool accurate = fit.error * length <= location * scale || fit.error <= noise_;
+    if (first == end && accurate && locate(fit, first, false)) return true;
     const double from = std::max(p.a, first - 0.07 * length),
                  to = std::min(p.b, end + 0.07 * length);
     if (last) {
@@ -166,7 +166,9 @@ class Search {
     const Interpolant& p = *fit.polynomial;
     const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
     const auto value = [&](double t) { return p.first(t); };
-    const double noise = best ? std::max(noise_, 4 * error) : noise_;
+    const double scale = p.values.cwiseAbs().maxCoeff();
+    const double noise = std::max(noise_, 30 * error);
+    const bool accurate = best || error <= std::max(noise_, 1e-9 * scale);
     const std::vector<double> knots =
         extrema_of(p, std::max(p.a, near - cell), std::min(p.b, near + cell));
     double before = knots.front();
@@ -175,12 +177,12 @@ class Search {
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const double here = knots[i], v = value(here);
       const bool extremum = i + 1 < knots.size();
-      if (extremum && std::abs(v) <= noise && (best || error <= noise)) {
+      if (extremum && std::abs(v) <= noise) {
+        if (!accurate) return false;
         if (!touched) touch = here;
         touched = true;
         continue;
       }
-      if (extremum && std::abs(v) <= 4 * error) return false;
       if ((value(before) < 0) != (v < 0))
         add({touched ? touch : bisect(value, before, here), before, here, false});
       else if (touched)
