@@ -133,24 +133,33 @@ void sort_by_place(StepEvents& found) {
   found = std::move(sorted);
 }
 
+/// Too many pieces: said once for the whole stretch.
+void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vector<Index>& resting,
+                    StepEvents& found, Curve& curve) {
+  for (Hit& hit : curve.hits)
+    if (hit.kind == HitKind::unresolved && hit.switches == resting && hit.s_after >= from.s) {
+      hit.s_after = to.s;
+      return;
+    }
+  Hit hit{.kind = HitKind::unresolved,
+          .name = "unresolved: " + std::to_string(resting.size()) +
+                  " switches rest at zero; branches beside them are not looked for",
+          .point = from,
+          .switches = resting,
+          .s_before = from.s,
+          .s_after = to.s};
+  found.hits.push_back(std::move(hit));
+  found.stops.push_back(false);
+  sort_by_place(found);
+}
+
 }  // namespace
 
 void add_half_branches(const Walker& walker, const std::vector<const CurvePoint*>& samples,
-                       const std::vector<Index>& resting, StepEvents& found,
-                       std::vector<StepNote>& log) {
+                       const std::vector<Index>& resting, StepEvents& found, Curve& curve) {
   if (!walker.problem.symmetric() || !walker.options.branch_points) return;
-  if (resting.size() > most_resting) {
-    Hit hit{.kind = HitKind::unresolved,
-            .name = "unresolved: " + std::to_string(resting.size()) +
-                    " switches rest at zero; branches beside them are not looked for",
-            .point = *samples.back(),
-            .switches = resting,
-            .s_before = samples.front()->s,
-            .s_after = samples.back()->s};
-    found.hits.push_back(std::move(hit));
-    found.stops.push_back(false);
-    return sort_by_place(found);
-  }
+  if (resting.size() > most_resting)
+    return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
   std::vector<Place> places;
   take_own(found, places);
   find_places(walker, samples, resting, found, places);
@@ -160,9 +169,9 @@ void add_half_branches(const Walker& walker, const std::vector<const CurvePoint*
       found.hits.push_back(std::move(place.hit));
       found.stops.push_back(false);
     } else {
-      log.push_back({s, 0,
-                     "an eigenvalue is zero beside " + names_of(walker.problem, resting) +
-                         ", but its branch leads out of its piece"});
+      curve.log.push_back({s, 0,
+                           "an eigenvalue is zero beside " + names_of(walker.problem, resting) +
+                               ", but its branch leads out of its piece"});
     }
   }
   sort_by_place(found);

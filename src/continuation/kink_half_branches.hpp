@@ -9,11 +9,10 @@ namespace springfold::continuation {
 /// curve but different dF/dx. Where an eigenvalue of one of them passes zero, a branch of that piece
 /// crosses; the half of it that lies in the piece is an equilibrium path. Such points become
 /// branching kinks in `found`; branch points of the step's own piece are judged in the same way. A
-/// zero whose branch has no part in its piece is noted in `log`, and is a kink with one way out if
+/// zero whose branch has no part in its piece is noted in the log, and is a kink with one way out if
 /// the number of negative eigenvalues of the step's own piece changes there.
 /// @param samples  the step's ends and points between them, in order
 void add_half_branches(const Walker& walker, const std::vector<const CurvePoint*>& samples,
-                       const std::vector<Index>& resting, StepEvents& found,
-                       std::vector<StepNote>& log);
+                       const std::vector<Index>& resting, StepEvents& found, Curve& curve);
 
 }  // namespace springfold::continuation

@@ -14,7 +14,7 @@ namespace springfold::continuation {
 namespace {
 
 constexpr double vertical = 1e-10;   // lambda does not change along the curve at all
-constexpr double turns_here = 1e-9;  // lambda's rate at a kink that is taken for zero
+constexpr double turns_here = 1e-7;  // lambda's rate at a kink that is taken for zero
 constexpr std::size_t most_active = 12;
 
 /// The curve on one side of a kink, as near as lambda's rate can be told from zero.
@@ -29,7 +29,7 @@ struct Beside {
 Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
   const auto sense_of = [](const CurvePoint& p) { return p.tangent.dlambda > 0 ? 1 : -1; };
   if (std::abs(at.tangent.dlambda) > turns_here) return {at, sense_of(at)};
-  for (const double distance : {1e-8, 1e-6, 1e-4}) {
+  for (const double distance : {1e-6, 1e-5, 1e-4}) {
     const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
     if (point && std::abs(point->tangent.dlambda) > 1e-11) return {*point, sense_of(*point), true};
   }
@@ -95,6 +95,32 @@ StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoin
   return found;
 }
 
+/// Special points between `from` and `to`, just before a kink at kink_s that may itself be special.
+/// A search also sees what lies just beyond its own end: each one stops at a twentieth of what is left.
+StepEvents special_points(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                          double kink_s, const std::optional<CurvePoint>& middle) {
+  if (to.s >= kink_s) return events_on_step(walker, from, to, middle, {});
+  StepEvents all;
+  CurvePoint start = from;
+  while (start.s < to.s) {
+    const double left = 0.05 * (kink_s - start.s);
+    auto next = left > kink_s - to.s ? point_at(walker, start, kink_s - left - start.s) : to;
+    if (!next) {
+      all.doubt = "the curve could not be followed up to a kink";
+      return all;
+    }
+    StepEvents part = events_on_step(walker, start, *next, std::nullopt, {});
+    all.hits.insert(all.hits.end(), part.hits.begin(), part.hits.end());
+    all.stops.insert(all.stops.end(), part.stops.begin(), part.stops.end());
+    if (all.doubt.empty() && !part.doubt.empty()) {
+      all.doubt = part.doubt;
+      all.unexplained = part.unexplained;
+    }
+    start = std::move(*next);
+  }
+  return all;
+}
+
 /// Special points between the bounds, events of the caller on the whole step.
 StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                           const CurvePoint& end, const CurvePoint& begin,
@@ -104,7 +130,7 @@ StepEvents events_between(const Walker& walker, const CurvePoint& from, const Cu
   if (!(to.s > from.s)) return found;
   std::optional<CurvePoint> inside = middle;
   if (inside && !(inside->s > from.s && inside->s < to.s)) inside.reset();
-  StepEvents special = events_on_step(walker, from, to, inside, {});
+  StepEvents special = special_points(walker, from, to, end.s, inside);
   for (std::size_t i = 0; i < special.hits.size(); ++i) {
     const auto after = std::find_if(found.hits.begin(), found.hits.end(), [&](const Hit& hit) {
       return hit.point.s > special.hits[i].point.s;
@@ -256,7 +282,7 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
   std::vector<const CurvePoint*> samples{&from.point};
   if (inside) samples.push_back(&*middle);
   samples.push_back(&to.point);
-  add_half_branches(walker, samples, resting, found, curve.log);
+  add_half_branches(walker, samples, resting, found, curve);
   return found;
 }
 

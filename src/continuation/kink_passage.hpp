@@ -29,7 +29,7 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 /// At a switching surface: finds the ways out, records the kink, and goes on if there is one way.
 ///
 /// It is a corner if lambda's rate has opposite signs before and after. Where the rate is zero at
-/// the kink itself (a fold of one of the pieces lies on the surface) its sign is taken 1e-8 away,
+/// the kink itself (a fold of one of the pieces lies on the surface) its sign is taken 1e-6 away,
 /// further if need be up to 1e-4, and passage_events() looks for smooth special points only beyond
 /// that distance: the fold belongs to the kink and is reported once. A rate that stays zero
 /// belongs to a family; at its end the sign before the family counts.

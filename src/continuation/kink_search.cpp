@@ -33,6 +33,16 @@ struct Watched {
   }
 };
 
+double rate_at(const Watched& f, const CurvePoint& p) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
+    return std::numeric_limits<double>::quiet_NaN();
+  const double along = metric_product(f.walker.weights, p.tangent, f.from.tangent);
+  // Step lengths are measured along from.tangent: rates by the arc are smaller by this.
+  return f.side * switch_rate(dg_dx, dg_dlambda, f.j, p.tangent) / along;
+}
+
 /// What was found of one switching function.
 struct Crossing {
   bool clear = true;                 ///< false: could not be told
@@ -88,7 +98,7 @@ struct Cubic {
     const double b = (d0 + d1 - 2 * (f1 - f0) / h) / (h * h);
     return f0 + t * (d0 + t * (a + t * b));
   }
-  /// Least distance from zero that it keeps where it should: everywhere, or outside its one zero.
+  /// Least value, by samples.
   double least() const {
     constexpr int grid = 64;
     double low = std::min(f0, f1);
@@ -112,22 +122,17 @@ struct Cubic {
 Crossing judge(const Watched& f, double a, const Cubic& cubic) {
   const double change = std::max(
       {std::abs(cubic.f1 - cubic.f0), cubic.h * std::abs(cubic.d0), cubic.h * std::abs(cubic.d1)});
-  const double near = std::min(cubic.f0, std::abs(cubic.f1));
-  if (cubic.f1 >= 0 && near > 2 * change) return {};
+  if (cubic.f1 >= 0 && std::min(cubic.f0, cubic.f1) > 2 * change) return {};  // out of reach
   const auto middle = f.value(a + 0.5 * cubic.h);
   if (!middle) return {.clear = false};
-  const bool fits = std::abs(*middle - cubic(0.5 * cubic.h)) <= 0.02 * change;
-  if (cubic.f1 >= 0) {
-    const double margin = std::max(0.02 * change, std::abs(*middle - cubic(0.5 * cubic.h)));
-    const bool interior = cubic.d0 < 0 || cubic.d1 > 0 || !fits;  // else the ends are the least
-    if (!interior || (fits && cubic.least() > margin)) return {};
-    if (fits && cubic.d0 >= 0 && cubic.d1 >= 0 && cubic.least() >= std::min(cubic.f0, cubic.f1))
-      return {};
-    return first_of_all(f, a, a + cubic.h);
-  }
-  if (fits && cubic.zeros() == 1) {
-    // One zero, unless there is a near touch on the positive side before it.
-    if (cubic.d0 <= 0 && cubic.d1 <= 0) return crossing_in(f, a, a + cubic.h);
+  const double share = 0.02 * change;
+  const bool fits = std::abs(*middle - cubic(0.5 * cubic.h)) <= share + f.noise;
+  const double least = cubic.least();
+  if (fits && cubic.f1 >= 0 && (least > share || least >= std::min(cubic.f0, cubic.f1))) return {};
+  if (fits && cubic.f1 < 0 && cubic.d0 <= 0 && cubic.d1 <= 0 && cubic.zeros() == 1) {
+    // Crossed steeply it is the only zero; nearly flat there may be two more beside it.
+    Crossing only = crossing_in(f, a, a + cubic.h);
+    if (only.clear && rate_at(f, only.located->point) < -share / cubic.h) return only;
   }
   return first_of_all(f, a, a + cubic.h);
 }
@@ -140,16 +145,6 @@ std::optional<double> departure(const Watched& f) {
     if (*value > f.noise) return share * f.h;
   }
   return std::nullopt;
-}
-
-double rate_at(const Watched& f, const CurvePoint& p) {
-  Matrix dg_dx;
-  Vector dg_dlambda;
-  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
-    return std::numeric_limits<double>::quiet_NaN();
-  const double along = metric_product(f.walker.weights, p.tangent, f.from.tangent);
-  // Step lengths are measured along from.tangent: rates by the arc are smaller by this.
-  return f.side * switch_rate(dg_dx, dg_dlambda, f.j, p.tangent) / along;
 }
 
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where

@@ -1,0 +1,143 @@
+// One-sided springs exactly at their thresholds along a whole branch.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kink_problems.hpp"
+#include "springfold/continuation/kink.hpp"
+#include "tracing.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+using testing::HasSubstr;
+
+Curve follow_straight(const OneSidedModes& problem, const Piece& piece, double to,
+                      const TraceOptions& options = {}) {
+  return follow(problem, {Vector::Zero(problem.n), 0, piece, {Vector::Zero(problem.n), 1}},
+                {lambda_reaches(to)}, options);
+}
+
+TEST(HalfBranches, StartOfAStraightStateHasTwoWays) {
+  for (const bool side : {true, false}) {
+    const Rays rays = rays_from(OneSidedModes{}, Vector::Zero(1), 0, above({side}), {});
+    EXPECT_TRUE(rays.complete) << rays.why;
+    ASSERT_EQ(rays.rays.size(), 2u);
+    for (const Ray& ray : rays.rays) {
+      EXPECT_EQ(ray.piece, above({side})) << "the piece that was asked for";
+      EXPECT_EQ(ray.resting, std::vector<Index>{0});
+      EXPECT_NEAR(std::abs(ray.tangent.dlambda), 1, 1e-15);
+    }
+  }
+}
+
+TEST(HalfBranches, LeaveTheStraightStateWhereTheirOwnPieceBuckles) {
+  // x < 0: lambda = 1 + x^2;  x > 0: lambda = 1.5 + x^2
+  const OneSidedModes problem;
+  for (const bool side : {true, false})
+    for (const double longest : {0.05, 0.011, 0.2}) {
+      const Curve curve = follow_straight(problem, above({side}), 2, steps_up_to(longest));
+      ASSERT_EQ(curve.stop, StopReason::event) << curve.stop_detail;
+      ASSERT_EQ(curve.hits.size(), 3u);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Hit& hit = curve.hits[i];
+        EXPECT_EQ(hit.kind, HitKind::branching_kink);
+        EXPECT_EQ(hit.switches, std::vector<Index>{0});
+        EXPECT_NEAR(hit.point.lambda, i == 0 ? 1 : 1.5, 1e-10);
+        ASSERT_EQ(hit.leaving.size(), 2u) << "straight on, and one half-branch";
+        EXPECT_NEAR(hit.leaving[0].tangent.dlambda, 1, 1e-12);
+        EXPECT_NEAR(hit.leaving[1].tangent.dx[0], i == 0 ? -1 : 1, 1e-8);
+        EXPECT_EQ(hit.leaving[1].piece, above({i == 1}));
+        EXPECT_EQ(hit.leaving[1].negative, 0) << "the half-branch is stable";
+      }
+      for (const CurvePoint& p : curve.points) {
+        EXPECT_EQ(p.piece, above({side}));
+        EXPECT_EQ(p.negative, p.lambda > (side ? 1.5 : 1) ? 1 : 0) << "of the piece it carries";
+      }
+    }
+}
+
+TEST(HalfBranches, CanBeFollowedFromTheirKink) {
+  const OneSidedModes problem;
+  const Curve straight = follow_straight(problem, {1}, 2);
+  const auto kinks = hits_of(straight, HitKind::branching_kink);
+  ASSERT_EQ(kinks.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const CurvePoint& start = kinks[i].leaving.at(1);
+    const Curve half = trace(problem, start.x, start.lambda, {start.piece, start.tangent},
+                             {lambda_reaches(1.9)}, {});
+    EXPECT_EQ(half.stop, StopReason::event) << half.stop_detail;
+    const double x = std::sqrt(0.9 - 0.5 * static_cast<double>(i));
+    EXPECT_NEAR(half.points.back().x[0], i == 0 ? -x : x, 0.1);
+    EXPECT_NEAR(half.hits.back().point.x[0], i == 0 ? -x : x, 1e-10);
+    EXPECT_TRUE(hits_of(half, HitKind::branching_kink).empty());
+  }
+}
+
+TEST(HalfBranches, ThatBothSidesHaveTogetherAreBothFound) {
+  // c = 0: an ordinary pitchfork that only the switch makes a kink
+  OneSidedModes problem;
+  problem.c[0] = 0;
+  const Curve curve = follow_straight(problem, {-1}, 2);
+  const auto kinks = hits_of(curve, HitKind::branching_kink);
+  ASSERT_EQ(kinks.size(), 1u);
+  EXPECT_EQ(kinks[0].leaving.size(), 3u);
+  EXPECT_NEAR(kinks[0].point.lambda, 1, 1e-10);
+}
+
+TEST(HalfBranches, OfTwoSpringsAreThoseWhoseModesLieInTheirPieces) {
+  // a = 1, c = 1/2, b = -1/5. Eigenvalues a + {0, c} -+ b with modes (1, -+1) and, with one spring,
+  // a + c/2 -+ sqrt(c^2/4 + b^2): the lower mode moves both ways together, the upper ones oppositely.
+  const OneSidedModes problem{2, Vector::Constant(2, 1.0), Vector::Constant(2, 0.5), -0.2};
+  const double mixed = 1.25 + std::sqrt(0.0625 + 0.04);
+  for (const Piece& piece : {Piece{-1, -1}, Piece{1, 1}, Piece{1, -1}}) {
+    const Curve curve = follow_straight(problem, piece, 2.2);
+    ASSERT_EQ(curve.stop, StopReason::event) << curve.stop_detail;
+    const auto kinks = hits_of(curve, HitKind::branching_kink);
+    ASSERT_EQ(kinks.size(), 3u);
+    EXPECT_NEAR(kinks[0].point.lambda, 0.8, 1e-10);
+    ASSERT_EQ(kinks[0].leaving.size(), 2u);
+    EXPECT_EQ(kinks[0].leaving[1].piece, (Piece{-1, -1}));
+    EXPECT_NEAR(kinks[1].point.lambda, 1.3, 1e-10);
+    ASSERT_EQ(kinks[1].leaving.size(), 2u);
+    EXPECT_EQ(kinks[1].leaving[1].piece, (Piece{1, 1}));
+    EXPECT_NEAR(kinks[2].point.lambda, mixed, 1e-10);
+    ASSERT_EQ(kinks[2].leaving.size(), 3u);
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
+      EXPECT_EQ(kinks[2].leaving[i].piece[0], -kinks[2].leaving[i].piece[1]);
+    EXPECT_TRUE(hits_of(curve, HitKind::branch_point).empty());
+    EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
+  }
+}
+
+TEST(HalfBranches, AreNotInventedWhereTheModeLiesInAnotherPiece) {
+  // (1, -1) at a - b = 1.2 in the piece (-, -): its index changes, nothing leaves
+  const OneSidedModes problem{2, Vector::Constant(2, 1.0), Vector::Constant(2, 0.5), -0.2};
+  const Curve curve = follow_straight(problem, {-1, -1}, 2.2);
+  const auto kinks = hits_of(curve, HitKind::kink);
+  ASSERT_EQ(kinks.size(), 1u);
+  EXPECT_NEAR(kinks[0].point.lambda, 1.2, 1e-10);
+  EXPECT_EQ(kinks[0].leaving.size(), 1u);
+}
+
+TEST(HalfBranches, AreSaidToBeUnresolvedWhereTooManySwitchesRest) {
+  const OneSidedModes problem{7, Vector::Constant(7, 1.0), Vector::Constant(7, 0.5), 0};
+  const Curve curve = follow_straight(problem, Piece(7, 1), 0.5);
+  EXPECT_EQ(curve.stop, StopReason::event);
+  const auto unresolved = hits_of(curve, HitKind::unresolved);
+  ASSERT_EQ(unresolved.size(), 1u) << "once for the whole branch";
+  EXPECT_EQ(unresolved[0].s_before, 0);
+  EXPECT_NEAR(unresolved[0].s_after, 0.5, 0.06);
+}
+
+TEST(HalfBranches, TheStepLogSaysThatASwitchRestsAndWhatTheOtherSideIs) {
+  OneSidedModes problem;
+  problem.a[0] = -1;
+  problem.c[0] = 3;
+  const Curve curve = follow_straight(problem, {1}, 0.5);
+  ASSERT_FALSE(curve.log.empty());
+  EXPECT_THAT(curve.log[0].reason, HasSubstr("stays on the surface of switch 1"));
+  EXPECT_THAT(curve.log[0].reason, HasSubstr("negative eigenvalues: 0, 1 beyond switch 1"));
+}
+
+}  // namespace
+}  // namespace springfold::continuation
