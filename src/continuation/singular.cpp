@@ -135,13 +135,16 @@ std::optional<Singularity> multiple_zero_on(const Arc& arc, double t, double len
   return result;
 }
 
-/// The better one of a wide window, on which rounding matters less, and a narrow one.
+/// The best one of a wide window, on which rounding matters less, and narrower ones.
 std::optional<Singularity> multiple_zero(const Arc& arc, double t, double free, Index m) {
   const double wide = std::min(arc.high() - arc.low(), 0.8 * free);
-  auto best = multiple_zero_on(arc, t, wide, m);
-  if (best && best->doubt < 1e-11) return best;
-  const auto other = multiple_zero_on(arc, t, 0.25 * wide, m);
-  return !best || (other && other->doubt < best->doubt) ? other : best;
+  std::optional<Singularity> best;
+  for (const double share : {1.0, 0.3, 0.1, 0.03}) {
+    auto found = multiple_zero_on(arc, t, share * wide, m);
+    if (found && (!best || found->doubt < best->doubt)) best = std::move(found);
+    if (best && best->doubt < 1e-12) break;
+  }
+  return best;
 }
 
 /// Removes what is left of the residual within the directions that dF sees well.
@@ -307,7 +310,10 @@ bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
     const auto& point = arc.point(turn.at);
     if (!point) return false;
     Candidate candidate{.at = turn.at, .before = turn.before, .after = turn.after, .point = *point};
-    candidate.kind = turn.touches ? HitKind::touch : HitKind::limit_point;
+    candidate.kind = turn.touches   ? HitKind::touch
+                     : turn.several ? HitKind::unresolved
+                                    : HitKind::limit_point;
+    if (turn.several) candidate.multiplicity = 3;
     candidate.odd = !turn.touches;
     found.push_back(std::move(candidate));
   }
@@ -320,31 +326,43 @@ std::optional<Index> negative_at(const Arc& arc, double ds) {
   return p ? p->negative : std::nullopt;
 }
 
-/// Between any two neighbouring special points the count must not change, and at each one only as
-/// much as it explains.
+/// What special points explain together, where the count between them cannot be told.
+struct Explained {
+  int most = 0;      ///< eigenvalues that may change sign
+  bool odd = false;  ///< an odd number of them does
+};
+
+/// Between any two neighbouring special points the count of negative eigenvalues must not change, and
+/// at each one only as much as it explains.
 std::string accounting(const Arc& arc, const std::vector<Candidate>& found, const CurvePoint& to) {
   std::optional<Index> before = arc.from().negative;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const double next = i + 1 < found.size() ? found[i + 1].at : arc.length();
-    const auto after =
-        i + 1 < found.size() ? negative_at(arc, 0.5 * (found[i].at + next)) : to.negative;
-    if (before && after) {
-      const auto change = static_cast<int>(std::abs(*after - *before));
-      const int most = found[i].kind == HitKind::touch ? 0 : found[i].multiplicity + 1;
-      if (change > most || (change % 2 == 1) != found[i].odd)
+  Explained since{};
+  for (std::size_t i = 0; i <= found.size(); ++i) {
+    const bool last = i == found.size();
+    const double left = i > 0 ? found[i - 1].at : 0, right = last ? arc.length() : found[i].at;
+    const auto here = last ? to.negative : i == 0 ? before : negative_at(arc, 0.5 * (left + right));
+    if (before && here) {
+      const auto change = static_cast<int>(std::abs(*here - *before));
+      if (change > since.most || (change % 2 == 1) != since.odd)
         return "number of negative eigenvalues and special points do not fit together";
     }
-    before = after;
+    if (here) {
+      before = here;
+      since = {};
+    }
+    if (last) break;
+    if (found[i].kind != HitKind::touch) since.most += found[i].multiplicity + 1;
+    since.odd = since.odd != found[i].odd;
   }
-  if (found.empty() && before && to.negative && *before != *to.negative)
-    return "number of negative eigenvalues changes without a special point";
   return {};
 }
 
 Hit hit_of(const Arc& arc, Candidate candidate) {
   const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
                      : candidate.kind == HitKind::branch_point ? "branch point"
-                                                               : "touch";
+                     : candidate.kind == HitKind::touch
+                         ? "touch"
+                         : "unresolved: lambda turns several times too close together to tell";
   Hit hit{.kind = candidate.kind, .name = name};
   hit.point = std::move(candidate.point);
   hit.point.negative.reset();

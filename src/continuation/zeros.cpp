@@ -184,7 +184,7 @@ class Search {
         continue;
       }
       if ((value(before) < 0) != (v < 0))
-        add({touched ? touch : bisect(value, before, here), before, here, false});
+        add({touched ? touch : bisect(value, before, here), before, here, false, touched});
       else if (touched)
         add({touch, before, here, true});
       before = here;

@@ -12,6 +12,7 @@ struct ZeroOf {
   double at = 0;
   double before = 0, after = 0;  ///< bracket
   bool touches = false;          ///< zero without change of sign
+  bool several = false;          ///< flat crossing: three or more zeros that rounding merges
 };
 
 struct ZeroSearch {
