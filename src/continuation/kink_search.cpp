@@ -93,24 +93,31 @@ Crossing first_of_all(const Watched& f, double a, double b) {
 struct Cubic {
   double f0 = 0, d0 = 0, f1 = 0, d1 = 0, h = 1;
 
-  double operator()(double t) const {  // f0 + d0 t + a t^2 + b t^3
-    const double a = (3 * (f1 - f0) / h - 2 * d0 - d1) / h;
-    const double b = (d0 + d1 - 2 * (f1 - f0) / h) / (h * h);
-    return f0 + t * (d0 + t * (a + t * b));
+  double quadratic() const { return (3 * (f1 - f0) / h - 2 * d0 - d1) / h; }
+  double cubic() const { return (d0 + d1 - 2 * (f1 - f0) / h) / (h * h); }
+  double operator()(double t) const { return f0 + t * (d0 + t * (quadratic() + t * cubic())); }
+  /// The ends and, in order between them, where the slope d0 + 2 a t + 3 b t^2 is zero.
+  std::vector<double> turns() const {
+    const double a = quadratic(), b = cubic(), discriminant = a * a - 3 * b * d0;
+    std::vector<double> at{0, h};
+    if (discriminant >= 0) {
+      const double q = -(a + std::copysign(std::sqrt(discriminant), a));
+      for (const double t : {b != 0 ? q / (3 * b) : -1.0, q != 0 ? d0 / q : -1.0})
+        if (t > 0 && t < h) at.push_back(t);
+    }
+    std::sort(at.begin(), at.end());
+    return at;
   }
-  /// Least value, by samples.
   double least() const {
-    constexpr int grid = 64;
-    double low = std::min(f0, f1);
-    for (int i = 1; i < grid; ++i) low = std::min(low, (*this)(h * i / grid));
+    double low = f0;
+    for (const double t : turns()) low = std::min(low, t == h ? f1 : (*this)(t));
     return low;
   }
   int zeros() const {
-    constexpr int grid = 64;
     int count = 0;
     bool positive = f0 >= 0;
-    for (int i = 1; i <= grid; ++i) {
-      const bool next = (i == grid ? f1 : (*this)(h * i / grid)) >= 0;
+    for (const double t : turns()) {
+      const bool next = (t == 0 ? f0 : t == h ? f1 : (*this)(t)) >= 0;
       count += next != positive;
       positive = next;
     }
@@ -147,10 +154,12 @@ std::optional<double> departure(const Watched& f) {
   return std::nullopt;
 }
 
+constexpr double steep = 1e-4;
+
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where
 /// it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const Watched& f, double f1, double d1) {
-  if (!(d1 < -1e-4)) return {.clear = false};
+  if (!(d1 < -steep)) return {.clear = false};
   return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
 }
 
@@ -160,7 +169,8 @@ Crossing crossing_of(const Watched& f, const CurvePoint& to, bool leaves) {
   double a = 0;
   Cubic cubic{*f0, rate_at(f, f.from), *f1, rate_at(f, to), f.h};
   if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
-  const bool near_end = *f1 >= 0 && *f1 <= f.walker.options.simultaneous;
+  const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
+  const bool near_end = *f1 >= 0 && *f1 <= within;
   if (leaves || *f0 <= f.noise) {
     const auto start = departure(f);
     if (!start) return {.clear = false};
