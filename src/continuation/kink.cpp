@@ -76,6 +76,15 @@ Tangents crossing_tangents(const Walker& walker, const CurvePoint& at, const Mat
   return result;
 }
 
+/// Size of the extended Jacobian a little away, where it need not vanish altogether.
+double size_nearby(const Walker& walker, const CurvePoint& at) {
+  Linearisation linear;
+  const double h = 0.1 * std::max(1.0, at.x.norm());
+  const Vector x = at.x.array() + h;
+  if (!linearise(walker.problem, x, at.lambda + h, at.piece, linear)) return 0;
+  return extended(linear).cwiseAbs().maxCoeff();
+}
+
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
 Tangents tangents_of_piece(const Walker& walker, const CurvePoint& at, bool on_surface,
                            double full_rank) {
@@ -87,8 +96,9 @@ Tangents tangents_of_piece(const Walker& walker, const CurvePoint& at, bool on_s
   if (n == 0) return {.list = {{Vector(0), 1.0}}};
   const Eigen::ColPivHouseholderQR<Matrix> qr(A.transpose());
   const auto pivot = [&](Index i) { return std::abs(qr.matrixQR()(i, i)); };
-  if (!(pivot(n - 1) > full_rank * pivot(0))) {
-    const bool simple = n == 1 || pivot(n - 2) > full_rank * pivot(0);
+  const double least = full_rank * std::max(pivot(0), n <= 4 ? size_nearby(walker, at) : 0);
+  if (!(pivot(n - 1) > least)) {
+    const bool simple = n == 1 || pivot(n - 2) > least;
     if (on_surface && simple) return crossing_tangents(walker, at, A);
     return {.why = "more than one curve, or none, passes through this point"};
   }
@@ -242,7 +252,7 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, 1e-12);
+  return rays_around(walker, at, active, active.empty() ? 1e-12 : 1e-9);
 }
 
 }  // namespace springfold::continuation

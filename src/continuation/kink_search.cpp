@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kink_rays.hpp"
+#include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "zeros.hpp"
 
@@ -50,13 +51,49 @@ struct Crossing {
   std::optional<Located> located{};  ///< its first crossing
 };
 
+/// A crossing at which the piece's own extended Jacobian loses rank (its branch point lies on the
+/// surface): no point can be corrected there, so the place is taken from the points around it and
+/// refined by the augmented system of the branch point.
+/// @pre f has opposite signs at a and b
+Crossing crossing_at_branch_point(const Watched& f, double a, double b) {
+  const double reach = 1e-4 * (b - a);
+  double place = 0.5 * (a + b);
+  while (b - a > reach) {
+    place = 0.5 * (a + b);
+    const auto value = f.value(place);
+    if (!value || *value == 0) break;
+    (*value > 0 ? a : b) = place;
+  }
+  const auto before = point_at(f.walker, f.from, place - reach);
+  const auto after = point_at(f.walker, f.from, place + reach);
+  if (!before || !after || !f.walker.problem.symmetric()) return {.clear = false};
+  CurvePoint near = *before;
+  near.x = 0.5 * (before->x + after->x);
+  near.lambda = 0.5 * (before->lambda + after->lambda);
+  near.tangent = {0.5 * (before->tangent.dx + after->tangent.dx),
+                  0.5 * (before->tangent.dlambda + after->tangent.dlambda)};
+  const double length = std::sqrt(metric_product(f.walker.weights, near.tangent, near.tangent));
+  near.tangent.dx /= length;
+  near.tangent.dlambda /= length;
+  auto point = refine_branch_point(f.walker, near);
+  const auto value = point ? f.value(*point) : std::nullopt;
+  if (!value || std::abs(*value) > f.walker.options.simultaneous) return {.clear = false};
+  const Direction moved{point->x - f.from.x, point->lambda - f.from.lambda};
+  const double at = metric_product(f.walker.weights, moved, f.from.tangent);
+  if (!(std::abs(at - place) <= 2 * reach)) return {.clear = false};
+  point->tangent = near.tangent;
+  point->piece = f.from.piece;
+  point->s = f.from.s + at;
+  point->negative.reset();
+  return {.located = Located{std::move(*point), place - reach, place + reach}};
+}
+
 Crossing crossing_in(const Watched& f, double a, double b) {
   const auto value = [&f](const CurvePoint& p) {
     return f.value(p).value_or(std::numeric_limits<double>::quiet_NaN());
   };
   Crossing result{.located = locate(f.walker, f.from, a, b, value)};
-  result.clear = result.located.has_value();
-  return result;
+  return result.located ? result : crossing_at_branch_point(f, a, b);
 }
 
 /// All zeros between step lengths a and b are looked for; the first crossing counts.

@@ -73,6 +73,24 @@ TEST(HalfBranches, CanBeFollowedFromTheirKink) {
   }
 }
 
+TEST(HalfBranches, ComeBackToTheStraightStateInABranchingKink) {
+  OneSidedModes problem;
+  for (const double stiffness : {0.5, 0.0}) {
+    problem.c[0] = stiffness;
+    for (const double longest : {0.05, 0.013, 0.2}) {
+      SCOPED_TRACE(longest);
+      const Curve curve =
+          follow(problem, at(-0.8, 1.64, 1, -1, {-1}), {lambda_reaches(0.2)}, steps_up_to(longest));
+      EXPECT_EQ(curve.stop, StopReason::several_ways) << curve.stop_detail;
+      ASSERT_EQ(curve.hits.size(), 1u);
+      EXPECT_EQ(curve.hits[0].kind, HitKind::branching_kink);
+      EXPECT_NEAR(curve.hits[0].point.lambda, 1, 1e-10);
+      EXPECT_EQ(curve.hits[0].leaving.size(), stiffness > 0 ? 2u : 3u)
+          << "up and down the straight state, and the other half of a whole pitchfork";
+    }
+  }
+}
+
 TEST(HalfBranches, ThatBothSidesHaveTogetherAreBothFound) {
   // c = 0: an ordinary pitchfork that only the switch makes a kink
   OneSidedModes problem;
@@ -117,6 +135,20 @@ TEST(HalfBranches, AreNotInventedWhereTheModeLiesInAnotherPiece) {
   ASSERT_EQ(kinks.size(), 1u);
   EXPECT_NEAR(kinks[0].point.lambda, 1.2, 1e-10);
   EXPECT_EQ(kinks[0].leaving.size(), 1u);
+}
+
+TEST(HalfBranches, AreTheSameInTheOtherDirection) {
+  const OneSidedModes problem{2, Vector{{1, 1.1}}, Vector{{0.5, 0.3}}, -0.2};
+  const Curve up = follow_straight(problem, {1, -1}, 2.2);
+  const Curve down =
+      follow(problem, {Vector::Zero(2), 2.2, {1, -1}, {Vector::Zero(2), -1}}, {lambda_reaches(0)});
+  auto a = hits_of(up, HitKind::branching_kink), b = hits_of(down, HitKind::branching_kink);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Hit& other = b[b.size() - 1 - i];
+    EXPECT_NEAR(a[i].point.lambda, other.point.lambda, 1e-10);
+    EXPECT_EQ(a[i].leaving.size(), other.leaving.size());
+  }
 }
 
 TEST(HalfBranches, AreSaidToBeUnresolvedWhereTooManySwitchesRest) {
