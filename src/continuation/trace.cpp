@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "coincide.hpp"
 #include "events.hpp"
 #include "kink_passage.hpp"
 #include "springfold/continuation/evidence.hpp"
@@ -34,8 +35,8 @@ void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEven
 }
 
 /// One step: predict, correct, look for switching surfaces and events, record.
-Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress& progress,
-                Curve& curve, std::string& refusal) {
+Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
+                Progress& progress, Curve& curve, std::string& refusal) {
   StepResult step = try_step(walker, progress.here, progress.ds);
   if (!step.point) {
     refusal = step.refusal;
@@ -56,6 +57,13 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
                                                : std::string("a switching surface"));
     return Outcome::shorten;
   }
+  const auto start = start_again(walker, curve.points.front(), progress.here, *step.point);
+  const bool closed =
+      start && !(kink.status == KinkSearch::Status::found && kink.point.s < start->s);
+  if (closed) {
+    step.point = *start;
+    kink.status = KinkSearch::Status::none;
+  }
   const bool cut = kink.status == KinkSearch::Status::found;
   CurvePoint& end = cut ? kink.point : *step.point;
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
@@ -67,8 +75,9 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
     const bool stops = found.stops[i];
     curve.hits.push_back(std::move(found.hits[i]));
-    if (!stops) continue;
-    curve.stop = StopReason::event;
+    const bool joined = !stops && at_hit && !at_hit(curve.hits.back());
+    if (!stops && !joined) continue;
+    curve.stop = stops ? StopReason::event : StopReason::joined;
     curve.stop_detail = curve.hits.back().name;
     return Outcome::stop;
   }
@@ -80,6 +89,10 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, Progress
   progress.here = std::move(*step.point);
   progress.left.clear();
   curve.points.push_back(progress.here);
+  if (closed) {
+    curve.stop = StopReason::closed;
+    return Outcome::stop;
+  }
   // Past something unresolved the next step gets away from it.
   progress.ds = found.doubt.empty()
                     ? next_step_length(progress.ds, step.measures, walker.options.step)
@@ -93,6 +106,10 @@ std::string_view to_string(StopReason reason) {
   switch (reason) {
     case StopReason::event:
       return "end of the range";
+    case StopReason::closed:
+      return "closed curve, back at its start";
+    case StopReason::joined:
+      return "goes on along a branch traced before";
     case StopReason::max_points:
       return "largest number of points reached";
     case StopReason::step_too_small:
@@ -137,7 +154,7 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
 
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
-            const StepObserver& observer) {
+            const StepObserver& observer, const HitObserver& at_hit) {
   assert(problems_in(options).empty());
   const Walker walker{problem, problem.metric(), options};
   CurvePoint first;
@@ -153,7 +170,7 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
   while (static_cast<int>(curve.points.size()) < options.maximum_points) {
     const double from = progress.here.s, tried = progress.ds;
     std::string refusal;
-    const Outcome outcome = advance(walker, events, progress, curve, refusal);
+    const Outcome outcome = advance(walker, events, at_hit, progress, curve, refusal);
     if (outcome == Outcome::stop) return curve;
     if (outcome == Outcome::shorten) {
       curve.log.push_back({from, tried, refusal});

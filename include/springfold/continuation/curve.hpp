@@ -58,6 +58,8 @@ struct Hit {
 
 enum class StopReason {
   event,           ///< a stopping event of the caller
+  closed,          ///< back at its start: a loop, traced once
+  joined,          ///< goes on along a branch that was traced before
   max_points,      ///< as many points as allowed
   step_too_small,  ///< the corrector refused every step down to the minimum
   no_way_out,      ///< at a kink none of the pieces continues the curve

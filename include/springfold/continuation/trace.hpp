@@ -14,14 +14,18 @@ namespace springfold::continuation {
 /// Called after every accepted step; returning false stops the trace there.
 using StepObserver = std::function<bool(const CurvePoint&)>;
 
+/// Called for every special point before the curve goes on; returning false ends it there (joined).
+using HitObserver = std::function<bool(const Hit&)>;
+
 /// Follows the curve from (x, lambda) along `start`. Special points (limit points, branch points,
 /// switching surfaces, the caller's events) are located by re-solving on the curve; at a switching
 /// surface the step is cut exactly there and the curve goes on in the piece that it enters. A
-/// refused step changes nothing but the step length and the log.
+/// refused step changes nothing but the step length and the log. A curve that comes back to its
+/// start in its first direction is closed there: its last point is the start once more.
 /// @pre problems_in(options).empty(); (x, lambda) satisfies F = 0 to the residual tolerance
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
-            const StepObserver& observer = {});
+            const StepObserver& observer = {}, const HitObserver& at_hit = {});
 
 /// All directions in which a curve leaves the point (x, lambda); piece: where no switch is active.
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,

@@ -1,0 +1,51 @@
+#include "coincide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+
+Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
+  Direction d{b.x - a.x, b.lambda - a.lambda};
+  const Vector periods = walker.problem.periods();
+  for (Index i = 0; i < d.dx.size(); ++i)
+    if (periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], periods[i]);
+  return d;
+}
+
+double length_of(const Walker& walker, const Direction& d) {
+  return std::sqrt(metric_product(walker.weights, d, d));
+}
+
+double cosine(const Walker& walker, const Direction& a, const Direction& b) {
+  const double lengths = length_of(walker, a) * length_of(walker, b);
+  return lengths > 0 ? metric_product(walker.weights, a, b) / lengths : 0;
+}
+
+std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
+                                 const CurvePoint& from, const CurvePoint& to) {
+  if (target.piece != from.piece) return std::nullopt;
+  const Direction offset = between(walker, from, target);
+  const double h = to.s - from.s;
+  const double along = metric_product(walker.weights, offset, from.tangent);
+  // The curve bends away from its tangent by no more than a fraction of the step.
+  if (!(along > 0 && along <= h) || length_of(walker, offset) > 1.2 * h) return std::nullopt;
+  auto point = point_at(walker, from, along);
+  if (!point) return std::nullopt;
+  const double scale = std::max({1.0, target.x.norm(), std::abs(target.lambda)});
+  if (length_of(walker, between(walker, *point, target)) > 1e-7 * scale) return std::nullopt;
+  if (std::abs(cosine(walker, point->tangent, target.tangent)) < 0.999) return std::nullopt;
+  return point;
+}
+
+std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& start,
+                                      const CurvePoint& from, const CurvePoint& to) {
+  if (!(from.s > 0)) return std::nullopt;
+  auto point = passes(walker, start, from, to);
+  if (!point || cosine(walker, point->tangent, start.tangent) < 0) return std::nullopt;
+  return point;
+}
+
+}  // namespace springfold::continuation

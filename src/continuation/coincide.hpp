@@ -1,0 +1,26 @@
+// Do two points, or a point and a curve, coincide? Angles are compared modulo their periods. Private
+// to the engine.
+#pragma once
+
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// b - a, with every periodic unknown taken the short way round.
+Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
+
+double length_of(const Walker& walker, const Direction& d);
+
+/// Cosine of the angle between two directions.
+double cosine(const Walker& walker, const Direction& a, const Direction& b);
+
+/// The point `target` of the branch, if the step from -> to passes it: same place to 1e-7, same piece,
+/// tangents along one line. Given with the tangent and the arc length of this passage.
+std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
+                                 const CurvePoint& from, const CurvePoint& to);
+
+/// The start of a curve, if the step passes it again in the direction in which the curve left it.
+std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& start,
+                                      const CurvePoint& from, const CurvePoint& to);
+
+}  // namespace springfold::continuation
