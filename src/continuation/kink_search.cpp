@@ -200,27 +200,25 @@ Crossing at_the_end(const Watched& f, double f1, double d1) {
   return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
 }
 
-Crossing crossing_of(const Watched& f, const CurvePoint& to, bool leaves) {
-  const auto f0 = f.value(f.from), f1 = f.value(to);
-  if (!f0 || !f1) return {.clear = false};
+/// @param cubic  values and rates at the ends of the step
+Crossing crossing_of(const Watched& f, Cubic cubic, bool leaves) {
   double a = 0;
-  Cubic cubic{*f0, rate_at(f, f.from), *f1, rate_at(f, to), f.h};
   if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
   const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
-  const bool near_end = *f1 >= 0 && *f1 <= within;
-  if (leaves || *f0 <= f.noise) {
+  const bool near_end = cubic.f1 >= 0 && cubic.f1 <= within;
+  if (leaves || cubic.f0 <= f.noise) {
     const auto start = departure(f);
     if (!start) return {.clear = false};
     if (*start < f.h) {
       const auto point = point_at(f.walker, f.from, *start);
       if (!point) return {.clear = false};
       a = *start;
-      cubic = {*f.value(*point), rate_at(f, *point), *f1, cubic.d1, f.h - a};
+      cubic = {*f.value(*point), rate_at(f, *point), cubic.f1, cubic.d1, f.h - a};
     } else if (!near_end) {
       return {};
     }
   }
-  if (near_end) return at_the_end(f, *f1, cubic.d1);
+  if (near_end) return at_the_end(f, cubic.f1, cubic.d1);
   return judge(f, a, cubic);
 }
 
@@ -237,12 +235,16 @@ std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from
   Matrix dg0, dg1;
   if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
       !walker.problem.switches(from.x, from.lambda, g0) ||
-      !walker.problem.switches(to.x, to.lambda, g1) ||
-      !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
+      !walker.problem.switches(to.x, to.lambda, g1))
+    return resting;
+  std::vector<Index> candidates;
+  for (Index j = 0; j < g0.size(); ++j)
+    if (std::max(std::abs(g0[j]), std::abs(g1[j])) <= walker.options.simultaneous)
+      candidates.push_back(j);
+  if (candidates.empty() || !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
       !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
     return resting;
-  for (Index j = 0; j < g0.size(); ++j) {
-    if (std::max(std::abs(g0[j]), std::abs(g1[j])) > walker.options.simultaneous) continue;
+  for (const Index j : candidates) {
     if (std::max(std::abs(switch_rate(dg0, dl0, j, from.tangent)),
                  std::abs(switch_rate(dg1, dl1, j, to.tangent))) > flat)
       continue;
@@ -263,6 +265,15 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   KinkSearch result;
   const Index m = walker.problem.switch_count();
   if (m == 0) return result;
+  Vector g0, g1, dl0, dl1;
+  Matrix dg0, dg1;
+  if (!walker.problem.switches(from.x, from.lambda, g0) ||
+      !walker.problem.switches(to.x, to.lambda, g1) ||
+      !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
+      !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
+    return {.status = KinkSearch::Status::suspicious};
+  // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
+  const double along = metric_product(walker.weights, to.tangent, from.tangent);
   const double h = to.s - from.s, noise = 1e-12 * std::max(largest(from), largest(to));
   const std::vector<Index> resting = resting_switches(walker, from, to);
   const auto among = [](const std::vector<Index>& list, Index j) {
@@ -272,7 +283,9 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     if (among(resting, j)) continue;
     const double side = from.piece[static_cast<std::size_t>(j)];
     const Watched watched{walker, from, h, j, side, noise};
-    Crossing crossing = crossing_of(watched, to, among(left, j));
+    const Cubic ends{side * g0[j], side * switch_rate(dg0, dl0, j, from.tangent), side * g1[j],
+                     side * switch_rate(dg1, dl1, j, to.tangent) / along, h};
+    Crossing crossing = crossing_of(watched, ends, among(left, j));
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||
