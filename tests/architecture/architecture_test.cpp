@@ -93,6 +93,16 @@ TEST(ScatteredLibraries, AreSeenInASecondFile) {
   EXPECT_THAT(scattered_libraries({a, b}), SizeIs(1));
 }
 
+TEST(ScatteredLibraries, TellPartsOfBoostApart) {
+  const SourceFile flow{"src/continuation/a.cpp", "#include <boost/numeric/odeint.hpp>\n"};
+  const SourceFile steps{"src/continuation/b.cpp",
+                         "#include <boost/numeric/odeint/stepper/euler.hpp>\n"};
+  const SourceFile roots{"src/continuation/c.cpp", "#include <boost/math/tools/roots.hpp>\n"};
+  EXPECT_THAT(scattered_libraries({flow, roots, {"src/continuation/d.cpp", roots.text}}),
+              IsEmpty());
+  EXPECT_THAT(scattered_libraries({flow, steps}), SizeIs(1));
+}
+
 TEST(PrintsOrExits, SeesCallsButNotCommentsStringsOrOtherNames) {
   EXPECT_THAT(prints_or_exits({"a.cpp", "std::cerr << 1; printf(\"x\"); std::exit(1); abort();"}),
               SizeIs(4));

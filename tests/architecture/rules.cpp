@@ -38,6 +38,7 @@ const std::vector<Library>& libraries() {
        std::regex{"(kinsol|nvector|sundials|sunlinsol|sunmatrix)/.*"},
        {"statics"},
        true},
+      {"Boost.Odeint", std::regex{"boost/numeric/odeint.*"}, {"continuation"}, true},
       {"Boost", std::regex{"boost/.*"}, {"continuation"}},
       {"toml++", std::regex{"toml\\+\\+/.*|toml\\.hpp"}, {"io"}, true},
       {"muParser", std::regex{"muParser.*\\.h"}, {"io"}, true},
