@@ -1,0 +1,51 @@
+// All branches that leave a singular point.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// A branch that leaves a special point.
+struct Exit {
+  Direction tangent{};  ///< limit direction at the special point, unit in the metric, outward
+  double accuracy = 0;  ///< of `tangent`, estimated; beyond 1e-3 the result is not `complete`
+  CurvePoint start{};   ///< a point of the branch a small distance away: residual at tolerance, its
+                        ///< own unit tangent oriented outward, inertia counted; s is the distance
+};
+
+struct Exits {
+  std::vector<Exit> exits{};
+  bool complete = true;  ///< false: some may be missing or wrong; `why` says what went wrong
+  std::string why{};
+};
+
+/// All branches of one piece that leave a located singular point u0 = (x, lambda). With the right
+/// and left kernels N (n + 1 x k + 1) and L (n x k) of J0 = [dF/dx dF/dlambda] the equations are
+/// reduced to k in k + 1 unknowns (Lyapunov and Schmidt; Golubitsky and Schaeffer 1985, chapter VII),
+///
+///     (I - L L^T) F(u0 + N c + w) = 0,   N^T w = 0   =>   w(c),
+///     g(c) = L^T F(u0 + N c + w(c)) = 0,
+///
+/// and the branches are the zeros of g on small spheres |c| = rho. They are searched for at finite
+/// radius, whatever the order of contact: on a circle for k = 1; on the sphere, and along the azimuth
+/// with the lambda-like component eliminated, for k = 2. Neighbouring radii must show the same
+/// branches, and as many must enter the sphere as leave it (degree); otherwise `complete` is false.
+/// So it is for k > 2, where nothing is searched. A search by samples: no proof.
+///
+/// The tangents are exact (about 1e-10) where the quadratic terms of g determine them, and
+/// extrapolated in rho elsewhere: to about 1e-6, or 1e-4 where only terms of high order tell the
+/// branches apart. Switches of at.piece are not considered.
+/// @param at  the singular point (x, lambda, piece), located to about 1e-10
+/// @param corank  k = dim ker J0 - 1; 0 at a regular point, which has its two directions
+Exits exits_at(const Walker& walker, const CurvePoint& at, int corank);
+
+/// Corank of [dF/dx dF/dlambda] at a point that is located to about 1e-9: how many of its singular
+/// values, in the metric, are separated from the others by a gap and below 1e-6 of its size. The size
+/// is that of the matrix here or a tenth away, whichever is larger: here all of it may vanish.
+/// -1 outside the domain.
+int corank_of(const Walker& walker, const CurvePoint& at);
+
+}  // namespace springfold::continuation

@@ -1,0 +1,24 @@
+// Zeros of the reduced equation on a small sphere. Private to the engine.
+#pragma once
+
+#include <vector>
+
+#include "reduced_equation.hpp"
+
+namespace springfold::continuation {
+
+/// The branches at one radius, in a fixed order, none twice.
+struct RaySet {
+  std::vector<RayPoint> rays{};
+  double rho = 0;
+  std::string doubt{};  ///< set: the search was not possible everywhere, or found a double zero
+};
+
+/// Adds what Newton's method reaches from U, unless it is known.
+/// @returns false where it does not converge
+bool add_ray(const ReducedEquation& equation, const Vector& U, RaySet& set);
+
+/// Searches the sphere |c| = rho; corank 0, 1 or 2.
+RaySet rays_on_sphere(const ReducedEquation& equation, double rho);
+
+}  // namespace springfold::continuation

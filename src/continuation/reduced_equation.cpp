@@ -1,0 +1,205 @@
+#include "reduced_equation.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace springfold::continuation {
+namespace {
+
+bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
+  const Index n = U.size() - 1;
+  return e.walker->problem.residual(U.head(n).cwiseQuotient(e.root.head(n)), U[n], e.piece, F) &&
+         F.allFinite();
+}
+
+Matrix bordered_matrix(const Matrix& J, const Matrix& N, const Matrix& L) {
+  const Index n = J.rows(), k = L.cols();
+  Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
+  M.topLeftCorner(n, n + 1) = J;
+  M.topRightCorner(n, k) = L;
+  M.bottomLeftCorner(k + 1, n + 1) = N.transpose();
+  return M;
+}
+
+/// Turns the basis so that lambda moves along its last column only.
+bool turn_kernel(Matrix& N) {
+  const Vector r = N.bottomRows(1).transpose();
+  if (!(r.norm() > 1e-4)) return false;
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(r).householderQ();
+  Matrix turned(N.rows(), N.cols());
+  turned << N * Q.rightCols(N.cols() - 1), N * (r / r.norm());
+  N = turned;
+  return true;
+}
+
+/// D^2F[N_i, .] N by central differences of the exact derivatives, of sixth order in h; n x k + 1.
+std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, double h) {
+  constexpr double factors[] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+  Matrix sum = Matrix::Zero(e.L.rows(), e.k + 1);
+  for (int j = 1; j <= 3; ++j) {
+    const auto plus = scaled_jacobian(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
+    const auto minus = scaled_jacobian(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
+    if (!plus || !minus) return std::nullopt;
+    sum += factors[j - 1] / h * ((*plus - *minus) * e.N);
+  }
+  return sum;
+}
+
+bool expand(ReducedEquation& e, double h) {
+  const Index n = e.L.rows(), m = e.k + 1;
+  e.quadratic.assign(static_cast<std::size_t>(e.k), Matrix::Zero(m, m));
+  e.bend.clear();
+  e.curvature = 0;
+  for (Index i = 0; i < m; ++i) {
+    const auto D = second_derivative(e, i, h);
+    if (!D) return false;
+    for (Index q = 0; q < e.k; ++q)
+      e.quadratic[static_cast<std::size_t>(q)].row(i) = e.L.col(q).transpose() * *D;
+    Matrix right = Matrix::Zero(n + m, m);
+    right.topRows(n) = -0.5 * *D;
+    const Matrix W = e.bordered.solve(right).topRows(n + 1);
+    if (!W.allFinite()) return false;
+    for (Index j = 0; j < m; ++j) e.bend.emplace_back(W.col(j));
+    e.curvature = std::max(e.curvature, W.colwise().norm().maxCoeff());
+  }
+  for (Matrix& Q : e.quadratic) Q = (0.5 * (Q + Q.transpose())).eval();
+  return true;
+}
+
+}  // namespace
+
+Vector metric_roots(const Vector& weights) {
+  const double least = 1e-3 * std::max(weights.size() > 0 ? weights.maxCoeff() : 0.0, 1e-3);
+  Vector root(weights.size() + 1);
+  root << weights.unaryExpr([least](double w) { return std::sqrt(w > 0 ? w : least); }), 1.0;
+  return root;
+}
+
+Vector scaled_point(const CurvePoint& at, const Vector& root) {
+  Vector U(at.x.size() + 1);
+  U << at.x, at.lambda;
+  return U.cwiseProduct(root);
+}
+
+std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
+                                      const Piece& piece) {
+  const Index n = U.size() - 1;
+  Linearisation at;
+  if (!linearise(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
+    return std::nullopt;
+  Matrix J(n, n + 1);
+  J << at.dF_dx * root.head(n).cwiseInverse().asDiagonal(), at.dF_dlambda;
+  return J;
+}
+
+std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank) {
+  ReducedEquation e{.walker = &walker, .piece = at.piece, .root = metric_roots(walker.weights)};
+  e.U0 = scaled_point(at, e.root);
+  e.k = corank;
+  e.scale = std::max(1.0, e.U0.lpNorm<Eigen::Infinity>());
+  const auto J = scaled_jacobian(walker, e.U0, e.root, e.piece);
+  if (!J) return std::nullopt;
+  const Eigen::BDCSVD<Matrix> svd(*J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  e.N = svd.matrixV().rightCols(e.k + 1);
+  e.L = svd.matrixU().rightCols(e.k);
+  e.follows = turn_kernel(e.N);
+  e.bordered.compute(bordered_matrix(*J, e.N, e.L));
+  for (double h = 1e-3 * e.scale; h > 1e-6; h /= 10)
+    if (expand(e, h) && h * e.curvature < 0.1) return e;
+  return std::nullopt;
+}
+
+std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector& c) {
+  const Index n = e.L.rows(), m = e.k + 1;
+  const double rho = c.norm(), enough = std::max(1e-9 * rho * rho, 2e-16 * e.scale);
+  const Vector U1 = e.U0 + e.N * c;
+  Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  Eigen::PartialPivLU<Matrix> own;
+  const Eigen::PartialPivLU<Matrix>* lu = &e.bordered;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    if (!residual_at(e, U1 + w, F)) return std::nullopt;
+    right.head(n) = -F;
+    const Vector step = lu->solve(right);
+    w += step.head(n + 1);
+    const double moved = step.head(n + 1).norm();
+    if (!(w.norm() < rho)) return std::nullopt;
+    if (moved <= enough || (moved < 1e-12 * e.scale && moved > 0.5 * before))
+      return ReducedValue{U1 + w, -step.tail(e.k)};
+    if (moved > 0.2 * before) {
+      const auto J = scaled_jacobian(*e.walker, U1 + w, e.root, e.piece);
+      if (!J) return std::nullopt;
+      own.compute(bordered_matrix(*J, e.N, e.L));
+      lu = &own;
+    }
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start, double rho) {
+  const Index n = e.L.rows();
+  RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
+  Matrix A(n + 1, n + 1);
+  Vector F, right(n + 1);
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 16; ++iteration) {
+    const double length = ray.c.norm();
+    const auto J = scaled_jacobian(*e.walker, ray.U, e.root, e.piece);
+    if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
+    A << *J, (e.N * (ray.c / length)).transpose();
+    right << -F, rho - length;
+    const Eigen::PartialPivLU<Matrix> lu(A);
+    Vector step = lu.solve(right);
+    if (!step.allFinite()) return std::nullopt;
+    const double moved = step.norm();
+    if (moved > 0.4 * rho) step *= 0.4 * rho / moved;
+    ray.U += step;
+    ray.c = e.N.transpose() * (ray.U - e.U0);
+    if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < 0.3 * rho) return std::nullopt;
+    const bool small =
+        F.lpNorm<Eigen::Infinity>() <= e.walker->options.newton.residual_tolerance * e.scale;
+    if (moved <= 1e-11 * rho || (small && moved < 3e-5 * rho && moved > 0.3 * before)) {
+      const auto pivots = lu.matrixLU().diagonal().array();
+      const Index negative = (pivots < 0).count();
+      ray.noise = 1e-16 * e.scale * pivots.abs().maxCoeff() / pivots.abs().minCoeff() / rho;
+      ray.sign = static_cast<int>(lu.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+      return ray;
+    }
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start) {
+  const Index m = e.k + 1;
+  Vector c = start.normalized();
+  double size = 0;
+  for (const Matrix& Q : e.quadratic) size = std::max(size, Q.norm());
+  if (!(size > 0) && e.k > 0) return std::nullopt;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    Matrix A(m, m);
+    Vector right(m);
+    for (Index q = 0; q < e.k; ++q) {
+      const Vector Qc = e.quadratic[static_cast<std::size_t>(q)] * c / size;
+      A.row(q) = Qc.transpose();
+      right[q] = -0.5 * c.dot(Qc);
+    }
+    A.row(e.k) = c.transpose();
+    right[e.k] = 0;
+    const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    if (!(svd.singularValues()[m - 1] > 1e-3)) return std::nullopt;
+    const Vector step = svd.solve(right);
+    c = (c + step).normalized();
+    if (!((c - start.normalized()).norm() < 1e-2)) return std::nullopt;
+    if (step.norm() < 1e-14) return c;
+  }
+  return c;
+}
+
+}  // namespace springfold::continuation

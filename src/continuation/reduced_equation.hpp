@@ -1,0 +1,63 @@
+// Lyapunov-Schmidt reduction at a singular point, see exits.hpp. Private to the engine.
+#pragma once
+
+#include <Eigen/LU>
+#include <optional>
+#include <vector>
+
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean.
+/// Unknowns without weight get a small one.
+/// @param root  n + 1 square roots of the weights, the last is 1
+std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
+                                      const Piece& piece);
+Vector metric_roots(const Vector& weights);
+Vector scaled_point(const CurvePoint& at, const Vector& root);
+
+struct ReducedEquation {
+  const Walker* walker = nullptr;
+  Piece piece{};
+  Vector root{};         ///< n + 1
+  Vector U0{};           ///< n + 1
+  Index k = 0;           ///< corank
+  Matrix N{}, L{};       ///< right and left kernels: n + 1 x k + 1, n x k
+  double scale = 1;      ///< max(1, |U0|)
+  bool follows = false;  ///< the last column of N is the only one along which lambda moves
+  /// | J0  L |
+  /// | N^T 0 |, factorised
+  Eigen::PartialPivLU<Matrix> bordered{};
+  std::vector<Matrix> quadratic{};  ///< k matrices (k + 1 x k + 1): g_m(c) = c^T Q_m c / 2 + ...
+  std::vector<Vector> bend{};       ///< w(c) = sum_ij c_i c_j bend_(i (k + 1) + j) + ...
+  double curvature = 0;  ///< largest |bend|: 1/length on which the kernel is a good chart
+};
+
+/// @returns nothing where F or its derivatives are not defined, or too close to such a place
+std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank);
+
+struct ReducedValue {
+  Vector U{};  ///< u0 + N c + w(c)
+  Vector g{};  ///< k
+};
+
+/// @returns nothing where w(c) is not found or not small against c
+std::optional<ReducedValue> reduced_value(const ReducedEquation& equation, const Vector& c);
+
+/// A point of a branch at the distance rho, measured in the kernel.
+struct RayPoint {
+  Vector U{};
+  Vector c{};        ///< N^T (U - U0), of length rho
+  double noise = 0;  ///< of the direction c / rho, by rounding
+  int sign = 0;      ///< of the determinant of |J; c^T N^T|: +1 and -1 balance on a sphere
+};
+
+/// Newton's method from U on F = 0, |N^T (U - U0)| = rho.
+std::optional<RayPoint> ray_point(const ReducedEquation& equation, const Vector& U, double rho);
+
+/// Direction of the kernel near c, |c| = 1, for which all quadratic terms vanish.
+/// @returns nothing where they do not determine it
+std::optional<Vector> quadratic_direction(const ReducedEquation& equation, const Vector& c);
+
+}  // namespace springfold::continuation
