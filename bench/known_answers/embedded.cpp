@@ -1,24 +1,23 @@
+#include "embedded.hpp"
+
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
-
-#include "family.hpp"
 
 namespace springfold::known_answers {
 
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+Matrix random_orthogonal(Index n, double determinant, Random& random) {
+  Matrix A(n, n);
+  for (double& value : A.reshaped()) value = uniform(random, -1, 1);
+  Matrix Q = Eigen::HouseholderQR<Matrix>(A).householderQ();
+  if (Q.determinant() * determinant < 0) Q.col(0) *= -1;
+  return Q;
 }
 
-double log_uniform(std::mt19937_64& random, double low, double high) {
-  return std::exp(uniform(random, std::log(low), std::log(high)));
-}
-
-Embedded::Embedded(const Base& base, Index n, std::mt19937_64& random)
+Embedded::Embedded(const Base& base, Index n, Random& random)
     : base_{base}, n_{std::max(n, base.size)}, k_{base.size} {
-  Matrix random_matrix(n_, n_);
-  for (double& value : random_matrix.reshaped()) value = uniform(random, -1, 1);
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(random_matrix).householderQ();
+  const Matrix Q = random_orthogonal(n_, sign(random), random);
   Vector S(n_);
   for (double& value : S) value = log_uniform(random, 0.1, 10);
   to_q_ = Q * S.asDiagonal();
@@ -32,7 +31,7 @@ Embedded::Embedded(const Base& base, Index n, std::mt19937_64& random)
     if (stiffness_[i] < 0) ++negative_extra_;
     amplitude_[i] = uniform(random, -0.5, 0.5);
     frequency_[i] = uniform(random, 0.3, 1.5);
-    follows_.push_back(static_cast<Index>(random() % static_cast<std::uint64_t>(k_)));
+    follows_.push_back(choice(random, static_cast<int>(k_)));
   }
 }
 
@@ -44,14 +43,42 @@ Vector Embedded::embed(const Vector& z) const {
   return to_q_ * zw;
 }
 
-Vector Embedded::base_point(const Vector& q) const { return (to_zw_ * q).head(k_); }
+Vector Embedded::base_point(const Vector& q) const { return to_zw_.topRows(k_) * q; }
+
+Piece Embedded::piece_at(const Vector& z) const {
+  Piece piece;
+  for (const double d : base_.thresholds) piece.push_back(z[0] > d ? 1 : -1);
+  return piece;
+}
+
+Embedded Embedded::turned(const Matrix& R) const {
+  Embedded other = *this;
+  other.to_q_ = R * to_q_;
+  other.to_zw_ = to_zw_ * R.transpose();
+  return other;
+}
+
+Embedded Embedded::in_units(double unit) const {
+  Embedded other = *this;
+  other.unit_ = unit * unit_;
+  other.force_ = unit * force_;
+  other.to_q_ = unit * to_q_;
+  other.to_zw_ = to_zw_ / unit;
+  return other;
+}
+
+Embedded Embedded::with_forces(double factor) const {
+  Embedded other = *this;
+  other.force_ *= factor;
+  return other;
+}
 
 /// Gradient and Hessian in (z, w).
-bool Embedded::evaluate(const Vector& q, double lambda) const {
+bool Embedded::evaluate(const Vector& q, double lambda, const Piece& piece) const {
   const Vector zw = to_zw_ * q;
   Vector F, F_lambda;
   Matrix H;
-  if (!base_.at(zw.head(k_), lambda, F, H, F_lambda)) return false;
+  if (!base_.at(zw.head(k_), lambda, piece, F, H, F_lambda)) return false;
   F_ = Vector::Zero(n_);
   H_ = Matrix::Zero(n_, n_);
   F_lambda_ = Vector::Zero(n_);
@@ -73,18 +100,31 @@ bool Embedded::evaluate(const Vector& q, double lambda) const {
   return true;
 }
 
-bool Embedded::residual(const Vector& q, double lambda, Vector& F) const {
-  if (!evaluate(q, lambda)) return false;
-  F = to_zw_.transpose() * F_;
+bool Embedded::residual(const Vector& q, double lambda, const Piece& piece, Vector& F) const {
+  if (!evaluate(q, lambda, piece)) return false;
+  F = force_ * (to_zw_.transpose() * F_);
   return true;
 }
 
-bool Embedded::derivatives(const Vector& q, double lambda, Matrix& dF_dq,
+bool Embedded::derivatives(const Vector& q, double lambda, const Piece& piece, Matrix& dF_dq,
                            Vector& dF_dlambda) const {
-  if (!evaluate(q, lambda)) return false;
-  dF_dq = to_zw_.transpose() * H_ * to_zw_;
-  dF_dq = (0.5 * (dF_dq + dF_dq.transpose())).eval();
-  dF_dlambda = to_zw_.transpose() * F_lambda_;
+  if (!evaluate(q, lambda, piece)) return false;
+  const Matrix K = to_zw_.transpose() * H_ * to_zw_;
+  dF_dq = (0.5 * force_) * (K + K.transpose());
+  dF_dlambda = force_ * (to_zw_.transpose() * F_lambda_);
+  return true;
+}
+
+bool Embedded::switches(const Vector& q, double, Vector& g) const {
+  g.resize(switch_count());
+  const double z = to_zw_.row(0).dot(q);
+  for (Index j = 0; j < g.size(); ++j) g[j] = z - base_.thresholds[static_cast<std::size_t>(j)];
+  return true;
+}
+
+bool Embedded::switch_gradients(const Vector&, double, Matrix& dg_dq, Vector& dg_dlambda) const {
+  dg_dq = to_zw_.row(0).replicate(switch_count(), 1);
+  dg_dlambda = Vector::Zero(switch_count());
   return true;
 }
 

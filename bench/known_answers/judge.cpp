@@ -1,0 +1,203 @@
+#include "judge.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace springfold::known_answers {
+namespace {
+
+using continuation::Curve, continuation::CurvePoint, continuation::Hit, continuation::HitKind;
+
+bool same_label(const Answer& a, const Hit& hit) {
+  switch (a.kind) {
+    case AnswerKind::fold:
+      return hit.kind == HitKind::limit_point;
+    case AnswerKind::branch_point:
+      return hit.kind == HitKind::branch_point && hit.multiplicity == a.multiplicity;
+    case AnswerKind::touch:
+      return hit.kind == HitKind::touch;
+    case AnswerKind::kink:
+      return hit.kind == HitKind::kink && std::ssize(hit.switches) == a.multiplicity;
+    case AnswerKind::corner:
+      return hit.kind == HitKind::corner && std::ssize(hit.switches) == a.multiplicity;
+  }
+  return false;
+}
+
+struct Pair {
+  double off = 0;
+  std::size_t answer = 0, hit = 0;
+  bool label = false;
+};
+
+struct Matching {
+  const Embedded& problem;
+  const Draw& draw;
+  Verdict& verdict;
+  std::vector<const Hit*> hits{};
+  std::vector<bool> answered{}, explained{};
+
+  double off(const Answer& a, const Hit& hit) const {
+    return std::max((problem.base_point(hit.point.x) - a.z).norm(),
+                    std::abs(hit.point.lambda - a.lambda));
+  }
+
+  /// Nearest pairs first; those with the right label before the others.
+  void match() {
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < draw.answers.size(); ++i)
+      for (std::size_t j = 0; j < hits.size(); ++j) {
+        const double distance = off(draw.answers[i], *hits[j]);
+        if (distance <= 1e-4 * std::max(1.0, draw.size))
+          pairs.push_back({distance, i, j, same_label(draw.answers[i], *hits[j])});
+      }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+      return a.label != b.label ? a.label : a.off < b.off;
+    });
+    for (const Pair& pair : pairs) {
+      if (answered[pair.answer] || explained[pair.hit]) continue;
+      answered[pair.answer] = explained[pair.hit] = true;
+      verdict.answers[pair.answer].outcome = pair.label ? Outcome::found : Outcome::mislabelled;
+      verdict.answers[pair.answer].place_error = pair.off / std::max(1.0, draw.size);
+    }
+  }
+
+  void false_events() {
+    for (std::size_t j = 0; j < hits.size(); ++j) {
+      if (explained[j]) continue;
+      double nearest = 1e300, separation = 1;
+      for (const Answer& a : draw.answers)
+        if (off(a, *hits[j]) < nearest) {
+          nearest = off(a, *hits[j]);
+          separation = a.separation;
+        }
+      verdict.false_events.push_back(separation);
+    }
+  }
+};
+
+/// Steps of the curve on which an answer lies: arc lengths around it; beyond the last point: from
+/// there to infinity. Nothing if it does not lie ahead on this curve.
+struct Stretch {
+  double from = 0, to = -1;
+};
+
+Stretch stretch_of(const Embedded& problem, const Draw& draw, const Curve& curve,
+                   const Answer& answer) {
+  const auto parameter = [&](const CurvePoint& p) {
+    return draw.parameter(problem.base_point(p.x), p.lambda);
+  };
+  const double sought = draw.parameter(answer.z, answer.lambda);
+  const CurvePoint& first = curve.points.front();
+  // Along the tangent's direction, so that one point is enough.
+  const double ahead =
+      draw.parameter(problem.base_point(first.x + 1e-7 * first.tangent.dx),
+                     first.lambda + 1e-7 * first.tangent.dlambda) > parameter(first)
+          ? 1
+          : -1;
+  if ((sought - parameter(first)) * ahead < 0) return {};
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    if ((sought - parameter(curve.points[i])) * ahead <= 0)
+      return {curve.points[i - 1].s, curve.points[i].s};
+  return {curve.points.back().s, 1e300};
+}
+
+/// Answers that were not found, but lie where the engine says that it does not know.
+void excuse(const Embedded& problem, const Draw& draw, const Followed& followed,
+            std::vector<bool>& answered, Verdict& verdict) {
+  const auto within = [&](const Curve& curve, double from, double to) {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < draw.answers.size(); ++i) {
+      if (answered[i]) continue;
+      const Stretch stretch = stretch_of(problem, draw, curve, draw.answers[i]);
+      if (stretch.from < to && from < stretch.to) list.push_back(i);
+    }
+    return list;
+  };
+  const auto settle = [&](const std::vector<std::size_t>& list, Outcome outcome) {
+    for (const std::size_t i : list) {
+      answered[i] = true;
+      verdict.answers[i].outcome = outcome;
+    }
+  };
+  for (const Curve& curve : followed.curves) {
+    for (const Hit& hit : curve.hits) {
+      if (hit.kind != HitKind::unresolved) continue;
+      const auto list = within(curve, hit.s_before, hit.s_after);
+      int total = 0, touches = 0;
+      bool close = !list.empty();
+      for (const std::size_t i : list) {
+        total += draw.answers[i].multiplicity;
+        touches += draw.answers[i].kind == AnswerKind::touch;
+        close = close && draw.answers[i].separation < may_be_cluster;
+      }
+      // A touch is two folds in one; either count is right.
+      const bool counted = hit.multiplicity >= total && hit.multiplicity <= total + touches;
+      verdict.refused = verdict.refused || !close;
+      settle(list, !close ? Outcome::refused : counted ? Outcome::cluster : Outcome::miscounted);
+    }
+    if (reached_end(curve)) continue;
+    verdict.refused = true;
+    settle(within(curve, curve.points.back().s, 1e300), Outcome::refused);
+  }
+  if (followed.curves.empty()) {  // no point was claimed at all
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < draw.answers.size(); ++i) all.push_back(i);
+    settle(all, Outcome::refused);
+  }
+}
+
+/// Closed form of the index; -1 where an eigenvalue is zero to rounding.
+Index negative_count(const Draw& draw, const Vector& z, const CurvePoint& p, bool& clearly) {
+  Vector F, F_lambda;
+  Matrix H;
+  draw.base.at(z, p.lambda, p.piece, F, H, F_lambda);
+  const Vector values = H.selfadjointView<Eigen::Lower>().eigenvalues();
+  const double scale = std::max(1.0, values.cwiseAbs().maxCoeff());
+  const double least = values.cwiseAbs().minCoeff() / scale;
+  clearly = least > 1e-6;
+  if (least < 1e-10) return -1;
+  return (values.array() < 0).count();
+}
+
+void check_points(const Embedded& problem, const Draw& draw, const Curve& curve, Verdict& verdict) {
+  double before = 0, sense = 0;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const CurvePoint& p = curve.points[i];
+    const Vector z = problem.base_point(p.x);
+    if (draw.on_curve && !draw.on_curve(z, p.lambda)) verdict.jumped = true;
+    const double parameter = draw.parameter(z, p.lambda);
+    if (i == 1) sense = parameter > before ? 1 : -1;
+    if (i > 1 && (parameter - before) * sense < -1e-9 * draw.size) verdict.jumped = true;
+    before = parameter;
+    bool clearly = false;
+    const Index count = negative_count(draw, z, p, clearly);
+    if (count < 0) continue;
+    if (p.negative ? *p.negative != count + problem.negative_extra() : clearly)
+      verdict.wrong_index = true;
+  }
+}
+
+}  // namespace
+
+Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed) {
+  Verdict verdict{.family = draw.family, .gap = draw.gap, .separation = smallest_separation(draw)};
+  for (const Answer& a : draw.answers) verdict.answers.push_back({.separation = a.separation});
+  verdict.refused = !followed.refusal.empty();
+  Matching matching{problem, draw, verdict};
+  for (const Curve& curve : followed.curves) {
+    check_points(problem, draw, curve, verdict);
+    for (const Hit& hit : curve.hits)
+      if (hit.kind != HitKind::user && hit.kind != HitKind::unresolved)
+        matching.hits.push_back(&hit);
+  }
+  matching.answered.resize(draw.answers.size());
+  matching.explained.resize(matching.hits.size());
+  matching.match();
+  matching.false_events();
+  excuse(problem, draw, followed, matching.answered, verdict);
+  return verdict;
+}
+
+}  // namespace springfold::known_answers
