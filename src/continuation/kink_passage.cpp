@@ -24,14 +24,16 @@ struct Beside {
   bool moved = false;  ///< `point` is not the kink itself
 };
 
+int sense_of(const CurvePoint& p) { return p.tangent.dlambda > 0 ? 1 : -1; }
+bool told_from_zero(const CurvePoint& p) { return std::abs(p.tangent.dlambda) > 1e-11; }
+
 /// @param direction  +1: ahead along the tangent, -1: back
 /// @param room       no further away than this
 Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
-  const auto sense_of = [](const CurvePoint& p) { return p.tangent.dlambda > 0 ? 1 : -1; };
   if (std::abs(at.tangent.dlambda) > turns_here) return {at, sense_of(at)};
-  for (const double distance : {1e-6, 1e-5, 1e-4}) {
+  for (const double distance : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
-    if (point && std::abs(point->tangent.dlambda) > 1e-11) return {*point, sense_of(*point), true};
+    if (point && told_from_zero(*point)) return {*point, sense_of(*point), true};
   }
   return {at, 0};
 }
@@ -45,7 +47,21 @@ bool is_way_back(const Walker& walker, const Ray& ray, const CurvePoint& arrived
   return same_direction(walker.weights, ray.tangent, back, 1e-6);
 }
 
-bool upright(const CurvePoint& p) { return std::abs(p.tangent.dlambda) <= vertical; }
+/// The family that reaches as far as this point.
+Hit* open_family(const CurvePoint& from, Curve& curve) {
+  for (auto hit = curve.hits.rbegin(); hit != curve.hits.rend(); ++hit)
+    if (hit->kind == HitKind::family && hit->s_after >= from.s) return &*hit;
+  return nullptr;
+}
+
+/// Does lambda stand still along the step? On a short one its rate must vanish to rounding, or an
+/// inflection would do; not so where it has been seen to stand still.
+bool stands_still(const CurvePoint& from, const CurvePoint* middle, const CurvePoint& to,
+                  bool seen) {
+  double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
+  if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
+  return rate <= (seen || to.s - from.s >= 1e-2 ? vertical : 1e-2 * vertical);
+}
 
 /// Negative eigenvalues of dF/dx + tau tau^T: within a family tau is in the kernel of dF/dx, and this
 /// counts the others.
@@ -60,11 +76,10 @@ std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) 
 
 /// Extends the family that ends at `from`, or begins one there.
 void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found, Curve& curve) {
-  for (auto hit = curve.hits.rbegin(); hit != curve.hits.rend(); ++hit)
-    if (hit->kind == HitKind::family && hit->s_after >= from.s) {
-      hit->s_after = to.s;
-      return;
-    }
+  if (Hit* family = open_family(from, curve)) {
+    family->s_after = to.s;
+    return;
+  }
   Hit hit{.kind = HitKind::family,
           .name = "family at one lambda",
           .point = from,
@@ -222,12 +237,14 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   if (before.moved || before.sense == 0) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
   std::vector<int> senses;
+  std::vector<double> clear_of;
   for (const Ray& ray : rays.rays) {
     hit.leaving.push_back(point_on_ray(walker, kink.point, ray));
     const Beside after = beside(walker, hit.leaving.back(), 1, any);
     if (after.moved) hit.leaving.back().negative = after.point.negative;
     if (after.sense == 0) hit.leaving.back().negative.reset();
     senses.push_back(after.sense);
+    clear_of.push_back(after.moved ? after.point.s : -1);
   }
   const auto stop = [&](StopReason reason, std::string detail) {
     curve.stop = reason;
@@ -249,9 +266,13 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
     const std::string ways = std::to_string(hit.leaving.size());
     return stop(StopReason::several_ways, ways + " ways out at " + hit.name);
   }
-  const int arrived = before.sense != 0 ? before.sense : progress.sense;
+  const int arrived = before.sense != 0               ? before.sense
+                      : told_from_zero(progress.here) ? sense_of(progress.here)
+                                                      : progress.sense;
   if (arrived * senses.front() < 0) hit.kind = HitKind::corner;
-  progress.sense = senses.front() == 0 ? arrived : 0;
+  progress.sense = senses.front() != 0 ? senses.front() : arrived;
+  progress.flat = senses.front() == 0;
+  progress.clear_of = clear_of.front();
   progress.here = hit.leaving.front();
   progress.left = kink.active;
   progress.ds = std::min(progress.ds, walker.options.step.initial);
@@ -268,11 +289,18 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
   for (const Index j : kink.touched)
     curve.log.push_back(
         {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
-  if (upright(begin) && upright(end) && (!inside || upright(*middle)))
+  const bool seen = progress.flat || open_family(begin, curve) != nullptr;
+  if (stands_still(begin, inside ? &*middle : nullptr, end, seen))
     return family_events(walker, begin, end, middle, events, curve);
   Beside from{begin}, to{end};
-  if (!progress.left.empty()) from = beside(walker, begin, 1, length);
-  if (kink.status == KinkSearch::Status::found) to = beside(walker, end, -1, length);
+  if (progress.clear_of > begin.s) {
+    const auto clear = point_at(walker, begin, std::min(progress.clear_of - begin.s, length));
+    from = {clear ? *clear : end, 0, true};
+  }
+  if (kink.status == KinkSearch::Status::found) {
+    to = beside(walker, end, -1, length);
+    if (to.sense == 0) to = {begin, 0, true};  // too flat and short for anything
+  }
   StepEvents found = from.moved || to.moved
                          ? events_between(walker, from.point, to.point, end, begin, middle, events)
                          : events_on_step(walker, begin, end, middle, events);

@@ -15,7 +15,9 @@ struct Progress {
   CurvePoint here{};
   std::vector<Index> left{};  ///< switches that are zero at `here` and being left
   double ds = 0;
-  int sense = 0;  ///< within a family: sign of lambda's rate before it; 0: not known
+  int sense = 0;  ///< sign of lambda's rate after the last kink, or before a family; 0: not known
+  bool flat = false;     ///< lambda stands still as far as could be seen from the last kink
+  double clear_of = -1;  ///< special points before this s belong to the last kink
 };
 
 enum class Outcome { go_on, shorten, stop };
@@ -30,7 +32,7 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 ///
 /// It is a corner if lambda's rate has opposite signs before and after. Where the rate is zero at
 /// the kink itself (a fold of one of the pieces lies on the surface) its sign is taken 1e-6 away,
-/// further if need be up to 1e-4, and passage_events() looks for smooth special points only beyond
+/// further if need be up to 1e-2, and passage_events() looks for smooth special points only beyond
 /// that distance: the fold belongs to the kink and is reported once. A rate that stays zero
 /// belongs to a family; at its end the sign before the family counts.
 Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve);
