@@ -21,6 +21,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 struct CircleZeros {
   std::vector<double> angles{};
   int undefined = 0;     ///< samples
+  double size = 0;       ///< largest value
   bool touches = false;  ///< a zero that cannot be told from a double one
 };
 
@@ -31,7 +32,8 @@ class CircleScan {
     for (int i = 0; i < samples; ++i) at_.push_back(first + 2 * pi * i / samples);
     for (const double a : at_) values_.push_back(f_(a));
     step_ = 2 * pi / samples;
-    for (const double v : values_) size_ = std::max(size_, std::isnan(v) ? 0 : std::abs(v));
+    for (const double v : values_)
+      result_.size = std::max(result_.size, std::isnan(v) ? 0 : std::abs(v));
   }
 
   CircleZeros zeros() {
@@ -54,6 +56,10 @@ class CircleScan {
  private:
   void bracket(double a, double b, double fa, double fb) {
     std::uintmax_t most = 60;
+    if (std::isnan(fa) || std::isnan(fb) || (fa < 0) == (fb < 0)) {
+      ++result_.undefined;
+      return;
+    }
     if (fa == 0 || fb == 0) return result_.angles.push_back(fa == 0 ? a : b);
     const auto close = [](double l, double r) { return std::abs(r - l) < 1e-10; };
     const auto [low, high] = boost::math::tools::toms748_solve(f_, a, b, fa, fb, close, most);
@@ -80,21 +86,21 @@ class CircleScan {
     std::uintmax_t most = 60;
     const auto [a, low] = boost::math::tools::brent_find_minima(
         [&](double t) { return sign * f_(t); }, at - step_, at + step_, 26, most);
-    if (low < -1e-9 * size_) {
+    if (low < -1e-9 * result_.size) {
       bracket(at - step_, a, f_(at - step_), sign * low);
       bracket(a, at + step_, sign * low, f_(at + step_));
-    } else if (!(low > 1e-9 * size_)) {
+    } else if (!(low > 1e-9 * result_.size)) {
       result_.touches = true;
     }
   }
 
   std::function<double(double)> f_;
   std::vector<double> at_{}, values_{};
-  double step_ = 0, size_ = 0;
+  double step_ = 0;
   CircleZeros result_{};
 };
 
-void search_circle(const ReducedEquation& e, RaySet& set) {
+void search_circle(const ReducedEquation& e, int samples, RaySet& set) {
   const auto on_circle = [&](double a) {
     return Vector{{set.rho * std::cos(a), set.rho * std::sin(a)}};
   };
@@ -102,7 +108,7 @@ void search_circle(const ReducedEquation& e, RaySet& set) {
     const auto value = reduced_value(e, on_circle(a));
     return value ? value->g[0] : nan;
   };
-  const CircleZeros zeros = CircleScan(g, 360).zeros();
+  const CircleZeros zeros = CircleScan(g, samples).zeros();
   for (const double a : zeros.angles)
     if (const auto value = reduced_value(e, on_circle(a))) add_ray(e, value->U, set);
   if (zeros.undefined > 0) set.doubt = "the equations cannot be reduced all around the point";
@@ -239,15 +245,48 @@ void search_azimuth(const ReducedEquation& e, RaySet& set) {
     return value;
   };
   const CircleZeros zeros = CircleScan(h, 240).zeros();
-  for (const double phi : zeros.angles)
-    if (std::isnan(h(phi)) || !add_ray(e, U, set))
+  for (const double phi : zeros.angles) {
+    const double value = h(phi);
+    const bool jumps = std::abs(value) > 1e-4 * zeros.size;  // of mu, or rounding
+    if (jumps && !nearly_flat(e)) continue;
+    if (jumps || std::isnan(value) || !add_ray(e, U, set))
       set.doubt = "zeros of the reduced equation are lost";
+  }
+  if (nearly_flat(e) && zeros.size < 1e-14 * e.scale)
+    set.doubt = "branches cannot be told apart within rounding";
   if (zeros.undefined > 0 && nearly_flat(e))
     set.doubt = "the equations cannot be reduced all around the point";
   if (zeros.touches) set.doubt = "branches touch that cannot be told from one double branch";
 }
 
 }  // namespace
+
+std::vector<Vector> quadratic_rays(const ReducedEquation& e) {
+  std::vector<Vector> found;
+  const auto add = [&](const Vector& start) {
+    const auto c = quadratic_direction(e, start, 0.3);
+    if (!c) return;
+    for (const Vector& known : found)
+      if ((known - *c).norm() < 1e-6) return;
+    found.push_back(*c);
+  };
+  for (int i = 0; e.k == 1 && i < 64; ++i)
+    add(Vector{{std::cos(2 * pi * i / 64), std::sin(2 * pi * i / 64)}});
+  if (e.k != 2) return found;
+  const Icosphere sphere = icosphere();
+  for (const auto& face : sphere.faces) {
+    Eigen::Matrix<double, 2, 3> g;
+    Eigen::Matrix3d corners;
+    for (Index j = 0; j < 3; ++j) {
+      const Eigen::Vector3d v = sphere.vertices[face[static_cast<std::size_t>(j)]];
+      corners.col(j) = v;
+      for (Index q = 0; q < 2; ++q) g(q, j) = v.dot(e.quadratic[static_cast<std::size_t>(q)] * v);
+    }
+    if (!(g.cwiseAbs().maxCoeff() > 0)) continue;
+    if (const auto weights = linear_zero(g)) add(corners * *weights);
+  }
+  return found;
+}
 
 bool add_ray(const ReducedEquation& e, const Vector& U, RaySet& set) {
   auto ray = ray_point(e, U, set.rho);
@@ -258,11 +297,11 @@ bool add_ray(const ReducedEquation& e, const Vector& U, RaySet& set) {
   return true;
 }
 
-RaySet rays_on_sphere(const ReducedEquation& e, double rho) {
+RaySet rays_on_sphere(const ReducedEquation& e, double rho, int samples) {
   RaySet set{.rho = rho};
   if (e.k == 0)
     for (const double c : {rho, -rho}) add_ray(e, e.U0 + c * e.N.col(0), set);
-  if (e.k == 1) search_circle(e, set);
+  if (e.k == 1) search_circle(e, samples, set);
   if (e.k == 2) search_sphere(e, set);
   if (e.k == 2 && e.follows) search_azimuth(e, set);
   return set;

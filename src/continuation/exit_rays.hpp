@@ -19,6 +19,11 @@ struct RaySet {
 bool add_ray(const ReducedEquation& equation, const Vector& U, RaySet& set);
 
 /// Searches the sphere |c| = rho; corank 0, 1 or 2.
-RaySet rays_on_sphere(const ReducedEquation& equation, double rho);
+/// @param samples  on the circle of corank 1
+RaySet rays_on_sphere(const ReducedEquation& equation, double rho, int samples);
+
+/// Directions of the kernel that the quadratic terms alone determine: a branch leaves along each.
+/// Corank 1 and 2; empty for others.
+std::vector<Vector> quadratic_rays(const ReducedEquation& equation);
 
 }  // namespace springfold::continuation

@@ -36,11 +36,27 @@ std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) 
       const double distance = (ray.c / a.rho - b.rays[j].c / b.rho).norm();
       if (distance < least) least = distance, nearest = j;
     }
-    if (!(least < 0.4) || taken[nearest]) return std::nullopt;
+    if (!(least < 0.15) || taken[nearest]) return std::nullopt;
     taken[nearest] = true;
     order.push_back(nearest);
   }
   return order;
+}
+
+/// Has each of these directions a ray of its own?
+bool covers(const RaySet& set, const std::vector<Vector>& directions) {
+  std::vector<bool> taken(set.rays.size(), false);
+  for (const Vector& d : directions) {
+    double least = 0.3;
+    std::size_t nearest = taken.size();
+    for (std::size_t j = 0; j < taken.size(); ++j) {
+      const double distance = (set.rays[j].c / set.rho - d).norm();
+      if (!taken[j] && distance < least) least = distance, nearest = j;
+    }
+    if (nearest == taken.size()) return false;
+    taken[nearest] = true;
+  }
+  return true;
 }
 
 bool balanced(const RaySet& set) {
@@ -92,7 +108,7 @@ Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
     row = std::move(fresh);
   }
   if (!best.found) return best;
-  const auto exact = quadratic_direction(e, best.c);
+  const auto exact = quadratic_direction(e, best.c, 1e-2);
   if (exact && (*exact - best.c).norm() < 1e-4 + 10 * best.accuracy) best = {*exact, 1e-10, true};
   return best;
 }
@@ -154,16 +170,17 @@ struct Search {
 Search search_inwards(const ReducedEquation& e, double rho, int radii) {
   const int needed = e.k == 2 ? 2 : 3;
   const double shrink = e.k == 2 ? 0.5 : 1.0 / 3;
+  const std::vector<Vector> sure = quadratic_rays(e);
   RaySet last;
   std::string doubt = "different radii show different branches";
   for (int i = 0, agreeing = 0; i < radii; ++i, rho *= shrink) {
-    RaySet set = rays_on_sphere(e, rho);
+    RaySet set = rays_on_sphere(e, rho, i == 0 ? 360 : 120);
     if (i > 0) {
       complement(e, last, set);
       complement(e, set, last);
     }
     const bool same = agreeing > 0 && pairs(last, set).has_value();
-    const bool good = set.doubt.empty() && balanced(set);
+    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure);
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);

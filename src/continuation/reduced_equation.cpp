@@ -176,13 +176,14 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
   return std::nullopt;
 }
 
-std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start) {
+std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start,
+                                          double reach) {
   const Index m = e.k + 1;
   Vector c = start.normalized();
   double size = 0;
   for (const Matrix& Q : e.quadratic) size = std::max(size, Q.norm());
   if (!(size > 0) && e.k > 0) return std::nullopt;
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  for (int iteration = 0; iteration < 10; ++iteration) {
     Matrix A(m, m);
     Vector right(m);
     for (Index q = 0; q < e.k; ++q) {
@@ -196,10 +197,10 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
     if (!(svd.singularValues()[m - 1] > 1e-3)) return std::nullopt;
     const Vector step = svd.solve(right);
     c = (c + step).normalized();
-    if (!((c - start.normalized()).norm() < 1e-2)) return std::nullopt;
-    if (step.norm() < 1e-14) return c;
+    if (!((c - start.normalized()).norm() < reach)) return std::nullopt;
+    if (step.norm() < 1e-14 || (iteration > 5 && step.norm() < 1e-12)) return c;
   }
-  return c;
+  return std::nullopt;
 }
 
 }  // namespace springfold::continuation

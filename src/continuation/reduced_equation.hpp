@@ -56,8 +56,9 @@ struct RayPoint {
 /// Newton's method from U on F = 0, |N^T (U - U0)| = rho.
 std::optional<RayPoint> ray_point(const ReducedEquation& equation, const Vector& U, double rho);
 
-/// Direction of the kernel near c, |c| = 1, for which all quadratic terms vanish.
+/// Direction of the kernel within `reach` of c, |c| = 1, for which all quadratic terms vanish.
 /// @returns nothing where they do not determine it
-std::optional<Vector> quadratic_direction(const ReducedEquation& equation, const Vector& c);
+std::optional<Vector> quadratic_direction(const ReducedEquation& equation, const Vector& c,
+                                          double reach);
 
 }  // namespace springfold::continuation

@@ -437,6 +437,16 @@ TEST(Exits, OfADomeAtItsDoublePointHaveTheSymmetryOfItsPolygon) {
   }
 }
 
+TEST(Exits, ThatOnlyTermsOfHighOrderTellApartAreAllFoundOrNotCalledComplete) {
+  for (const int N : {7, 8})
+    for (const double z0 : {1.8, 3.0}) {
+      const Small problem = Dome{.N = N, .z0 = z0}.problem();
+      const auto walker = walker_of(problem);
+      const auto found = exits_at(walker, Dome{.N = N, .z0 = z0}.double_point(), 2);
+      EXPECT_TRUE(!found.complete || std::ssize(found.exits) == 2 * N + 2) << N << " " << z0;
+    }
+}
+
 TEST(Exits, AreTheSameForTheSameBytes) {
   std::mt19937_64 random(45);
   const Hidden problem(two_mode(1, 1, 0.4, 0.7), 10, random, 10);
