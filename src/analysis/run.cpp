@@ -8,6 +8,7 @@
 #include "branch_rows.hpp"
 #include "limits.hpp"
 #include "setup.hpp"
+#include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
@@ -113,8 +114,10 @@ Branch trace_both_ways(const PathProblem& problem, const CurvePoint& start, cons
   };
   const auto follow = [&](const continuation::Ray& ray, double sign) {
     auto ended = ended_at_start(study, evaluator, quantities, start, ray);
-    return ended ? *ended
-                 : trace(problem, start.x, start.lambda, ray, events, options, observe(sign));
+    if (ended) return *ended;
+    return study.path == Path::davidenko
+               ? davidenko(problem, start.x, start.lambda, ray, events, options, observe(sign))
+               : trace(problem, start.x, start.lambda, ray, events, options, observe(sign));
   };
   const continuation::Curve forward = follow(rays.rays[0], 1), backward = follow(rays.rays[1], -1);
   return join(backward, forward, evaluator, quantities, problem);

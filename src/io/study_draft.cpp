@@ -63,6 +63,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
     study.until.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
   for (const MarkDraft& mark : draft.marks)
     study.marks.push_back({mark.quantity.name, numbers[mark.value]});
+  study.path = draft.path;
   study.trace = {.initial_step = numbers[draft.initial_step],
                  .minimum_step = numbers[draft.minimum_step],
                  .maximum_step = numbers[draft.maximum_step],

@@ -51,6 +51,7 @@ struct StudyDraft {
   analysis::StartSolver start_solver = analysis::StartSolver::newton;
   std::vector<NumberId> start_pose{};  ///< d or none
   NumberId attempts = 0, seed = 0;
+  analysis::Path path = analysis::Path::arc_length;
   NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0;
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};

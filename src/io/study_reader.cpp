@@ -16,9 +16,10 @@ const std::vector<std::string> kind_words{"force_deflection", "equilibrium"};
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
+const std::vector<std::string> path_words{"arc_length", "davidenko"};
 const std::vector<std::string> study_keys{"name",      "kind",  "control", "body", "direction",
                                           "load",      "start", "until",   "mark", "actuators",
-                                          "parameter", "set",   "vary",    "trace"};
+                                          "parameter", "set",   "vary",    "path", "trace"};
 
 /// `a.b = 1` is a table within a table in TOML; names with dots mean the same with and without
 /// quotes here.
@@ -245,6 +246,8 @@ class StudyReader {
   }
 
   void read_trace() {
+    draft_.path = std::array{analysis::Path::arc_length,
+                             analysis::Path::davidenko}[table_.choice("path", path_words, 0)];
     const analysis::TraceSettings defaults;
     const Node* node = table_.find("trace");
     static const Node nothing;

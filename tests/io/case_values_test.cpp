@@ -75,6 +75,11 @@ TEST_F(CaseValues, OfPlotsAreEvaluatedWithTheParametersOfTheFile) {
   EXPECT_THAT(c.plots[0].curves[0].labels, ElementsAre("one", "two"));
 }
 
+TEST_F(CaseValues, ThePathMayBeTheDavidenkoFlow) {
+  const Case c = load(replaced(orthoglide_text(), "trace = {", "path = \"davidenko\"\ntrace = {"));
+  EXPECT_EQ(c.runs[0].plan.path, analysis::Path::davidenko);
+}
+
 TEST_F(CaseValues, DefaultsHoldWhereTheFileIsSilent) {
   std::string text = orthoglide_text();
   text.erase(text.find("load ="));
@@ -83,6 +88,7 @@ TEST_F(CaseValues, DefaultsHoldWhereTheFileIsSilent) {
   EXPECT_EQ(s.constant_load.size(), 0);
   EXPECT_EQ(s.start.pose.size(), 0);
   EXPECT_EQ(s.start.attempts, defaults.start.attempts);
+  EXPECT_EQ(s.path, analysis::Path::arc_length);
   EXPECT_EQ(s.trace.maximum_step, defaults.trace.maximum_step);
   EXPECT_EQ(s.trace.maximum_points, defaults.trace.maximum_points);
   EXPECT_EQ(c.runs.size(), 1u);

@@ -67,6 +67,12 @@ struct ActuatorRate {
   double rate = 1;
 };
 
+/// How the branch is followed.
+enum class Path {
+  arc_length,  ///< predictor and corrector, all special points
+  davidenko,   ///< the flow of the tangent field, to check the other: no branch points, no touches
+};
+
 /// Step lengths are scaled arc lengths [-]: 1 is one radian or about one size of the mechanism.
 struct TraceSettings {
   double initial_step = 0.01;
@@ -87,6 +93,7 @@ struct Study {
   StartOptions start{};
   std::vector<Limit> until{};
   std::vector<Mark> marks{};
+  Path path = Path::arc_length;
   TraceSettings trace{};
 };
 

@@ -21,6 +21,7 @@ namespace springfold::continuation {
 ///  - branch points, touches and unresolved places are not looked for and never reported, also
 ///    where the number of negative eigenvalues changes. lambda turning back is reported as a limit
 ///    point, also where it does so at a branch point (the vertex of a pitchfork);
+///  - a closed curve is not recognised: it is followed on, lap after lap;
 ///  - kinks are passed, as in trace(), where there is exactly one way out;
 ///  - of `options` these count: step.initial, .minimum, .maximum, .turn and .growth, newton,
 ///    maximum_points, limit_points, location_tolerance and simultaneous.
