@@ -24,6 +24,12 @@ double cosine(const Walker& walker, const Direction& a, const Direction& b) {
   return lengths > 0 ? metric_product(walker.weights, a, b) / lengths : 0;
 }
 
+bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
+  const double scale = std::max({1.0, a.x.norm(), std::abs(a.lambda)});
+  return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= 1e-7 * scale &&
+         std::abs(cosine(walker, a.tangent, b.tangent)) >= 0.999;
+}
+
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to) {
   if (target.piece != from.piece) return std::nullopt;
@@ -34,9 +40,7 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
   if (!(along > 0 && along <= h) || length_of(walker, offset) > 1.2 * h) return std::nullopt;
   auto point = point_at(walker, from, along);
   if (!point) return std::nullopt;
-  const double scale = std::max({1.0, target.x.norm(), std::abs(target.lambda)});
-  if (length_of(walker, between(walker, *point, target)) > 1e-7 * scale) return std::nullopt;
-  if (std::abs(cosine(walker, point->tangent, target.tangent)) < 0.999) return std::nullopt;
+  if (!coincide(walker, *point, target)) return std::nullopt;
   return point;
 }
 

@@ -14,8 +14,10 @@ double length_of(const Walker& walker, const Direction& d);
 /// Cosine of the angle between two directions.
 double cosine(const Walker& walker, const Direction& a, const Direction& b);
 
-/// The point `target` of the branch, if the step from -> to passes it: same place to 1e-7, same piece,
-/// tangents along one line. Given with the tangent and the arc length of this passage.
+/// Same place to 1e-7, same piece, tangents along one line.
+bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
+
+/// The point `target` of the branch, if the step from -> to passes it. Given with the tangent and the arc length of this passage.
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to);
 

@@ -71,34 +71,26 @@ struct Candidate {
   bool odd = false;  ///< an odd number of eigenvalues change sign here
 };
 
-/// A branch point on the arc, from the curve's points around it: (x, lambda), the tangent's rate and
-/// Sigma are interpolated on a window; none of them is ever computed at the singular point itself.
+/// A branch point on the arc, from the curve's points around it: (x, lambda) and Sigma are
+/// interpolated on a window; neither is ever computed at the singular point itself.
 struct Singularity {
   double at = 0;
-  Vector u{};       ///< (x, lambda)
-  double rate = 0;  ///< of lambda along the arc there
-  double rate_scale = 0;
+  Vector u{};        ///< (x, lambda)
   double doubt = 0;  ///< how far the place may be off
 };
 
-/// The curve's points and rates near t, interpolated.
+/// The curve's points near t, interpolated.
 std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
   const auto [a, b] = window_around(t, length, arc.low(), arc.high());
   return interpolate(
       [&](double ds) -> std::optional<Vector> {
         const auto& p = arc.point(ds);
         if (!p) return std::nullopt;
-        Vector u(p->x.size() + 2);
-        u << p->x, p->lambda, p->tangent.dlambda;
+        Vector u(p->x.size() + 1);
+        u << p->x, p->lambda;
         return u;
       },
       a, b);
-}
-
-Singularity on_curve(const Interpolant& curve, double t) {
-  const Vector u = curve(t);
-  const Index n = u.size() - 2;
-  return {t, u.head(n + 1), u[n + 1], curve.values.row(n + 1).cwiseAbs().maxCoeff()};
 }
 
 /// Place where all m x m entries of Sigma vanish, near t; nothing if they do not.
@@ -130,9 +122,7 @@ std::optional<Singularity> multiple_zero_on(const Arc& arc, double t, double len
   // What is left of Sigma, as an error of the place.
   const double left = (*Sigma)(t).norm() / Sigma->slope(t).norm();
   if (!(left <= merged)) return std::nullopt;
-  Singularity result = on_curve(*curve, t);
-  result.doubt = left;
-  return result;
+  return Singularity{t, (*curve)(t), left};
 }
 
 /// The best one of a wide window, on which rounding matters less, and narrower ones.
@@ -193,7 +183,7 @@ std::optional<Candidate> branch_point_at(const Arc& arc, const std::vector<ZeroO
   if (!found) {
     const auto curve = curve_near(arc, middle, 0.2 * arc.length());
     if (!curve) return std::nullopt;
-    found = on_curve(*curve, middle);
+    found = Singularity{middle, (*curve)(middle)};
   }
   Candidate result{.at = found->at, .before = zeros.front().before, .after = zeros.back().after};
   result.point = arc.from();
@@ -204,10 +194,9 @@ std::optional<Candidate> branch_point_at(const Arc& arc, const std::vector<ZeroO
   result.kind = touches && m == 1 ? HitKind::touch : HitKind::branch_point;
   polish(arc, result.point, m);
   if (const auto refined = refined_point(arc, result)) result.point = *refined;
-  const bool turns = std::abs(found->rate) <= 1e-5 * found->rate_scale;
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
-  result.odd = (crossings % 2 == 1) != turns;
+  result.odd = crossings % 2 == 1;
   return result;
 }
 
@@ -281,8 +270,12 @@ bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroO
   const auto add = [&](const std::vector<ZeroOf>& group, double free) {
     auto candidate = branch_point_at(arc, group, singular.order, free);
     if (!candidate) return false;
-    std::erase_if(
-        turns, [&](const ZeroOf& turn) { return std::abs(turn.at - candidate->at) <= together; });
+    // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
+    std::erase_if(turns, [&](const ZeroOf& turn) {
+      const bool here = std::abs(turn.at - candidate->at) <= together;
+      if (here && !turn.touches) candidate->odd = !candidate->odd;
+      return here;
+    });
     found.push_back(std::move(*candidate));
     return true;
   };

@@ -69,7 +69,7 @@ class Search {
  private:
   /// Zeros are located to this arc length where the function is smooth enough; where rounding
   /// prevents it, to the second one.
-  static constexpr double location = 1e-11, poor_location = 1e-8;
+  static constexpr double location = 1e-11, poor_location = 1e-6;
   /// A parabola that touches zero between two points of the grid is less than this off at them.
   static constexpr double touching = 1e-4;
 
