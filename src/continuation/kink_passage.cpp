@@ -203,6 +203,33 @@ Rays ways_out(const Walker& walker, const KinkSearch& kink) {
   return rays;
 }
 
+/// Adds the ways out to a hit, each with what lambda does along it.
+std::vector<Beside> add_leaving(const Walker& walker, const std::vector<Ray>& rays, Hit& hit) {
+  constexpr double any_distance = 1;
+  std::vector<Beside> after;
+  for (const Ray& ray : rays) {
+    CurvePoint point = point_on_ray(walker, hit.point, ray);
+    after.push_back(beside(walker, point, 1, any_distance));
+    if (after.back().moved) point.negative = after.back().point.negative;
+    if (after.back().sense == 0) point.negative.reset();
+    hit.leaving.push_back(std::move(point));
+  }
+  return after;
+}
+
+/// Why the trace ends at this kink, if it does; labels the hit.
+std::optional<StopReason> dead_end(const KinkSearch& kink, const Rays& rays, Hit& hit) {
+  if (hit.leaving.empty() && kink.active.size() <= most_active) return StopReason::no_way_out;
+  if (!rays.complete) {
+    hit.kind = HitKind::unresolved;
+    hit.name = "unresolved kink: " + hit.name + ": " + rays.why;
+    return StopReason::several_ways;
+  }
+  if (hit.leaving.size() == 1) return std::nullopt;
+  hit.kind = HitKind::branching_kink;
+  return StopReason::several_ways;
+}
+
 }  // namespace
 
 std::string names_of(ProblemView problem, const std::vector<Index>& switches) {
@@ -232,47 +259,28 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   const Rays rays = ways_out(walker, kink);
   hit.switches = crossed(kink, resting_switches(walker, progress.here, kink.point), rays.rays);
   hit.name = names_of(walker.problem, hit.switches);
-  constexpr double any = 1;
   const Beside before = beside(walker, kink.point, -1, kink.point.s - progress.here.s);
-  if (before.moved || before.sense == 0) hit.point.negative = before.point.negative;
+  if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
-  std::vector<int> senses;
-  std::vector<double> clear_of;
-  for (const Ray& ray : rays.rays) {
-    hit.leaving.push_back(point_on_ray(walker, kink.point, ray));
-    const Beside after = beside(walker, hit.leaving.back(), 1, any);
-    if (after.moved) hit.leaving.back().negative = after.point.negative;
-    if (after.sense == 0) hit.leaving.back().negative.reset();
-    senses.push_back(after.sense);
-    clear_of.push_back(after.moved ? after.point.s : -1);
-  }
-  const auto stop = [&](StopReason reason, std::string detail) {
-    curve.stop = reason;
-    curve.stop_detail = std::move(detail);
+  const std::vector<Beside> after = add_leaving(walker, rays.rays, hit);
+  if (const auto reason = dead_end(kink, rays, hit)) {
+    curve.stop = *reason;
+    curve.stop_detail = *reason == StopReason::no_way_out ? "no way out at " + hit.name
+                        : hit.kind == HitKind::unresolved
+                            ? hit.name
+                            : std::to_string(hit.leaving.size()) + " ways out at " + hit.name;
+    if (*reason == StopReason::no_way_out && !rays.complete) curve.stop_detail += ": " + rays.why;
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;
-  };
-  const bool too_many = kink.active.size() > most_active;
-  if (hit.leaving.empty() && !too_many)
-    return stop(StopReason::no_way_out,
-                "no way out at " + hit.name + (rays.complete ? "" : ": " + rays.why));
-  if (!rays.complete) {
-    hit.kind = HitKind::unresolved;
-    hit.name = "unresolved kink: " + hit.name + ": " + rays.why;
-    return stop(StopReason::several_ways, hit.name);
-  }
-  if (hit.leaving.size() > 1) {
-    hit.kind = HitKind::branching_kink;
-    const std::string ways = std::to_string(hit.leaving.size());
-    return stop(StopReason::several_ways, ways + " ways out at " + hit.name);
   }
   const int arrived = before.sense != 0               ? before.sense
                       : told_from_zero(progress.here) ? sense_of(progress.here)
                                                       : progress.sense;
-  if (arrived * senses.front() < 0) hit.kind = HitKind::corner;
-  progress.sense = senses.front() != 0 ? senses.front() : arrived;
-  progress.flat = senses.front() == 0;
-  progress.clear_of = clear_of.front();
+  const Beside& next = after.front();
+  if (arrived * next.sense < 0) hit.kind = HitKind::corner;
+  progress.sense = next.sense != 0 ? next.sense : arrived;
+  progress.flat = next.sense == 0;
+  progress.clear_of = next.moved ? next.point.s : -1;
   progress.here = hit.leaving.front();
   progress.left = kink.active;
   progress.ds = std::min(progress.ds, walker.options.step.initial);
