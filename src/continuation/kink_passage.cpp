@@ -74,17 +74,25 @@ std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) 
   return inertia && inertia->zero == 0 ? std::optional<Index>(inertia->negative) : std::nullopt;
 }
 
+/// Where the trace leaves off on this step: at its end, or at a stopping event.
+double last_s(const CurvePoint& to, const StepEvents& found) {
+  for (std::size_t i = 0; i < found.hits.size(); ++i)
+    if (found.stops[i]) return found.hits[i].point.s;
+  return to.s;
+}
+
 /// Extends the family that ends at `from`, or begins one there.
 void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found, Curve& curve) {
+  const double end = last_s(to, found);
   if (Hit* family = open_family(from, curve)) {
-    family->s_after = to.s;
+    family->s_after = end;
     return;
   }
   Hit hit{.kind = HitKind::family,
           .name = "family at one lambda",
           .point = from,
           .s_before = from.s,
-          .s_after = to.s};
+          .s_after = end};
   hit.point.negative.reset();
   found.hits.insert(found.hits.begin(), std::move(hit));
   found.stops.insert(found.stops.begin(), false);

@@ -5,8 +5,8 @@
 namespace springfold::io {
 namespace {
 
-const std::vector<std::string> event_codes{"LP", "BP", "SA", "CL", "KB",
-                                           "KS", "TP", "FM", "UZ", "EP", "UR"};
+const std::vector<std::string> event_codes{"LP", "BP", "SA", "CL", "KB", "KS",
+                                           "TP", "FM", "UZ", "EP", "UR"};
 
 /// "LP1": a code and a number from 1.
 bool is_event_label(const std::string& text) {

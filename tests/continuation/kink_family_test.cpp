@@ -69,6 +69,12 @@ TEST(KinkFamily, MayBeginAtTheStart) {
   }
 }
 
+TEST(KinkFamily, EndsWhereTheTraceEndsInside) {
+  const Curve curve = follow_backlash({}, -1, 0.2);
+  ASSERT_THAT(kinds_of(curve), ElementsAre(HitKind::kink, HitKind::family, HitKind::user));
+  EXPECT_EQ(curve.hits[1].s_after, curve.hits[2].point.s);
+}
+
 TEST(KinkFamily, WithoutSlopeElsewhereIsStillOne) {  // one unknown, dF/dx = 0 in the band
   const PiecewiseLine line{0, {{1, 0.3, 1}, {2, -0.3, -1}}};
   const Curve curve = follow(line, at(-1, -1.4, 1, 0, {-1, -1}), {x_reaches(1)});
