@@ -212,11 +212,18 @@ Rays ways_out(const Walker& walker, const KinkSearch& kink) {
 }
 
 /// Adds the ways out to a hit, each with what lambda does along it.
-std::vector<Beside> add_leaving(const Walker& walker, const std::vector<Ray>& rays, Hit& hit) {
+std::vector<Beside> add_leaving(const Walker& walker, const std::vector<Ray>& rays, bool together,
+                                Hit& hit) {
   constexpr double any_distance = 1;
   std::vector<Beside> after;
   for (const Ray& ray : rays) {
     CurvePoint point = point_on_ray(walker, hit.point, ray);
+    // Switches that act together need not be zero to rounding: back onto the piece's own curve.
+    const auto corrected = together ? point_at(walker, point, 0) : std::nullopt;
+    if (corrected) {
+      point.x = corrected->x;
+      point.lambda = corrected->lambda;
+    }
     after.push_back(beside(walker, point, 1, any_distance));
     if (after.back().moved) point.negative = after.back().point.negative;
     if (after.back().sense == 0) point.negative.reset();
@@ -270,7 +277,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   const Beside before = beside(walker, kink.point, -1, kink.point.s - progress.here.s);
   if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
-  const std::vector<Beside> after = add_leaving(walker, rays.rays, hit);
+  const std::vector<Beside> after = add_leaving(walker, rays.rays, kink.active.size() > 1, hit);
   if (const auto reason = dead_end(kink, rays, hit)) {
     curve.stop = *reason;
     curve.stop_detail = *reason == StopReason::no_way_out ? "no way out at " + hit.name

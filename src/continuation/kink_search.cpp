@@ -181,11 +181,12 @@ Crossing judge(const Watched& f, double a, const Cubic& cubic) {
   return first_of_all(f, a, a + cubic.h);
 }
 
-/// A switch that is being left starts at zero: the step length at which it is clearly positive.
-std::optional<double> departure(const Watched& f) {
+/// A switch that is being left starts at zero, or within `slack` if it only acted together with
+/// others there: the step length at which it is clearly positive.
+std::optional<double> departure(const Watched& f, double slack) {
   for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     const auto value = f.value(share * f.h);
-    if (!value || *value < -f.noise) return std::nullopt;
+    if (!value || *value < -slack) return std::nullopt;
     if (*value > f.noise) return share * f.h;
   }
   return std::nullopt;
@@ -207,7 +208,7 @@ Crossing crossing_of(const Watched& f, Cubic cubic, bool leaves) {
   const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
   const bool near_end = cubic.f1 >= 0 && cubic.f1 <= within;
   if (leaves || cubic.f0 <= f.noise) {
-    const auto start = departure(f);
+    const auto start = departure(f, leaves ? f.walker.options.simultaneous : f.noise);
     if (!start) return {.clear = false};
     if (*start < f.h) {
       const auto point = point_at(f.walker, f.from, *start);

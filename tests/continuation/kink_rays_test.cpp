@@ -72,6 +72,19 @@ TEST(KinkRays, OfTwelveHardeningBarsPassThrough) {
   EXPECT_EQ(curve.hits[0].switches.size(), 12u);
 }
 
+TEST(KinkRays, OfSwitchesThatActTogetherNeedNotBeZeroTogether) {
+  // up to 7e-11 apart
+  for (const double k0 : {1.0, 1e-3, 20.0}) {
+    const PiecewiseLine line{k0, {{k0, 0.1, 1}, {k0, 0.1 + 4e-11, 1}, {k0, 0.1 - 3e-11, -1}}};
+    const double lambda = k0 * (-0.5) + k0 * (-0.5 - (0.1 - 3e-11));
+    const Curve curve = follow(line, at(-0.5, lambda, 1, 0, {-1, -1, -1}), {x_reaches(0.6)});
+    ASSERT_EQ(curve.stop, StopReason::event) << curve.stop_detail;
+    ASSERT_EQ(curve.hits.size(), 2u);
+    EXPECT_EQ(curve.hits[0].switches.size(), 3u);
+    EXPECT_NEAR(curve.hits[0].point.x[0], 0.1, 1e-10);
+  }
+}
+
 TEST(KinkRays, OfMoreThanTwelveSwitchesAreUnresolved) {
   const Curve curve = stretch({.n = 13, .k = 13, .after = 2});
   EXPECT_EQ(curve.stop, StopReason::several_ways);
