@@ -29,6 +29,7 @@ struct Answer {
   Vector z{};
   int multiplicity = 1;   ///< branch points: corank; kinks and corners: number of switches
   double separation = 1;  ///< distance in (z, lambda) to the next answer over size; 1: no other one
+  double rounding = 0;    ///< rounding of F alone moves it by about this much
 };
 
 /// The curve ends where `inside` falls to zero.
@@ -46,6 +47,7 @@ struct Draw {
   double size = 1;                ///< extent of the curve in z or lambda, the larger one
   double gap = 1;                 ///< distance of the nearest other branch or arm, over size
   std::vector<Answer> answers{};  ///< on the curve through the start, within the limits
+  bool blurred = false;           ///< in double precision not all answers can be told apart
   /// On the smooth branch of the start, also beyond branch points? Empty: there is no other one.
   std::function<bool(const Vector& z, double lambda)> on_curve{};
   /// Strictly monotone along the branch.

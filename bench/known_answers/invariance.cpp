@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "judge.hpp"
 
@@ -77,12 +78,19 @@ struct Comparison {
   const Followed& first;
   Events events{};
   double tolerance = 0;
+  bool tell = false;
 
+  Same verdict(bool agrees, const Embedded& other, const Followed& followed) const {
+    if (tell && !agrees) {
+      std::printf("differs:\n");
+      print(other, draw, followed, false);
+    }
+    return agrees ? Same::yes : Same::no;
+  }
   Same agrees(const Embedded& other, const Followed& followed) const {
-    return complete_curve(followed) &&
-                   same(events, events_of(other, draw, followed.curves), tolerance)
-               ? Same::yes
-               : Same::no;
+    return verdict(complete_curve(followed) &&
+                       same(events, events_of(other, draw, followed.curves), tolerance),
+                   other, followed);
   }
 
   Same stepping(double factor) const {
@@ -106,10 +114,9 @@ struct Comparison {
     std::vector<Curve> known = first.curves;
     std::erase_if(known.front().hits, [&](const Hit& hit) { return hit.point.s > end.s; });
     const bool ended = reached_end(back.curves.front());
-    return ended && same(events_of(problem, draw, known), events_of(problem, draw, back.curves),
-                         tolerance)
-               ? Same::yes
-               : Same::no;
+    return verdict(ended && same(events_of(problem, draw, known),
+                                 events_of(problem, draw, back.curves), tolerance),
+                   problem, back);
   }
 
   Same restarted(Random& random) const {
@@ -152,14 +159,19 @@ const char* name_of(Change change) {
 }
 
 Invariance check_invariance(const Embedded& problem, const Draw& draw, const Followed& followed,
-                            Random& random) {
+                            Random& random, bool tell) {
   Invariance result;
-  result.close = draw.gap < 1e-3 || smallest_separation(draw) < may_be_cluster;
+  result.close = draw.blurred || draw.gap < 1e-3 || smallest_separation(draw) < may_be_cluster;
   result.same.fill(Same::not_compared);
   if (!complete_curve(followed)) return result;
-  const Comparison compare{problem, draw, followed, events_of(problem, draw, followed.curves),
-                           1e-8 * std::max(1.0, draw.size)};
+  const Comparison compare{problem,
+                           draw,
+                           followed,
+                           events_of(problem, draw, followed.curves),
+                           1e-8 * std::max(1.0, draw.size),
+                           tell};
   const auto set = [&](Change change, Same same) {
+    if (tell && same == Same::no) std::printf("(that was: %s)\n", name_of(change));
     result.same[static_cast<std::size_t>(change)] = same;
   };
   set(Change::reversed, compare.reversed());

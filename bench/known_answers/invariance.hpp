@@ -25,6 +25,9 @@ enum class Change {
 constexpr std::size_t change_count = 12;
 const char* name_of(Change change);
 
+/// The engine's documentation asks for equations of order one; their scale is no requirement.
+inline bool required(Change change) { return change != Change::forces_binary; }
+
 enum class Same { yes, no, not_compared };
 
 struct Invariance {
@@ -34,7 +37,8 @@ struct Invariance {
 };
 
 /// Repeats everything on one draw. Not compared: where the curve was refused in the first place.
+/// @param tell  print what differs
 Invariance check_invariance(const Embedded& problem, const Draw& draw, const Followed& followed,
-                            Random& random);
+                            Random& random, bool tell);
 
 }  // namespace springfold::known_answers

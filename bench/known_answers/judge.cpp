@@ -1,6 +1,5 @@
 #include "judge.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -148,42 +147,14 @@ void excuse(const Embedded& problem, const Draw& draw, const Followed& followed,
   }
 }
 
-/// Closed form of the index; -1 where an eigenvalue is zero to rounding.
-Index negative_count(const Draw& draw, const Vector& z, const CurvePoint& p, bool& clearly) {
-  Vector F, F_lambda;
-  Matrix H;
-  draw.base.at(z, p.lambda, p.piece, F, H, F_lambda);
-  const Vector values = H.selfadjointView<Eigen::Lower>().eigenvalues();
-  const double scale = std::max(1.0, values.cwiseAbs().maxCoeff());
-  const double least = values.cwiseAbs().minCoeff() / scale;
-  clearly = least > 1e-6;
-  if (least < 1e-10) return -1;
-  return (values.array() < 0).count();
-}
-
-void check_points(const Embedded& problem, const Draw& draw, const Curve& curve, Verdict& verdict) {
-  double before = 0, sense = 0;
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const CurvePoint& p = curve.points[i];
-    const Vector z = problem.base_point(p.x);
-    if (draw.on_curve && !draw.on_curve(z, p.lambda)) verdict.jumped = true;
-    const double parameter = draw.parameter(z, p.lambda);
-    if (i == 1) sense = parameter > before ? 1 : -1;
-    if (i > 1 && (parameter - before) * sense < -1e-9 * draw.size) verdict.jumped = true;
-    before = parameter;
-    bool clearly = false;
-    const Index count = negative_count(draw, z, p, clearly);
-    if (count < 0) continue;
-    if (p.negative ? *p.negative != count + problem.negative_extra() : clearly)
-      verdict.wrong_index = true;
-  }
-}
-
 }  // namespace
 
 Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed) {
   Verdict verdict{.family = draw.family, .gap = draw.gap, .separation = smallest_separation(draw)};
-  for (const Answer& a : draw.answers) verdict.answers.push_back({.separation = a.separation});
+  verdict.blurred = draw.blurred;
+  for (const Answer& a : draw.answers)
+    verdict.answers.push_back(
+        {.separation = a.separation, .rounding = a.rounding / std::max(1.0, draw.size)});
   verdict.refused = !followed.refusal.empty();
   Matching matching{problem, draw, verdict};
   for (const Curve& curve : followed.curves) {

@@ -22,6 +22,7 @@ struct Judged {
   double separation = 1;
   Outcome outcome = Outcome::missed;
   double place_error = 0;  ///< if found; relative to max(1, size)
+  double rounding = 0;     ///< what rounding alone explains of it
 };
 
 struct Verdict {
@@ -30,6 +31,7 @@ struct Verdict {
   double gap = 1, separation = 1;
   std::vector<Judged> answers{};
   std::vector<double> false_events{};  ///< separations
+  bool blurred = false;                ///< answers that double precision cannot tell apart
   bool jumped = false;                 ///< a point stands on another branch, or the curve went back
   bool wrong_index = false;
   bool refused = false;
@@ -37,6 +39,10 @@ struct Verdict {
 
 /// Events closer together than this share of the size may be answered by one unresolved interval.
 constexpr double may_be_cluster = 1e-4;
+
+/// Index and branch at every stored point: sets `jumped` and `wrong_index`.
+void check_points(const Embedded& problem, const Draw& draw, const continuation::Curve& curve,
+                  Verdict& verdict);
 
 Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed);
 

@@ -7,6 +7,8 @@
 // in few unknowns are embedded in up to 30 (embedded.hpp). The families:
 //
 //   fold ladder          lambda = p(x), p' = c prod (x - a_i)^m_i: folds (m = 1) and touches (m = 2)
+//     blurred            some of them so close that double precision cannot tell them apart: jumps and
+//                        index are judged as everywhere, the events are only reported
 //   strands              parallel branches that do not meet, a gap apart
 //   pitchfork            perfect (both branches) and with an imperfection (main, detached branch)
 //   two mode             two interacting modes: trivial, X, Y and mixed branches; double points
@@ -77,7 +79,7 @@ std::optional<Result> run(const Settings& settings, long number) {
   Result result{.verdict = judge(problem, draw, followed)};
   result.verdict.number = number;
   if (number % 10 == 0) {
-    result.invariance = check_invariance(problem, draw, followed, random);
+    result.invariance = check_invariance(problem, draw, followed, random, settings.draw == number);
     result.invariance->number = number;
   }
   return result;

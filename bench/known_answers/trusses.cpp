@@ -138,7 +138,8 @@ Draw trammel(Random& random) {
   draw.parameter = [](const Vector& z, double) { return z[0]; };
   draw.on_curve = [](const Vector& z, double) { return std::abs(z[0]) < std::numbers::pi / 2; };
   for (const double s : {1.0, -1.0})
-    draw.answers.push_back({AnswerKind::fold, load(s * fold), scalar(s * fold)});
+    draw.answers.push_back(
+        {AnswerKind::fold, load(s * fold), scalar(s * fold), 1, 1, 1e-15 / fold});
   complete(draw);
   return draw;
 }
