@@ -29,7 +29,7 @@ class Tracer {
 
   void add_start(const DiagramStart& start, int number);
   void run();
-  Diagram take() { return std::move(diagram_); }
+  Diagram take();
 
  private:
   int junction_at(const Hit& hit);
@@ -271,9 +271,13 @@ void Tracer::run() {
     queue_.pop_front();
     follow(task);
   }
+}
+
+Diagram Tracer::take() {
   if (diagram_.not_followed > 0)
     diagram_.doubts.push_back(std::to_string(diagram_.not_followed) +
                               " branches were not traced: bounds of depth or number reached");
+  return std::move(diagram_);
 }
 
 }  // namespace
