@@ -15,6 +15,8 @@ unset colorbox
 stable_color = '#0072B2'
 driven_color = '#D55E00'
 unstable_color = '#D55E00'
+# Branches of a diagram, one after the other.
+branch_colors = '#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #882255 #999933'
 ink = '#222222'
 pale = '#D9D9D9'
 
@@ -47,10 +49,12 @@ set style line 17 linecolor rgb ink pointtype 3 pointsize 2.2 linewidth 2     # 
 set style line 18 linecolor rgb ink pointtype 12 pointsize 2.2 linewidth 2.2  # TP
 set style line 19 linecolor rgb ink pointtype 2 pointsize 1.9 linewidth 2.2   # UZ
 set style line 20 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.5  # UR
+set style line 21 linecolor rgb ink pointtype 4 pointsize 1.9 linewidth 2.2   # FM
 
 point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
-                    code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : 20
+                    code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : \
+                    code eq 'FM' ? 21 : 20
 point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'LP' ? 'limit point (LP)' : \
                    code eq 'CL' ? 'corner limit point (CL)' : \
@@ -59,6 +63,7 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'KB' ? 'branching kink (KB)' : \
                    code eq 'KS' ? 'kinematic singularity (KS)' : \
                    code eq 'TP' ? 'touching point (TP)' : \
+                   code eq 'FM' ? 'family (FM)' : \
                    code eq 'UZ' ? 'marked value (UZ)' : \
                    code eq 'UR' ? 'unresolved (UR)' : ''
 

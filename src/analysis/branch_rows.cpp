@@ -20,30 +20,6 @@ struct Entry {
   bool leaving = false;  ///< second row of a kink
 };
 
-EventKind kind_of(const Hit& hit) {
-  switch (hit.kind) {
-    case HitKind::limit_point:
-      return EventKind::limit_point;
-    case HitKind::branch_point:
-      return EventKind::branch_point;
-    case HitKind::kink:
-      return EventKind::switching;
-    case HitKind::corner:
-      return EventKind::corner_limit_point;
-    case HitKind::branching_kink:
-      return EventKind::branching_kink;
-    case HitKind::touch:
-      return EventKind::touch;
-    case HitKind::family:
-      return EventKind::family;
-    case HitKind::user:
-      return hit.name == force_limit ? EventKind::limit_point : EventKind::user_value;
-    case HitKind::unresolved:
-      return EventKind::unresolved;
-  }
-  return EventKind::unresolved;
-}
-
 /// Points and special points of one direction in the order of s, without the start.
 std::vector<Entry> entries_of(const Curve& curve) {
   std::vector<Entry> entries;
@@ -106,30 +82,18 @@ bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quant
   return false;
 }
 
-Stop stop_of(const Curve& curve) {
-  Stop stop;
-  stop.reason = std::string(to_string(curve.stop));
-  if (!curve.stop_detail.empty()) stop.reason += ": " + curve.stop_detail;
-  stop.complete = curve.stop == StopReason::event;
-  return stop;
-}
-
 void append_log(const Curve& curve, double sign, std::vector<StepNote>& log) {
   for (const continuation::StepNote& note : curve.log)
     log.push_back({sign * note.s, sign * note.step, note.reason});
 }
 
-/// Numbers the events: LP1, LP2, ..., counted from the first row.
-void label_events(Branch& branch) {
-  std::map<std::string, int> counts;
-  for (Event& event : branch.events) {
-    const std::string code = code_of(event.kind);
-    event.label = code + std::to_string(++counts[code]);
+/// Writes the labels of the events into their rows.
+void mark_rows(Branch& branch) {
+  for (const Event& event : branch.events) {
     branch.samples[event.row].event = event.label;
     const bool two_rows =
         event.row + 1 < branch.samples.size() && !event.rates_after.empty() &&
-        (event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point ||
-         event.kind == EventKind::branching_kink);
+        (event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point);
     if (two_rows) branch.samples[event.row + 1].event = event.label;
   }
 }
@@ -156,18 +120,36 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
   }
 }
 
-/// The two ends are events too.
-void add_end(Branch& branch, const Entry& entry, std::size_t row, const Stop& stop,
-             const Evaluator& evaluator, const std::vector<QuantityDefinition>& quantities) {
+/// An end of the branch is an event too.
+Event end_event(const Entry& entry, std::size_t row, const Stop& stop, const Evaluator& evaluator,
+                const std::vector<QuantityDefinition>& quantities) {
   Event event{.kind = stop.complete ? EventKind::end_of_range : EventKind::unresolved,
               .detail = stop.reason,
               .row = row};
   event.stiffness = evaluator.platform_stiffness(entry.point);
   event.rates_before = evaluator.rates(quantities, entry.point);
   event.rates_after = event.rates_before;
-  const auto before = std::find_if(branch.events.begin(), branch.events.end(),
-                                   [row](const Event& e) { return e.row >= row; });
-  branch.events.insert(row == 0 ? branch.events.begin() : before, std::move(event));
+  return event;
+}
+
+/// A special point in its row; `next`: the row behind it, if there is one.
+Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Evaluator& evaluator,
+                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
+  const Hit& hit = *entry.hit;
+  Event event{.kind = kind_of(hit), .detail = hit.name, .row = row};
+  if (hit.multiplicity > 1) event.detail += ", " + std::to_string(hit.multiplicity) + "-fold";
+  event.stiffness = evaluator.platform_stiffness(entry.point);
+  event.rates_before = evaluator.rates(quantities, entry.point);
+  event.rates_after = event.rates_before;
+  if (next == nullptr || next->hit != entry.hit) return event;
+  event.rates_after = evaluator.rates(quantities, next->point);
+  event.detail = switching_detail(problem.system(entry.point.lambda), hit, entry.point.piece,
+                                  next->point.piece);
+  if (turns_back(event, quantities)) {
+    event.kind = EventKind::corner_limit_point;
+    event.detail += ", the force turns back";
+  }
+  return event;
 }
 
 }  // namespace
@@ -188,53 +170,128 @@ Branch single_point(const CurvePoint& start, const Evaluator& evaluator,
   return branch;
 }
 
-Branch join(const Curve& backward, const Curve& forward, const Evaluator& evaluator,
-            const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
+Curve nothing_behind(const Curve& curve) {
+  Curve behind;
+  behind.points = {curve.points.front()};
+  behind.points.front().tangent.dx *= -1;
+  behind.points.front().tangent.dlambda *= -1;
+  behind.stop = curve.stop;
+  behind.stop_detail = curve.stop_detail;
+  return behind;
+}
+
+BranchRows join(const BranchSource& source, const Evaluator& evaluator,
+                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
+  const Curve &backward = source.backward, &forward = source.forward;
   std::vector<Entry> entries = reversed(entries_of(backward));
-  Branch branch;
+  BranchRows rows;
+  Branch& branch = rows.branch;
   branch.start_row = entries.size();
   entries.push_back({forward.points.front(), nullptr, false});
   for (Entry& e : entries_of(forward)) entries.push_back(std::move(e));
-  branch.backward = stop_of(backward);
-  branch.forward = stop_of(forward);
+  branch.backward = source.backward_stop;
+  branch.forward = source.forward_stop;
+  const auto add = [&rows](Event event, int junction) {
+    rows.branch.events.push_back(std::move(event));
+    rows.junctions.push_back(junction);
+  };
+  const auto junction_of = [&](const Hit& hit) {
+    return source.junction_of ? source.junction_of(hit) : -1;
+  };
 
   // A stopping event of the caller is the end of the range itself, not a marked value.
-  const Hit* first_stop = backward.stop == StopReason::event && !backward.hits.empty()
-                              ? &backward.hits.back()
-                              : nullptr;
-  const Hit* last_stop =
-      forward.stop == StopReason::event && !forward.hits.empty() ? &forward.hits.back() : nullptr;
+  const auto is_end = [](const Curve& curve, const Hit* hit) {
+    return curve.stop == StopReason::event && !curve.hits.empty() && hit == &curve.hits.back();
+  };
+  // At a junction that ends the branch no second event is needed to say so.
+  const auto ends_at_junction = [&](const Entry& e, const Stop& stop) {
+    return e.hit != nullptr && stop.complete && junction_of(*e.hit) >= 0;
+  };
+  if (source.origin) {
+    Event event = end_event(entries.front(), 0, branch.backward, evaluator, quantities);
+    event.kind = source.origin_kind;
+    add(std::move(event), *source.origin);
+  } else if (!ends_at_junction(entries.front(), branch.backward) &&
+             forward.stop != StopReason::closed) {
+    add(end_event(entries.front(), 0, branch.backward, evaluator, quantities), -1);
+  }
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& e = entries[i];
-    const statics::System& system = problem.system(e.point.lambda);
-    branch.samples.push_back(
-        {evaluator.values(quantities, e.point), piece_text(system, e.point.piece), ""});
-    if (e.hit == nullptr || e.leaving || e.hit == first_stop || e.hit == last_stop) continue;
-    Event event{.kind = kind_of(*e.hit), .detail = e.hit->name, .row = i};
-    if (e.hit->multiplicity > 1)
-      event.detail += ", " + std::to_string(e.hit->multiplicity) + "-fold";
-    event.stiffness = evaluator.platform_stiffness(e.point);
-    event.rates_before = evaluator.rates(quantities, e.point);
-    event.rates_after = event.rates_before;
-    const bool pair = i + 1 < entries.size() && entries[i + 1].hit == e.hit;
-    if (pair) {
-      event.rates_after = evaluator.rates(quantities, entries[i + 1].point);
-      event.detail = switching_detail(system, *e.hit, e.point.piece, entries[i + 1].point.piece);
-      if (turns_back(event, quantities)) {
-        event.kind = EventKind::corner_limit_point;
-        event.detail += ", the force turns back";
-      }
-    }
-    branch.events.push_back(std::move(event));
+    branch.samples.push_back({evaluator.values(quantities, e.point),
+                              piece_text(problem.system(e.point.lambda), e.point.piece), ""});
+    if (e.hit == nullptr || e.leaving || is_end(backward, e.hit) || is_end(forward, e.hit))
+      continue;
+    const Entry* next = i + 1 < entries.size() ? &entries[i + 1] : nullptr;
+    Event event = hit_event(e, i, next, evaluator, quantities, problem);
+    const bool first = i == 0, last = next == nullptr;
+    if ((first || last) && ends_at_junction(e, first ? branch.backward : branch.forward))
+      event.detail += (event.detail.empty() ? "" : ", ") +
+                      (first ? branch.backward.reason : branch.forward.reason);
+    add(std::move(event), junction_of(*e.hit));
   }
-  add_end(branch, entries.front(), 0, branch.backward, evaluator, quantities);
-  if (entries.size() > 1)
-    add_end(branch, entries.back(), entries.size() - 1, branch.forward, evaluator, quantities);
-  label_events(branch);
-  fill_indices(branch, quantities);
+  const std::size_t end = entries.size() - 1;
+  if (end > 0 && !ends_at_junction(entries.back(), branch.forward)) {
+    const auto before = std::find_if(branch.events.begin(), branch.events.end(),
+                                     [end](const Event& e) { return e.row >= end; });
+    rows.junctions.insert(rows.junctions.begin() + (before - branch.events.begin()), -1);
+    branch.events.insert(before,
+                         end_event(entries.back(), end, branch.forward, evaluator, quantities));
+  }
   append_log(backward, -1, branch.log);
   append_log(forward, 1, branch.log);
-  return branch;
+  return rows;
+}
+
+std::vector<std::string> label_events(std::vector<BranchRows>& all, std::size_t junctions,
+                                      const std::vector<QuantityDefinition>& quantities) {
+  std::map<std::string, int> counts;
+  std::vector<std::string> labels(junctions);
+  for (auto& [branch, numbers] : all) {
+    for (std::size_t i = 0; i < branch.events.size(); ++i) {
+      Event& event = branch.events[i];
+      const bool meets = numbers[i] >= 0;
+      if (meets) event.label = labels[static_cast<std::size_t>(numbers[i])];
+      if (!event.label.empty()) continue;
+      const std::string code = code_of(event.kind);
+      event.label = code + std::to_string(++counts[code]);
+      if (meets) labels[static_cast<std::size_t>(numbers[i])] = event.label;
+    }
+    mark_rows(branch);
+    fill_indices(branch, quantities);
+  }
+  return labels;
+}
+
+EventKind kind_of(const Hit& hit) {
+  switch (hit.kind) {
+    case HitKind::limit_point:
+      return EventKind::limit_point;
+    case HitKind::branch_point:
+      return EventKind::branch_point;
+    case HitKind::kink:
+      return EventKind::switching;
+    case HitKind::corner:
+      return EventKind::corner_limit_point;
+    case HitKind::branching_kink:
+      return EventKind::branching_kink;
+    case HitKind::touch:
+      return EventKind::touch;
+    case HitKind::family:
+      return EventKind::family;
+    case HitKind::user:
+      return hit.name == force_limit ? EventKind::limit_point : EventKind::user_value;
+    case HitKind::unresolved:
+      return EventKind::unresolved;
+  }
+  return EventKind::unresolved;
+}
+
+Stop stop_of(const Curve& curve) {
+  Stop stop;
+  stop.reason = std::string(to_string(curve.stop));
+  if (!curve.stop_detail.empty()) stop.reason += ": " + curve.stop_detail;
+  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
+  return stop;
 }
 
 }  // namespace springfold::analysis

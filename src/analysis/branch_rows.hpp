@@ -1,6 +1,9 @@
 // From the engine's curves to the branch table. Private to analysis.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "quantities.hpp"
 #include "springfold/continuation/curve.hpp"
 
@@ -9,11 +12,42 @@ namespace springfold::analysis {
 /// Name of the engine's event for an extremum of the force under displacement control.
 inline constexpr const char* force_limit = "limit point of the force";
 
-/// Joins the two directions of a trace into one branch: rows from the backward end through the
-/// start to the forward end, special points as rows of their own, labels counted from the first row.
-Branch join(const continuation::Curve& backward, const continuation::Curve& forward,
-            const Evaluator& evaluator, const std::vector<QuantityDefinition>& quantities,
-            const PathProblem& problem);
+/// Gives the number of the junction at which a special point is, or -1.
+using JunctionOf = std::function<int(const continuation::Hit&)>;
+
+/// What becomes one branch: one or two curves that leave the same point.
+struct BranchSource {
+  continuation::Curve backward{}, forward{};  ///< with the same first point
+  Stop backward_stop{}, forward_stop{};
+  JunctionOf junction_of{};     ///< empty: no special point is a junction
+  std::optional<int> origin{};  ///< the junction at which the branch begins
+  EventKind origin_kind = EventKind::branch_point;
+};
+
+/// A branch whose special points have no labels yet.
+struct BranchRows {
+  Branch branch{};
+  std::vector<int> junctions{};  ///< per event: the junction at which it is, or -1
+};
+
+/// Rows from the backward end through the start to the forward end, special points as rows of their
+/// own.
+BranchRows join(const BranchSource& source, const Evaluator& evaluator,
+                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem);
+
+/// Numbers the events of all branches, LP1, LP2, ..., each branch from its first row; all events of
+/// a junction have one label. Then fills the indices at critical points.
+/// @returns labels of the junctions; empty for those that no branch shows
+std::vector<std::string> label_events(std::vector<BranchRows>& all, std::size_t junctions,
+                                      const std::vector<QuantityDefinition>& quantities);
+
+EventKind kind_of(const continuation::Hit& hit);
+
+/// The engine's reason; complete at a limit and on a closed curve.
+Stop stop_of(const continuation::Curve& curve);
+
+/// The other side of a curve that is all there is: closed, or a single point.
+continuation::Curve nothing_behind(const continuation::Curve& curve);
 
 /// The start point alone.
 Branch single_point(const continuation::CurvePoint& start, const Evaluator& evaluator,

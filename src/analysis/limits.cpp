@@ -74,4 +74,20 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
   return std::nullopt;
 }
 
+std::optional<std::string> limit_passed(const Study& study, const Evaluator& evaluator,
+                                        const std::vector<QuantityDefinition>& quantities,
+                                        const continuation::CurvePoint& point) {
+  for (const Limit& limit : study.until) {
+    const auto q = std::find_if(quantities.begin(), quantities.end(),
+                                [&](const auto& d) { return d.name == limit.quantity; });
+    const double here = evaluator.value(*q, point) / q->scale;
+    const auto beyond = [here](double edge, double outwards) {
+      return std::isfinite(edge) && outwards * (here - edge) > 1e-9 * std::max(1.0, std::abs(edge));
+    };
+    if (beyond(limit.low / q->scale, -1)) return limit.quantity + " reaches its lower limit";
+    if (beyond(limit.high / q->scale, 1)) return limit.quantity + " reaches its upper limit";
+  }
+  return std::nullopt;
+}
+
 }  // namespace springfold::analysis

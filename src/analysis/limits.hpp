@@ -21,4 +21,10 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
                                                   const continuation::CurvePoint& start,
                                                   const continuation::Ray& ray);
 
+/// Which limit the point is beyond, "lambda reaches its upper limit"; nothing within the range. A
+/// limit itself is within.
+std::optional<std::string> limit_passed(const Study& study, const Evaluator& evaluator,
+                                        const std::vector<QuantityDefinition>& quantities,
+                                        const continuation::CurvePoint& point);
+
 }  // namespace springfold::analysis

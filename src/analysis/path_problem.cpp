@@ -1,7 +1,10 @@
 #include "path_problem.hpp"
 
 #include <cassert>
+#include <cmath>
+#include <numbers>
 
+#include "number_text.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -151,9 +154,53 @@ Vector PathProblem::metric() const {
   return weights;
 }
 
+std::vector<bool> PathProblem::angles() const {
+  const Index free = rule_.N.cols(), shift = free - d_;
+  std::vector<bool> angles(static_cast<std::size_t>(size_), false);
+  for (Index i = 0; i < system_.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (system_.is_wrench[k] || system_.is_length[k] || (i >= t_ && i < t_ + d_)) continue;
+    angles[static_cast<std::size_t>(i < t_ ? i : i + shift)] = true;
+  }
+  // A free pose coordinate is an angle only if no other one takes part in it.
+  for (Index c = 0; c < free; ++c)
+    for (Index r = 0; r < d_; ++r)
+      if (!system_.is_length[static_cast<std::size_t>(t_ + r)] &&
+          std::abs(std::abs(rule_.N(r, c)) - 1) < 1e-14)
+        angles[static_cast<std::size_t>(t_ + c)] = true;
+  return angles;
+}
+
+Vector PathProblem::periods() const {
+  const std::vector<bool> is_angle = angles();
+  Vector periods = Vector::Zero(size_);
+  for (Index i = 0; i < size_; ++i)
+    if (is_angle[static_cast<std::size_t>(i)]) periods[i] = 2 * std::numbers::pi;
+  // Joints stand before all poses, at the same place in y and in z.
+  for (const statics::CoordinateSpring& spring : system_.springs) periods[spring.coordinate] = 0;
+  for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
+    if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    const statics::BodySlice& body = system_.body_slices[b];
+    const Index shift = body.t > t_ ? rule_.N.cols() - d_ : 0;
+    const Index count = body.t == t_ ? rule_.N.cols() : body.count;
+    periods.segment(body.t + shift, count).setZero();  // rotation vectors
+  }
+  return periods;
+}
+
 std::string PathProblem::switch_name(Index j) const {
   const statics::Switch& s = system_.switches[static_cast<std::size_t>(j)];
-  return "spring " + system_.springs[s.spring].name;
+  const statics::CoordinateSpring& spring = system_.springs[s.spring];
+  const auto i = static_cast<std::size_t>(j - spring.first_switch);
+  const double below = spring.law.segments[i].stiffness;
+  const double above = spring.law.segments[i + 1].stiffness;
+  const char* what = below == 0      ? "acts above "
+                     : above == 0    ? "acts below "
+                     : above > below ? "is stiffer above "
+                                     : "is softer above ";
+  const bool is_length = system_.is_length[static_cast<std::size_t>(s.coordinate)];
+  return "spring " + spring.name + " (" + what +
+         rounded(s.breakpoint * (is_length ? rule_.length : 1)) + ")";
 }
 
 }  // namespace springfold::analysis

@@ -26,6 +26,7 @@ struct PathRule {
   std::function<std::pair<statics::System, Vector>(double)> family{};
   double family_step = 0x1p-8;  ///< difference step in lambda for the derivative by the parameter
   bool symmetric = true;        ///< no external moments on spatial bodies
+  double length = 1;            ///< unit of lengths, for the names of switches
 };
 
 /// A PiecewiseSmoothProblem for the engine. One object serves one thread: evaluations reuse storage.
@@ -42,7 +43,11 @@ class PathProblem {
   bool switch_gradients(const Vector& y, double lambda, Matrix& dg_dy, Vector& dg_dlambda) const;
   bool symmetric() const { return rule_.symmetric; }
   Vector metric() const;  ///< wrenches do not enter the arc length
-  std::string switch_name(Index j) const;
+  /// 2 pi for joint angles without a spring (a spring counts turns) and for the angle of planar
+  /// bodies; 0 for all others.
+  Vector periods() const;
+  std::vector<bool> angles() const;        ///< per unknown: an angle, of a joint or a planar body
+  std::string switch_name(Index j) const;  ///< "spring leg.knee (acts above 0.2618)"
 
   /// All unknowns of the statics at a point of the path, and back.
   Vector expand(const Vector& y, double lambda) const;

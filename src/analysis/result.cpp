@@ -32,8 +32,15 @@ std::string code_of(EventKind kind) {
   return "??";
 }
 
+int ways_not_followed(const StudyResult& result) {
+  std::ptrdiff_t count = 0;
+  for (const Junction& junction : result.junctions)
+    count += std::count(junction.ways.begin(), junction.ways.end(), 0);
+  return static_cast<int>(count);
+}
+
 bool complete(const StudyResult& result) {
-  return result.start.found &&
+  return result.start.found && result.doubts.empty() &&
          std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
            return branch.backward.complete && branch.forward.complete &&
                   std::none_of(branch.events.begin(), branch.events.end(), [](const Event& event) {

@@ -6,121 +6,83 @@
 #include <ctime>
 
 #include "branch_rows.hpp"
+#include "branches.hpp"
 #include "limits.hpp"
-#include "setup.hpp"
 #include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/inertia.hpp"
-#include "springfold/statics/first_equilibrium.hpp"
+#include "start.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 using continuation::CurvePoint;
 
-statics::FirstEquilibrium find_start(const Setup& setup, const Study& study) {
-  statics::StartProblem problem;
-  problem.body = study.body;
-  problem.attempts = study.start.attempts;
-  problem.seed = study.start.seed;
-  problem.z = statics::guess(setup.system);
-  problem.inputs = {setup.system.commands, setup.rule.W_start};
-  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
-  const model::TaskSpace space =
-      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
-  if (study.start.pose.size() > 0)
-    problem.z.segment(body.t, body.count) =
-        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
-  switch (study.start.solve) {
-    case StartSolve::pose:
-      problem.unknowns = statics::StartUnknowns::pose;
-      break;
-    case StartSolve::actuators:
-      problem.unknowns = statics::StartUnknowns::commands;
-      break;
-    case StartSolve::wrench:
-      problem.unknowns = statics::StartUnknowns::wrench;
-      break;
-  }
-  if (study.start.solver == StartSolver::fixed_point)
-    return statics::first_equilibrium_paper(setup.system, problem);
-  return statics::first_equilibrium(setup.system, problem);
-}
-
-StartReport report_of(const statics::FirstEquilibrium& first, const Study& study) {
-  StartReport report;
-  report.found = first.status == statics::StartStatus::found;
-  report.method = study.start.solver == StartSolver::newton
-                      ? "globalised Newton (KINSOL), then exact Newton"
-                      : "fixed-point iteration of paper eq. (6)";
-  if (report.found && first.attempts > 1)
-    report.method += ", from a perturbed guess: see whether this is the equilibrium you mean";
-  report.attempts = first.attempts;
-  report.iterations = first.iterations;
-  report.chain_iterations = first.chain_iterations;
-  report.residual = first.residual;
-  switch (first.status) {
-    case statics::StartStatus::found:
-      break;
-    case statics::StartStatus::no_assembly:
-      report.message =
-          "the chains cannot be closed from this guess: check lengths, attachments, "
-          "axes and the initial pose and coordinates";
-      break;
-    case statics::StartStatus::no_equilibrium:
-      report.message = "no equilibrium was found near this guess; the smallest residual is left";
-      break;
-    case statics::StartStatus::wrong_count:
-      report.message = "as many actuated joints as pose coordinates are needed";
-      break;
-  }
-  return report;
-}
-
-continuation::TraceOptions options_of(const TraceSettings& settings) {
-  continuation::TraceOptions options;
-  options.step.initial = settings.initial_step;
-  options.step.minimum = settings.minimum_step;
-  options.step.maximum = settings.maximum_step;
-  options.maximum_points = settings.maximum_points;
-  return options;
-}
-
-Branch trace_both_ways(const PathProblem& problem, const CurvePoint& start, const Study& study,
-                       const Evaluator& evaluator,
-                       const std::vector<QuantityDefinition>& quantities,
-                       const Observer& observer) {
-  const continuation::TraceOptions options = options_of(study.trace);
-  continuation::Rays rays = rays_from(problem, start.x, start.lambda, start.piece, options);
-  if (rays.rays.size() != 2 || !rays.complete) {
-    Branch branch = single_point(start, evaluator, quantities, problem);
-    branch.forward = branch.backward = {
-        "the start is not a regular point of a curve: " +
-            (rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it"
-                              : rays.why),
-        false};
-    return branch;
-  }
+/// The branch through an ordinary start point alone.
+Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::Rays rays) {
+  const continuation::TraceOptions options = options_of(t.study.trace);
   // Forward is where lambda grows.
   if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
     std::swap(rays.rays[0], rays.rays[1]);
-  const auto events = events_of(study, evaluator, quantities);
+  const auto events = events_of(t.study, t.evaluator, t.quantities);
   int points = 1;
   const auto observe = [&](double sign) {
-    return [&points, &observer, sign](const CurvePoint& point) {
+    return [&points, &t, sign](const CurvePoint& point) {
       ++points;
-      return !observer || observer(points, sign * point.s);
+      return !t.observer || t.observer(points, sign * point.s);
     };
   };
   const auto follow = [&](const continuation::Ray& ray, double sign) {
-    auto ended = ended_at_start(study, evaluator, quantities, start, ray);
+    auto ended = ended_at_start(t.study, t.evaluator, t.quantities, start, ray);
     if (ended) return *ended;
-    return study.path == Path::davidenko
-               ? davidenko(problem, start.x, start.lambda, ray, events, options, observe(sign))
-               : trace(problem, start.x, start.lambda, ray, events, options, observe(sign));
+    return t.study.path == Path::davidenko
+               ? davidenko(t.problem, start.x, start.lambda, ray, events, options, observe(sign))
+               : trace(t.problem, start.x, start.lambda, ray, events, options, observe(sign));
   };
-  const continuation::Curve forward = follow(rays.rays[0], 1), backward = follow(rays.rays[1], -1);
-  return join(backward, forward, evaluator, quantities, problem);
+  BranchSource source;
+  source.forward = follow(rays.rays[0], 1);
+  source.backward = source.forward.stop == continuation::StopReason::closed
+                        ? nothing_behind(source.forward)
+                        : follow(rays.rays[1], -1);
+  source.forward_stop = stop_of(source.forward);
+  source.backward_stop = stop_of(source.backward);
+  std::vector<BranchRows> rows{join(source, t.evaluator, t.quantities, t.problem)};
+  label_events(rows, 0, t.quantities);
+  return rows.front().branch;
+}
+
+Branch not_traced(const Tracing& t, const CurvePoint& start, const std::string& why) {
+  Branch branch = single_point(start, t.evaluator, t.quantities, t.problem);
+  branch.forward = branch.backward = {why, false};
+  return branch;
+}
+
+/// A start that several curves leave needs the diagram, whatever the study asks for: none of them is
+/// picked.
+void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result) {
+  const BranchSettings& wanted = t.study.branches;
+  const auto rays =
+      rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
+  const bool ordinary = rays.rays.size() == 2 && rays.complete;
+  const auto outside = limit_passed(t.study, t.evaluator, t.quantities, start);
+  if (ordinary && (outside || (wanted.depth == 0 && wanted.search_at.empty()))) {
+    if (std::abs(rays.rays[0].tangent.dlambda) < 1e-6 &&
+        std::abs(rays.rays[1].tangent.dlambda) < 1e-6)
+      result.start.situation = "a limit point";
+    result.branches.push_back(trace_both_ways(t, start, rays));
+    return;
+  }
+  if (outside || t.study.path == Path::davidenko || (rays.rays.empty() && !rays.complete)) {
+    result.branches.push_back(
+        not_traced(t, start,
+                   "the start is not an ordinary point of a curve: " +
+                       (rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it"
+                                         : rays.why)));
+    return;
+  }
+  trace_branches(t, start, result);
+  if (result.branches.empty())
+    result.branches.push_back(not_traced(t, start, "no curve leaves it"));
 }
 
 /// A start that was held by a wrench stays held in the directions that the study leaves free.
@@ -154,8 +116,7 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
   for (const QuantityDefinition& q : quantities) result.quantities.push_back({q.name, q.unit});
 
-  const statics::FirstEquilibrium first = find_start(setup, study);
-  result.start = report_of(first, study);
+  const statics::FirstEquilibrium first = find_start(setup, study, result.start);
   if (result.start.found) {
     const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
     setup.rule.t_start = first.z.segment(body.t, body.count);
@@ -170,10 +131,11 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
     count_negative(problem, start);
     result.start.stiffness = evaluator.platform_stiffness(start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
-    result.branches.push_back(
-        study.kind == StudyKind::equilibrium
-            ? single_point(start, evaluator, quantities, problem)
-            : trace_both_ways(problem, start, study, evaluator, quantities, observer));
+    if (study.kind == StudyKind::equilibrium)
+      result.branches.push_back(single_point(start, evaluator, quantities, problem));
+    else
+      trace_study({problem, study, evaluator, quantities, observer, setup.lambda_scale}, start,
+                  result);
   }
   result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   return result;

@@ -104,6 +104,7 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
   setup.rule.body = study.body;
+  setup.rule.length = setup.scales.length;
   setup.rule.W_start = body_load(setup.system, study, study.constant_load, setup.scales);
   if (study.kind == StudyKind::force_deflection) {
     set_control(study, family, setup);

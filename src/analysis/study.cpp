@@ -38,6 +38,7 @@ void check_start(const Study& study, const model::Mechanism& mechanism, const mo
   if (start.pose.size() != 0 && (start.pose.size() != d || !start.pose.allFinite()))
     problems.push_back("start.pose: need " + std::to_string(d) + " finite numbers");
   if (start.attempts < 1) problems.push_back("start.attempts: need at least 1");
+  if (!(start.maximum_move >= 0)) problems.push_back("start.maximum_move: need a number >= 0");
   if (start.solver == StartSolver::fixed_point && start.solve == StartSolve::pose)
     problems.push_back(
         "start.solver: the paper's fixed-point iteration works at a given pose; use it with "
@@ -94,6 +95,25 @@ void check_control(const Study& study, const model::Mechanism& mechanism,
   if (!moves) problems.push_back("actuators: control \"actuator\" needs one that moves");
 }
 
+void check_branches(const Study& study, std::vector<std::string>& problems) {
+  const BranchSettings& b = study.branches;
+  if (b.depth < 0) problems.push_back("branches.depth: need a whole number >= 0");
+  if (b.maximum < 1) problems.push_back("branches.maximum: need at least 1");
+  if (b.starts < 1) problems.push_back("branches.starts: need at least 1");
+  if (study.path == Path::davidenko && (b.depth > 0 || !b.search_at.empty()))
+    problems.push_back(
+        "branches: path = \"davidenko\" follows the branch of the start alone: it finds no branch "
+        "points");
+  if (study.kind == StudyKind::equilibrium && (b.depth > 0 || !b.search_at.empty()))
+    problems.push_back("branches: kind = \"equilibrium\" has no branches");
+  for (const double lambda : b.search_at) {
+    if (!std::isfinite(lambda)) problems.push_back("branches.search_at: need finite numbers");
+    for (const Limit& limit : study.until)
+      if (limit.quantity == "lambda" && !(limit.low <= lambda && lambda <= limit.high))
+        problems.push_back("branches.search_at: a value lies outside the limits of lambda");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> problems_in(const Study& study, const model::Mechanism& mechanism) {
@@ -111,6 +131,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   const TraceSettings& t = study.trace;
   if (!(0 < t.minimum_step && t.minimum_step <= t.initial_step && t.initial_step <= t.maximum_step))
     problems.push_back("trace: need 0 < minimum_step <= initial_step <= maximum_step");
+  check_branches(study, problems);
   if (t.maximum_points < 2) problems.push_back("trace.maximum_points: need at least 2");
   if (problems.empty()) check_quantities(study, mechanism, problems);
   return problems;

@@ -57,6 +57,7 @@ int judge(const StudyResult& result, const Session& session) {
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
       if (!stop->complete) say(session, name_of(result) + ": stopped early: " + stop->reason);
+  for (const auto& doubt : result.doubts) say(session, name_of(result) + ": unresolved: " + doubt);
   if (!analysis::complete(result)) return partial;
   const bool is_resolved = std::all_of(
       result.branches.begin(), result.branches.end(), [](const analysis::Branch& branch) {

@@ -22,7 +22,7 @@ double count_of(const StudyResult& result, std::string_view code) {
   return found == counts.end() ? 0 : found->second;
 }
 
-/// Value at the event with this label: labels count along one branch, the first branch comes first.
+/// Value at the event with this label. A point where branches meet is taken on the first of them.
 double value_at_event(const StudyResult& result, std::string_view label,
                       std::string_view quantity) {
   for (const auto& branch : result.branches)

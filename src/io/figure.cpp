@@ -70,20 +70,57 @@ struct Axes {
   }
 };
 
+/// A special point at which branches meet is marked once.
 void add_mark(Figure& figure, FigureMark mark) {
-  if (is_finite(mark.at)) figure.marks.push_back(std::move(mark));
+  const bool is_there =
+      std::any_of(figure.marks.begin(), figure.marks.end(), [&](const FigureMark& other) {
+        return other.code == mark.code && other.label == mark.label && other.at == mark.at;
+      });
+  if (is_finite(mark.at) && !is_there) figure.marks.push_back(std::move(mark));
 }
 
 void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, const Branch& branch,
-                const std::string& label) {
+                const std::string& label, int hue) {
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
-  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch))});
+  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch)), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
       add_mark(figure,
                {analysis::code_of(event.kind), event.label, axes.point(result, branch, event.row)});
+}
+
+/// Do two curves show the same line? Mirrored branches do where the figure does not show the mirror.
+bool look_alike(const FigureCurve& a, const FigureCurve& b) {
+  if (a.parts.size() != b.parts.size()) return false;
+  for (std::size_t i = 0; i < a.parts.size(); ++i) {
+    const Polyline &p = a.parts[i].line, &q = b.parts[i].line;
+    if (p.size() != q.size()) return false;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const auto near = [](double u, double v) {
+        return std::abs(u - v) <= 1e-6 * std::max({1e-3, std::abs(u), std::abs(v)});
+      };
+      if (!near(p[k].first, q[k].first) || !near(p[k].second, q[k].second)) return false;
+    }
+  }
+  return true;
+}
+
+/// Labels the branches of a diagram with their numbers; one label for those that look alike.
+void number_branches(Figure& figure, std::size_t first) {
+  auto& curves = figure.curves;
+  std::vector<bool> done(curves.size(), false);
+  for (std::size_t i = first; i < curves.size(); ++i) {
+    if (done[i]) continue;
+    std::string numbers = std::to_string(curves[i].hue);
+    for (std::size_t k = i + 1; k < curves.size(); ++k)
+      if (!done[k] && look_alike(curves[i], curves[k])) {
+        done[k] = true;
+        numbers += ", " + std::to_string(curves[k].hue);
+      }
+    curves[i].label += (curves[i].label.empty() ? "" : ": ") + numbers;
+  }
 }
 
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
@@ -93,8 +130,12 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
     figure.x_title = axis_title(spec.x_label, spec.x, spec.x_factor, result, units);
     figure.y_title = axis_title(spec.y_label, spec.y, spec.y_factor, result, units);
   }
+  const std::size_t first_curve = figure.curves.size();
+  const bool is_diagram = result.branches.size() > 1;
   for (std::size_t b = 0; b < result.branches.size(); ++b)
-    add_branch(figure, axes, result, result.branches[b], b == 0 ? label : "");
+    add_branch(figure, axes, result, result.branches[b], b == 0 ? label : "",
+               is_diagram ? static_cast<int>(b) + 1 : 0);
+  if (is_diagram) number_branches(figure, first_curve);
   if (result.branches.empty()) return;
   const Branch& first = result.branches.front();
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});

@@ -29,6 +29,7 @@ struct CurvePart {
 struct FigureCurve {
   std::string label{};             ///< empty: not labelled
   std::vector<CurvePart> parts{};  ///< in the order of the branch
+  int hue = 0;  ///< n: colour of the n-th branch of a diagram; 0: colours tell stability
 };
 
 /// A special point, or the start of a curve (code "start", no label).

@@ -126,12 +126,16 @@ void send_curves(Gnuplot& gnuplot, const Figure& figure) {
     gnuplot << "$nothing" << begin_block << "e\n";
     parts = "nothing";
   }
-  gnuplot << assignment("curve_parts", parts) << assignment("first_parts", first_parts);
+  std::string hues;
+  for (const auto& curve : figure.curves) add_word(hues, std::to_string(curve.hue));
+  gnuplot << assignment("curve_parts", parts) << assignment("first_parts", first_parts)
+          << assignment("curve_hues", hues);
 }
 
 void send_marks(Gnuplot& gnuplot, const Figure& figure) {
   std::string codes;
-  for (const std::string code : {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "UZ", "UR"}) {
+  for (const std::string code :
+       {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "FM", "UZ", "UR"}) {
     std::vector<PlotPoint> points;
     for (const auto& mark : figure.marks)
       if (mark.code == code) points.push_back(mark.at);

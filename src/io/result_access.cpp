@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 namespace springfold::io {
 
@@ -87,8 +88,11 @@ bool has_two_sides(const analysis::Event& event) {
 
 std::map<std::string, int> event_counts(const analysis::StudyResult& result) {
   std::map<std::string, int> counts;
+  std::set<std::string> seen;  // a point where branches meet stands on all of them
   for (const auto& branch : result.branches)
-    for (const auto& event : branch.events) ++counts[analysis::code_of(event.kind)];
+    for (const auto& event : branch.events)
+      if (event.label.empty() || seen.insert(event.label).second)
+        ++counts[analysis::code_of(event.kind)];
   return counts;
 }
 

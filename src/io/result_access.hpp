@@ -29,7 +29,7 @@ const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& res
 /// Has the event two rows, one for each side of a switching spring?
 bool has_two_sides(const analysis::Event& event);
 
-/// Events per code over all branches, only codes that occur.
+/// Special points per code over all branches, each once, only codes that occur.
 std::map<std::string, int> event_counts(const analysis::StudyResult& result);
 
 /// Every planned run is there and complete.

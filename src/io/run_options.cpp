@@ -97,12 +97,19 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"start.pose", json_of(study.start.pose)},
           {"start.attempts", study.start.attempts},
           {"start.seed", study.start.seed},
+          {"start.maximum_move", study.start.maximum_move},
           {"until", json_of(study.until)},
           {"marks", json_of(study.marks)},
           {"trace.initial_step", initial},
           {"trace.minimum_step", minimum},
           {"trace.maximum_step", maximum},
-          {"trace.maximum_points", points}};
+          {"trace.maximum_points", points},
+          {"path", study.path == analysis::Path::davidenko ? "davidenko" : "arc_length"},
+          {"branches.depth", study.branches.depth},
+          {"branches.maximum", study.branches.maximum},
+          {"branches.search_at", study.branches.search_at},
+          {"branches.starts", study.branches.starts},
+          {"branches.seed", study.branches.seed}};
 }
 
 std::string body_name(const model::Mechanism& mechanism, Index body) {

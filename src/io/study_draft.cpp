@@ -59,6 +59,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   study.start.pose = vector_of(draft.start_pose, numbers);
   study.start.attempts = static_cast<int>(numbers[draft.attempts]);
   study.start.seed = static_cast<std::uint64_t>(numbers[draft.seed]);
+  study.start.maximum_move = numbers[draft.maximum_move];
   for (const LimitDraft& limit : draft.until)
     study.until.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
   for (const MarkDraft& mark : draft.marks)
@@ -68,6 +69,12 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
                  .minimum_step = numbers[draft.minimum_step],
                  .maximum_step = numbers[draft.maximum_step],
                  .maximum_points = static_cast<int>(numbers[draft.maximum_points])};
+  study.branches = {.depth = static_cast<int>(numbers[draft.depth]),
+                    .maximum = static_cast<int>(numbers[draft.maximum_branches]),
+                    .search_at = {},
+                    .starts = static_cast<int>(numbers[draft.search_starts]),
+                    .seed = static_cast<std::uint64_t>(numbers[draft.search_seed])};
+  for (const NumberId lambda : draft.search_at) study.branches.search_at.push_back(numbers[lambda]);
   return study;
 }
 

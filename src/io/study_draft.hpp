@@ -50,9 +50,11 @@ struct StudyDraft {
   analysis::StartSolve start_solve = analysis::StartSolve::pose;
   analysis::StartSolver start_solver = analysis::StartSolver::newton;
   std::vector<NumberId> start_pose{};  ///< d or none
-  NumberId attempts = 0, seed = 0;
+  NumberId attempts = 0, seed = 0, maximum_move = 0;
   analysis::Path path = analysis::Path::arc_length;
   NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0;
+  NumberId depth = 0, maximum_branches = 0, search_starts = 0, search_seed = 0;
+  std::vector<NumberId> search_at{};
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};
   Redefinitions set{};

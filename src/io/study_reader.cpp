@@ -17,9 +17,9 @@ const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator"
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
-const std::vector<std::string> study_keys{"name",      "kind",  "control", "body", "direction",
-                                          "load",      "start", "until",   "mark", "actuators",
-                                          "parameter", "set",   "vary",    "path", "trace"};
+const std::vector<std::string> study_keys{
+    "name", "kind",      "control",   "body", "direction", "load", "start", "until",
+    "mark", "actuators", "parameter", "set",  "vary",      "path", "trace", "branches"};
 
 /// `a.b = 1` is a table within a table in TOML; names with dots mean the same with and without
 /// quotes here.
@@ -83,6 +83,7 @@ class StudyReader {
     draft_.vary = read_vary(table_, draft_.set, reading_);
     draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
     read_trace();
+    read_branches();
     return std::move(draft_);
   }
 
@@ -201,7 +202,7 @@ class StudyReader {
     const bool usable = is_table(item, "a table such as { pose = [...] }", reading_);
     const TableReader start{usable ? *item.node : nothing,
                             item.key,
-                            {"pose", "solve", "solver", "attempts", "seed"},
+                            {"pose", "solve", "solver", "attempts", "seed", "maximum_move"},
                             reading_};
     draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
     draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
@@ -213,6 +214,8 @@ class StudyReader {
         start.number("attempts", {Range::small_count, ""}, draft_.numbers, defaults.attempts);
     draft_.seed = start.number("seed", {Range::whole, ""}, draft_.numbers,
                                static_cast<double>(defaults.seed));
+    draft_.maximum_move = start.number("maximum_move", {Range::non_negative, ""}, draft_.numbers,
+                                       defaults.maximum_move);
   }
 
   void read_until() {
@@ -264,6 +267,28 @@ class StudyReader {
     draft_.maximum_step = trace.number("maximum_step", step, numbers, defaults.maximum_step);
     draft_.maximum_points =
         trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
+  }
+
+  void read_branches() {
+    const analysis::BranchSettings defaults;
+    const Node* node = table_.find("branches");
+    static const Node nothing;
+    const Item item{node ? node : &nothing, table_.key_of("branches")};
+    const bool usable = is_table(item, "a table such as { depth = 1 }", reading_);
+    const TableReader branches{usable ? *item.node : nothing,
+                               item.key,
+                               {"depth", "maximum", "search_at", "starts", "seed"},
+                               reading_};
+    NumberTable& numbers = draft_.numbers;
+    const auto count = [&](const std::string& name, Range range, double otherwise) {
+      return branches.number(name, {range, ""}, numbers, otherwise);
+    };
+    draft_.depth = count("depth", Range::whole, defaults.depth);
+    draft_.maximum_branches = count("maximum", Range::small_count, defaults.maximum);
+    draft_.search_starts = count("starts", Range::small_count, defaults.starts);
+    draft_.search_seed = count("seed", Range::whole, static_cast<double>(defaults.seed));
+    draft_.search_at = read_numbers(branches.list("search_at", "a list of values of lambda"), {},
+                                    numbers, reading_);
   }
 
   TableReader table_;

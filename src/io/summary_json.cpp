@@ -57,11 +57,38 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch, const st
                {"points", branch.samples.size()},
                {"start_row", branch.start_row},
                {"refused_steps", branch.log.size()},
+               {"depth", branch.depth},
+               {"origin", branch.origin},
+               {"origin_branch", branch.origin_branch},
+               {"start", branch.start},
                {"backward", json_of(branch.backward)},
                {"forward", json_of(branch.forward)}};
   json["events"] = Json::array();
   for (const auto& event : branch.events) json["events"].push_back(json_of(result, branch, event));
   return json;
+}
+
+Json json_of(const analysis::Junction& junction) {
+  return {{"label", junction.label},   {"code", analysis::code_of(junction.kind)},
+          {"branch", junction.branch}, {"multiplicity", junction.multiplicity},
+          {"ways", junction.ways},     {"complete", junction.complete},
+          {"why", junction.why}};
+}
+
+Json json_of(const analysis::Search& search) {
+  return {{"lambda", search.lambda},
+          {"starts", search.starts},
+          {"found", search.found},
+          {"traced", search.traced},
+          {"out_of_range", search.out_of_range},
+          {"limit_reached", search.limit_reached}};
+}
+
+template <class T>
+Json json_of(const std::vector<T>& items) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
 }
 
 /// Chain stiffnesses by the chains' names.
@@ -75,7 +102,11 @@ Json chain_stiffnesses(const std::vector<Matrix>& matrices, const PlannedRun* pl
   return json;
 }
 
-Json json_of(const analysis::StartReport& start, const PlannedRun* planned) {
+Json json_of(const StudyResult& result, const PlannedRun* planned) {
+  const analysis::StartReport& start = result.start;
+  Json ways = Json::array();
+  for (const auto& way : start.ways)
+    ways.push_back({{"branch", way.branch}, {"rates", by_quantity(result, way.rates)}});
   return {{"found", start.found},
           {"method", start.method},
           {"message", start.message},
@@ -83,6 +114,11 @@ Json json_of(const analysis::StartReport& start, const PlannedRun* planned) {
           {"iterations", start.iterations},
           {"chain_iterations", start.chain_iterations},
           {"residual", start.residual},
+          {"guess_residual", start.guess_residual},
+          {"moved", start.moved},
+          {"moved_most", start.moved_most},
+          {"situation", start.situation},
+          {"ways", ways},
           {"stiffness", json_of(start.stiffness)},
           {"chain_stiffnesses", chain_stiffnesses(start.chain_stiffnesses, planned)}};
 }
@@ -97,11 +133,15 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
     const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
     json["quantities"].push_back({{"name", quantity.name}, {"unit", unit}});
   }
-  json["start"] = json_of(result.start, planned);
+  json["start"] = json_of(result, planned);
   json["event_counts"] = Json(event_counts(result));
   json["branches"] = Json::array();
   for (std::size_t b = 0; b < result.branches.size(); ++b)
     json["branches"].push_back(json_of(result, result.branches[b], files[b]));
+  json["junctions"] = json_of(result.junctions);
+  json["searches"] = json_of(result.searches);
+  json["ways_not_followed"] = analysis::ways_not_followed(result);
+  json["doubts"] = result.doubts;
   return json;
 }
 

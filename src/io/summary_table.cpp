@@ -44,7 +44,11 @@ std::string start_lines(const analysis::StartReport& start) {
     for (const int count : start.chain_iterations) how += " " + std::to_string(count);
     how += ")";
   }
-  return line("start", how + ", residual " + rounded(start.residual, 2));
+  std::string text = line("start", how + ", residual " + rounded(start.residual, 2));
+  if (start.moved > 1e-9)
+    text += line("", "moved by " + rounded(start.moved, 3) + " (" + start.moved_most +
+                         ") from the guess, whose residual is " + rounded(start.guess_residual, 2));
+  return text;
 }
 
 /// Columns of the mechanism's bodies ("tool.x") or actuator commands ("leg.drive.rho").
@@ -75,6 +79,38 @@ std::string named_values(std::string_view label, const std::vector<std::string>&
     if (!unit.empty()) text += " " + unit;
   }
   return text.empty() ? text : line(label, text);
+}
+
+/// "lambda 0, tip.x -0.7, tip.y 0.7": rates along a way out of the start.
+std::string rates_text(const Case& the_case, const StudyResult& result,
+                       const std::vector<double>& rates) {
+  std::vector<std::string> names{"lambda"};
+  if (const PlannedRun* planned = plan_of(the_case, result))
+    for (const auto& name : pose_names(planned->mechanism, result)) names.push_back(name);
+  std::string text;
+  for (const auto& name : names) {
+    const auto column = column_of(result, name);
+    if (!column || *column >= rates.size() || std::isnan(rates[*column])) continue;
+    const double rate = std::abs(rates[*column]) < 1e-9 ? 0 : rates[*column];
+    text += (text.empty() ? "" : ", ") + name + " " + rounded(rate, 4);
+  }
+  return text;
+}
+
+/// A start that is no ordinary point, and all ways that leave it.
+std::string way_lines(const Case& the_case, const StudyResult& result) {
+  const analysis::StartReport& start = result.start;
+  if (start.situation.empty()) return "";
+  const auto count = static_cast<int>(start.ways.size());
+  std::string text =
+      line("", "the start is " + start.situation + (count > 0 ? ": " + counted(count, "way") : ""));
+  for (std::size_t i = 0; i < start.ways.size(); ++i) {
+    const int branch = start.ways[i].branch;
+    text += line("", "way " + std::to_string(i + 1) + ": " +
+                         (branch > 0 ? "branch " + std::to_string(branch) : "not followed") +
+                         ", d/ds " + rates_text(the_case, result, start.ways[i].rates));
+  }
+  return text;
 }
 
 std::string stiffness_lines(const Matrix& stiffness) {
@@ -146,10 +182,78 @@ std::string stop_line(std::string_view label, const analysis::Stop& stop) {
   return line(label, (stop.complete ? "" : "STOPPED EARLY: ") + stop.reason);
 }
 
+/// Where a branch begins, if it does not run through the start.
+std::string origin_text(const StudyResult& result, const Branch& branch) {
+  if (!branch.origin.empty()) return branch.backward.reason;
+  if (branch.start == 0) return "";
+  int before = 0;  // equilibria of earlier searches
+  for (const auto& search : result.searches) {
+    if (branch.start <= before + search.found)
+      return "found by the search at lambda = " + rounded(search.lambda, digits);
+    before += search.found;
+  }
+  return "";
+}
+
+/// Branch points and other junctions at which branches were not followed.
+std::string left_out(const StudyResult& result) {
+  std::string labels;
+  for (const auto& junction : result.junctions) {
+    const auto count = std::count(junction.ways.begin(), junction.ways.end(), 0);
+    const std::string label = junction.label.empty() ? "a point out of range" : junction.label;
+    if (count > 0)
+      labels +=
+          (labels.empty() ? "" : ", ") + counted(static_cast<int>(count), "way") + " at " + label;
+  }
+  if (!labels.empty()) return "not followed, beyond branches.depth or .maximum: " + labels;
+  if (!result.junctions.empty()) return "";
+  for (const auto& branch : result.branches)
+    for (const auto& event : branch.events)
+      if (event.kind == analysis::EventKind::branch_point)
+        labels += (labels.empty() ? "" : ", ") + event.label;
+  return labels.empty() ? "" : "not followed, branches.depth = 0: what crosses at " + labels;
+}
+
+std::string search_text(const analysis::Search& search) {
+  std::string text = "search at lambda = " + rounded(search.lambda, digits) + ": ";
+  if (search.found == 0)
+    text += "no other equilibrium found in " + counted(search.starts, "start");
+  else
+    text +=
+        "at least " + std::to_string(search.found) +
+        (search.found == 1 ? " other equilibrium found, " : " other equilibria found, ") +
+        (search.traced == search.found ? "all traced" : std::to_string(search.traced) + " traced");
+  if (search.out_of_range > 0)
+    text += "; " + std::to_string(search.out_of_range) + " further out of range, not traced";
+  if (search.limit_reached) text += "; ended because so many were found, there may be more";
+  return text;
+}
+
+/// What is known of the diagram as a whole, and what is not.
+std::string diagram_lines(const StudyResult& result, const PlannedRun* planned) {
+  const bool is_point = planned == nullptr ? result.branches.front().samples.size() < 2
+                                           : planned->plan.kind == analysis::StudyKind::equilibrium;
+  if (is_point) return "";
+  std::string text;
+  std::string label = "branches";
+  const auto add = [&](const std::string& sentence) {
+    text += line(label, sentence);
+    label.clear();
+  };
+  add(std::to_string(result.branches.size()));
+  if (const std::string omitted = left_out(result); !omitted.empty()) add(omitted);
+  for (const auto& search : result.searches) add(search_text(search));
+  if (result.searches.empty())
+    add("nothing is claimed about branches that are not connected to the start: no search was run");
+  for (const auto& doubt : result.doubts) add("UNRESOLVED: " + doubt);
+  return text;
+}
+
 std::string branch_lines(const StudyResult& result, std::size_t b) {
   const Branch& branch = result.branches[b];
   std::string text;
-  if (result.branches.size() > 1) text += line("branch " + std::to_string(b + 1), "");
+  if (result.branches.size() > 1)
+    text += line("branch " + std::to_string(b + 1), origin_text(result, branch));
   const std::size_t refused = branch.log.size();
   if (branch.samples.size() < 2 && branch.events.empty() && branch.backward.complete &&
       branch.forward.complete)
@@ -157,7 +261,8 @@ std::string branch_lines(const StudyResult& result, std::size_t b) {
   text += line("curve", counted(static_cast<int>(branch.samples.size()), "point") + ", " +
                             counted(static_cast<int>(refused), "refused or cut step"));
   text += point_lines(result, branch);
-  return text + stop_line("first row", branch.backward) + stop_line("last row", branch.forward);
+  if (branch.origin.empty()) text += stop_line("first row", branch.backward);
+  return text + stop_line("last row", branch.forward);
 }
 
 std::string run_block(const Case& the_case, const StudyResult& result) {
@@ -168,9 +273,10 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += named_values("commands", command_names(result), result, the_case.units);
   const Branch& first = result.branches.front();
   text += line("index", rounded(value_at(result, first, first.start_row, "index"), digits));
+  text += way_lines(the_case, result);
   text += stiffness_lines(result.start.stiffness);
   for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
-  return text;
+  return text + diagram_lines(result, plan_of(the_case, result));
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ struct Sample {
 /// A special point. All values are those of the located point itself.
 struct Event {
   EventKind kind = EventKind::user_value;
-  std::string label{};   ///< "LP1": code and number, counted along the branch from its first row
+  std::string label{};  ///< "LP1": code and number, counted over all branches of the run, each from
+                        ///< its first row; where branches meet it is the same on all of them
   std::string detail{};  ///< in words: "spring leg_x.knee becomes active"
   std::size_t row = 0;   ///< its row in Branch::samples; a switching has the rows `row`, `row` + 1
   Matrix stiffness{};    ///< platform stiffness K_Sigma, d x d, world axes; empty if undefined
@@ -75,7 +76,9 @@ struct StepNote {
   std::string reason{};  ///< in words: why it was refused or cut
 };
 
-/// One connected curve, from its backward end (first row) to its forward end (last row).
+/// One connected curve, from its backward end (first row) to its forward end (last row). A branch
+/// through a start point runs both ways from it; one that begins at a special point has it as its
+/// first row.
 struct Branch {
   std::vector<Sample> samples{};
   std::vector<Event> events{};
@@ -83,6 +86,38 @@ struct Branch {
   Stop backward{};
   Stop forward{};
   std::vector<StepNote> log{};
+  int depth = 0;          ///< special points between it and a start
+  std::string origin{};   ///< label of the special point at which it begins; empty: a start point
+  int origin_branch = 0;  ///< number (from 1) of the branch on which that point was met first;
+                          ///< 0: the start itself is that point
+  int start = 0;          ///< 0: the study's start, n: the n-th equilibrium of the searches
+};
+
+/// A special point at which branches meet.
+struct Junction {
+  EventKind kind = EventKind::branch_point;
+  std::string label{};      ///< as in Event; empty: it lies outside of the study's range
+  int branch = 0;           ///< number of the branch on which it was met first; 0: the start itself
+  int multiplicity = 1;     ///< how many eigenvalues vanish
+  std::vector<int> ways{};  ///< per way out: number of the branch along it, 0: not followed
+  bool complete = true;     ///< false: ways may be missing; `why` says what went wrong
+  std::string why{};
+};
+
+/// What a search for other equilibria at one lambda found.
+struct Search {
+  double lambda = 0;
+  int starts = 0;              ///< starts used
+  int found = 0;               ///< equilibria that lie on no branch known before
+  int traced = 0;              ///< of them: their branches are in the result
+  int out_of_range = 0;        ///< further ones, outside of the study's limits: not traced
+  bool limit_reached = false;  ///< ended because so many were found: there may well be more
+};
+
+/// One way to leave a start point.
+struct WayOut {
+  std::vector<double> rates{};  ///< d(values)/ds along it; NaN: undefined
+  int branch = 0;               ///< number of the branch along it; 0: not followed
 };
 
 /// How the start point was found.
@@ -96,6 +131,11 @@ struct StartReport {
   double residual = 0;  ///< largest scaled residual of the equilibrium equations [-]
   Matrix stiffness{};   ///< K_Sigma at the start, d x d, world axes; empty if undefined
   std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
+  double guess_residual = 0;   ///< the same residual at the guess, with the wrenches that suit best
+  double moved = 0;            ///< largest change of a coordinate or pose from the guess [-]
+  std::string moved_most{};    ///< name of that coordinate
+  std::string situation{};     ///< "a branch point"; empty: an ordinary point of a curve
+  std::vector<WayOut> ways{};  ///< all ways that leave it, where it is not an ordinary point
 };
 
 struct StudyResult {
@@ -105,11 +145,17 @@ struct StudyResult {
   Unit lambda_unit = Unit::none;
   std::vector<Quantity> quantities{};
   StartReport start{};
-  std::vector<Branch> branches{};  ///< empty if no start was found; kind equilibrium: one sample
-  double seconds = 0;              ///< CPU time used; never part of reproducible output
+  std::vector<Branch> branches{};     ///< empty if no start was found; kind equilibrium: one sample
+  std::vector<Junction> junctions{};  ///< where branches meet, if more than one was asked for
+  std::vector<Search> searches{};     ///< one per lambda that was searched
+  std::vector<std::string> doubts{};  ///< what may be missing in the diagram, in words
+  double seconds = 0;                 ///< CPU time used; never part of reproducible output
 };
 
-/// The start found, all branches complete and nothing on them unresolved.
+/// Ways at junctions that were left out because of the bounds of depth and number.
+int ways_not_followed(const StudyResult& result);
+
+/// The start found, all branches complete, nothing on them unresolved and no doubt about the others.
 bool complete(const StudyResult& result);
 
 }  // namespace springfold::analysis

@@ -1,4 +1,5 @@
-// What is asked of a mechanism: one study is one curve (or one equilibrium), traced both ways.
+// What is asked of a mechanism: one study is one equilibrium, one curve traced both ways, or a whole
+// bifurcation diagram.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +47,9 @@ struct StartOptions {
   Vector pose{};           ///< of the study's body; empty: the body's own pose
   int attempts = 16;       ///< seeded multi-start, the unperturbed guess first
   std::uint64_t seed = 1;  ///< of the perturbations
+  /// The equilibrium is refused if a coordinate or pose lies farther from its guess [-]: 1 is one
+  /// radian or about one size of the mechanism.
+  double maximum_move = std::numeric_limits<double>::infinity();
 };
 
 /// The branch ends where the named quantity leaves [low, high].
@@ -81,6 +85,15 @@ struct TraceSettings {
   int maximum_points = 5000;  ///< in each direction
 };
 
+/// Branches beside the one through the start point.
+struct BranchSettings {
+  int depth = 0;      ///< special points between a branch and a start; 0: no branching
+  int maximum = 100;  ///< number of branches
+  std::vector<double> search_at{};  ///< values of lambda at which other equilibria are searched for
+  int starts = 64;                  ///< of each search
+  std::uint64_t seed = 1;           ///< of the searches' random starts
+};
+
 struct Study {
   std::string name{};
   StudyKind kind = StudyKind::force_deflection;
@@ -95,6 +108,7 @@ struct Study {
   std::vector<Mark> marks{};
   Path path = Path::arc_length;
   TraceSettings trace{};
+  BranchSettings branches{};
 };
 
 /// What a named parameter changes, for control mode `parameter`.

@@ -1,0 +1,331 @@
+#include "branches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "branch_rows.hpp"
+#include "limits.hpp"
+#include "search_box.hpp"
+#include "springfold/continuation/search.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::Diagram;
+using continuation::DiagramStart;
+using continuation::Hit;
+using continuation::HitKind;
+using continuation::StopReason;
+
+double distance(const PathProblem& problem, const CurvePoint& a, const CurvePoint& b) {
+  Vector d = b.x - a.x;
+  const Vector periods = problem.periods(), weights = problem.metric();
+  for (Index i = 0; i < d.size(); ++i)
+    if (periods[i] > 0) d[i] = std::remainder(d[i], periods[i]);
+  return std::sqrt(d.cwiseProduct(weights).dot(d) + std::pow(b.lambda - a.lambda, 2));
+}
+
+/// Cosine of the angle between two directions.
+double cosine(const PathProblem& problem, const CurvePoint& a, const CurvePoint& b) {
+  const auto product = [&](const CurvePoint& p, const CurvePoint& q) {
+    return p.tangent.dx.cwiseProduct(problem.metric()).dot(q.tangent.dx) +
+           p.tangent.dlambda * q.tangent.dlambda;
+  };
+  return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
+EventKind kind_of_junction(HitKind kind) {
+  Hit hit;
+  hit.kind = kind;
+  return kind_of(hit);
+}
+
+/// The diagram as it grows with the searches, and its translation into a result.
+class Assembler {
+ public:
+  Assembler(const Tracing& tracing, StudyResult& result)
+      : t_{tracing}, result_{result}, events_{events_of(t_.study, t_.evaluator, t_.quantities)} {
+    options_.trace = options_of(t_.study.trace);
+    options_.maximum_depth = t_.study.branches.depth;
+    options_.maximum_branches = t_.study.branches.maximum;
+  }
+
+  void trace(const CurvePoint& start) {
+    starts_ = {{start.x, start.lambda, start.piece}};
+    run();
+    for (const double lambda : t_.study.branches.search_at) search(lambda);
+    count_traced();
+  }
+
+  void write() {
+    number_branches();
+    std::vector<BranchRows> rows;
+    for (const std::vector<int>& group : groups_) rows.push_back(rows_of(group));
+    const auto labels = label_events(rows, diagram_.junctions.size(), t_.quantities);
+    for (BranchRows& r : rows) result_.branches.push_back(std::move(r.branch));
+    write_junctions(labels);
+    write_start();
+    for (std::size_t i = 0; i < result_.branches.size(); ++i) describe(i, labels);
+    result_.doubts = diagram_.doubts;
+    // The last one: what the bounds leave out. It is counted by the junctions and no doubt.
+    if (diagram_.not_followed > 0) result_.doubts.pop_back();
+  }
+
+ private:
+  void run() {
+    int points = 0;
+    const auto observe = [&](const CurvePoint& point) {
+      ++points;
+      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
+      return !t_.observer || t_.observer(points, point.s);
+    };
+    diagram_ = trace_diagram(t_.problem, starts_, events_, options_, observe);
+    for (continuation::Branch& branch : diagram_.branches) cut_to_range(branch.curve);
+  }
+
+  /// A branch that begins on a limit and leads out of the range ends where it begins.
+  void cut_to_range(Curve& curve) const {
+    if (curve.stop != StopReason::observer) return;
+    std::optional<std::string> passed;
+    while (curve.points.size() > 1) {
+      const auto beyond = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.points.back());
+      if (!beyond) break;
+      passed = beyond;
+      curve.points.pop_back();
+    }
+    if (!passed) return;
+    const double end = curve.points.back().s;
+    std::erase_if(curve.hits, [end](const Hit& hit) { return hit.point.s > end; });
+    curve.stop = StopReason::event;
+    curve.stop_detail = *passed;
+  }
+
+  bool lies_on_a_branch(const DiagramStart& at) const {
+    const auto rays = rays_from(t_.problem, at.x, at.lambda, at.piece, options_.trace);
+    return std::any_of(rays.rays.begin(), rays.rays.end(), [&](const continuation::Ray& ray) {
+      const CurvePoint point{
+          .x = at.x, .lambda = at.lambda, .tangent = ray.tangent, .piece = ray.piece};
+      return std::any_of(diagram_.branches.begin(), diagram_.branches.end(),
+                         [&](const auto& branch) {
+                           return passes_through(t_.problem, branch.curve, point, options_.trace);
+                         });
+    });
+  }
+
+  void search(double lambda) {
+    const BranchSettings& settings = t_.study.branches;
+    const double scaled = lambda / t_.lambda_scale;
+    const auto known = known_at(t_.problem, diagram_, scaled, options_.trace.newton);
+    const auto [low, high] = search_box(t_.problem, diagram_);
+    const auto found = continuation::search_at(
+        t_.problem, scaled, known,
+        {.low = low, .high = high, .starts = settings.starts, .seed = settings.seed});
+    Search report{.lambda = lambda, .starts = found.starts_used};
+    report.limit_reached = found.limit_reached;
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < found.solutions.size(); ++i) {
+      const DiagramStart start{found.solutions[i], scaled, found.pieces[i]};
+      if (lies_on_a_branch(start)) continue;
+      const CurvePoint point{.x = start.x, .lambda = scaled, .piece = start.piece};
+      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) {
+        ++report.out_of_range;
+        continue;
+      }
+      ++report.found;
+      numbers.push_back(static_cast<int>(starts_.size()));
+      starts_.push_back(start);
+    }
+    result_.searches.push_back(report);
+    found_.push_back(std::move(numbers));
+    if (report.found > 0) run();
+  }
+
+  void count_traced() {
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      for (const int number : found_[i]) {
+        const bool own = std::any_of(diagram_.branches.begin(), diagram_.branches.end(),
+                                     [number](const auto& b) { return b.start == number; });
+        if (own || lies_on_a_branch(starts_[static_cast<std::size_t>(number)]))
+          ++result_.searches[i].traced;
+      }
+  }
+
+  /// The two curves that leave an ordinary start become one branch, every other curve is its own.
+  void number_branches() {
+    const auto& branches = diagram_.branches;
+    number_.assign(branches.size(), 0);
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      const int start = branches[i].start;
+      const auto same = [start](const auto& b) { return b.start == start; };
+      const auto count = std::count_if(branches.begin(), branches.end(), same);
+      const auto first = static_cast<std::size_t>(
+          std::find_if(branches.begin(), branches.end(), same) - branches.begin());
+      if (start >= 0 && count == 2 && first < i) {
+        number_[i] = number_[first];
+        groups_[static_cast<std::size_t>(number_[i] - 1)].push_back(static_cast<int>(i));
+      } else {
+        groups_.push_back({static_cast<int>(i)});
+        number_[i] = static_cast<int>(groups_.size());
+      }
+    }
+  }
+
+  const continuation::Branch& traced(int i) const {
+    return diagram_.branches[static_cast<std::size_t>(i)];
+  }
+  int number_of(int branch) const {
+    return branch < 0 ? 0 : number_[static_cast<std::size_t>(branch)];
+  }
+
+  int junction_of(const Hit& hit) const {
+    if (hit.kind != HitKind::branch_point && hit.kind != HitKind::touch &&
+        hit.kind != HitKind::branching_kink)
+      return -1;
+    const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
+    for (std::size_t i = 0; i < diagram_.junctions.size(); ++i)
+      if (distance(t_.problem, diagram_.junctions[i].point, hit.point) <=
+          options_.same_place * scale)
+        return static_cast<int>(i);
+    return -1;
+  }
+
+  /// Why a curve of a branch ended; joined and branching ends name the branches that go on.
+  Stop end_of(const Curve& curve, int own) const {
+    Stop stop = stop_of(curve);
+    if (curve.hits.empty()) return stop;
+    const Hit& last = curve.hits.back();
+    const int number = junction_of(last);
+    if (number < 0) return stop;
+    const continuation::Junction& junction = diagram_.junctions[static_cast<std::size_t>(number)];
+    if (curve.stop == StopReason::joined) {
+      int on = 0;
+      double best = 0;
+      for (const continuation::Way& way : junction.ways) {
+        const double c = cosine(t_.problem, way.point, last.point);
+        if (c > best && way.branch >= 0) {
+          best = c;
+          on = number_of(way.branch);
+        }
+      }
+      if (on == own) return {"closed: back at the point where it begins", true};
+      if (on > 0) return {"goes on along branch " + std::to_string(on), true};
+    }
+    if (curve.stop == StopReason::several_ways && last.kind == HitKind::branching_kink)
+      return {std::to_string(junction.ways.size() - 1) + " ways lead on", junction.complete};
+    return stop;
+  }
+
+  BranchRows rows_of(const std::vector<int>& group) const {
+    BranchSource source;
+    source.forward = traced(group[0]).curve;
+    source.backward = group.size() > 1 ? traced(group[1]).curve : nothing_behind(source.forward);
+    if (group.size() > 1 && source.forward.points.front().tangent.dlambda <
+                                source.backward.points.front().tangent.dlambda)
+      std::swap(source.forward, source.backward);
+    const int own = number_of(group[0]);
+    source.forward_stop = end_of(source.forward, own);
+    source.backward_stop = group.size() > 1 ? end_of(source.backward, own) : source.forward_stop;
+    source.junction_of = [this](const Hit& hit) { return junction_of(hit); };
+    const int origin = traced(group[0]).junction;
+    if (origin >= 0) {
+      source.origin = origin;
+      source.origin_kind =
+          kind_of_junction(diagram_.junctions[static_cast<std::size_t>(origin)].kind);
+      source.backward_stop = {"", true};  // said by describe()
+    } else if (group.size() == 1 && source.forward.stop != StopReason::closed) {
+      source.backward_stop = {"the start, which several curves leave", true};
+    }
+    return join(source, t_.evaluator, t_.quantities, t_.problem);
+  }
+
+  /// Number of the branch on which a junction was met first; 0: it is a start itself.
+  int met_on(std::size_t junction) const {
+    if (diagram_.junctions[junction].depth < 0) return 0;
+    for (std::size_t i = 0; i < diagram_.branches.size(); ++i)
+      for (const Hit& hit : diagram_.branches[i].curve.hits)
+        if (junction_of(hit) == static_cast<int>(junction)) return number_[i];
+    return 0;
+  }
+
+  void write_junctions(const std::vector<std::string>& labels) {
+    for (std::size_t i = 0; i < diagram_.junctions.size(); ++i) {
+      const continuation::Junction& from = diagram_.junctions[i];
+      Junction junction{.kind = kind_of_junction(from.kind),
+                        .label = labels[i],
+                        .branch = met_on(i),
+                        .multiplicity = from.multiplicity};
+      for (const continuation::Way& way : from.ways) junction.ways.push_back(number_of(way.branch));
+      junction.complete = from.complete;
+      junction.why = from.why;
+      result_.junctions.push_back(std::move(junction));
+    }
+  }
+
+  /// Lists the ways out of a start that is no ordinary point of a curve.
+  void write_start() {
+    const auto add = [this](const CurvePoint& along, int branch) {
+      result_.start.ways.push_back({t_.evaluator.rates(t_.quantities, along), number_of(branch)});
+    };
+    for (const continuation::Junction& junction : diagram_.junctions) {
+      const CurvePoint start{.x = starts_[0].x, .lambda = starts_[0].lambda};
+      if (junction.depth >= 0 || distance(t_.problem, junction.point, start) > 1e-9) continue;
+      result_.start.situation = "a branch point";
+      for (const continuation::Way& way : junction.ways) add(way.point, way.branch);
+      return;
+    }
+    std::vector<int> own;
+    for (std::size_t i = 0; i < diagram_.branches.size(); ++i)
+      if (diagram_.branches[i].start == 0) own.push_back(static_cast<int>(i));
+    const bool closed = own.size() == 1 && traced(own[0]).curve.stop == StopReason::closed;
+    if (own.size() == 2 || closed) return;
+    result_.start.situation = own.empty() ? "a point that no curve leaves" : "a branching kink";
+    for (const int i : own) add(traced(i).curve.points.front(), i);
+  }
+
+  void describe(std::size_t i, const std::vector<std::string>& labels) {
+    const continuation::Branch& from = traced(groups_[i].front());
+    Branch& branch = result_.branches[i];
+    branch.depth = from.depth;
+    branch.start = std::max(from.start, 0);
+    if (from.junction < 0) return;
+    const auto j = static_cast<std::size_t>(from.junction);
+    branch.origin = labels[j];
+    branch.origin_branch = result_.junctions[j].branch;
+    branch.backward.reason =
+        "begins at " + branch.origin +
+        (branch.origin_branch > 0 ? " of branch " + std::to_string(branch.origin_branch)
+                                  : ", the start");
+    branch.events.front().detail = branch.backward.reason;
+  }
+
+  const Tracing& t_;
+  StudyResult& result_;
+  std::vector<continuation::Event> events_;
+  continuation::DiagramOptions options_{};
+  std::vector<DiagramStart> starts_{};
+  std::vector<std::vector<int>> found_{};  ///< per search: numbers of its starts
+  Diagram diagram_{};
+  std::vector<int> number_{};               ///< per curve of the diagram: its branch, from 1
+  std::vector<std::vector<int>> groups_{};  ///< per branch: its one or two curves
+};
+
+}  // namespace
+
+continuation::TraceOptions options_of(const TraceSettings& settings) {
+  continuation::TraceOptions options;
+  options.step.initial = settings.initial_step;
+  options.step.minimum = settings.minimum_step;
+  options.step.maximum = settings.maximum_step;
+  options.maximum_points = settings.maximum_points;
+  return options;
+}
+
+void trace_branches(const Tracing& tracing, const CurvePoint& start, StudyResult& result) {
+  Assembler assembler(tracing, result);
+  assembler.trace(start);
+  assembler.write();
+}
+
+}  // namespace springfold::analysis

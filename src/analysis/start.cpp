@@ -1,0 +1,125 @@
+#include "start.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
+#include "number_text.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+statics::StartProblem problem_of(const Setup& setup, const Study& study) {
+  statics::StartProblem problem;
+  problem.body = study.body;
+  problem.attempts = study.start.attempts;
+  problem.seed = study.start.seed;
+  problem.z = statics::guess(setup.system);
+  problem.inputs = {setup.system.commands, setup.rule.W_start};
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  const model::TaskSpace space =
+      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
+  if (study.start.pose.size() > 0)
+    problem.z.segment(body.t, body.count) =
+        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
+  switch (study.start.solve) {
+    case StartSolve::pose:
+      problem.unknowns = statics::StartUnknowns::pose;
+      break;
+    case StartSolve::actuators:
+      problem.unknowns = statics::StartUnknowns::commands;
+      break;
+    case StartSolve::wrench:
+      problem.unknowns = statics::StartUnknowns::wrench;
+      break;
+  }
+  return problem;
+}
+
+/// The least residual that any wrenches give at the guess, and what else the solve may choose.
+double guess_residual(const statics::System& system, const statics::StartProblem& problem) {
+  statics::Workspace work;
+  Vector r;
+  Matrix A, dR_drho;
+  if (!equilibrium_matrix(system, piece_at(system, problem.z), problem.z, problem.inputs, work, r,
+                          A, &dR_drho))
+    return std::numeric_limits<double>::quiet_NaN();
+  std::vector<Vector> columns;
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) columns.push_back(A.col(i));
+  if (problem.unknowns == statics::StartUnknowns::commands)
+    for (Index i = 0; i < dR_drho.cols(); ++i) columns.push_back(dR_drho.col(i));
+  if (problem.unknowns == statics::StartUnknowns::wrench) {
+    const Matrix loads = load_columns(system, problem.z);
+    const auto& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+    for (Index i = 0; i < body.count; ++i) columns.push_back(loads.col(body.W + i));
+  }
+  Matrix M(system.size, static_cast<Index>(columns.size()));
+  for (Index i = 0; i < M.cols(); ++i) M.col(i) = columns[static_cast<std::size_t>(i)];
+  if (M.cols() > 0) r -= M * M.completeOrthogonalDecomposition().solve(r);
+  return r.lpNorm<Eigen::Infinity>();
+}
+
+/// How far the solve went, and whether that is farther than allowed.
+void report_move(const Setup& setup, const Study& study, const statics::StartProblem& problem,
+                 const statics::FirstEquilibrium& first, StartReport& report) {
+  report.guess_residual = guess_residual(setup.system, problem);
+  if (!report.found) return;
+  for (Index i = 0; i < setup.system.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double way = std::abs(first.z[i] - problem.z[i]);
+    if (setup.system.is_wrench[k] || way <= report.moved) continue;
+    report.moved = way;
+    report.moved_most = setup.system.coordinate_names[k];
+  }
+  if (report.moved <= study.start.maximum_move) return;
+  report.found = false;
+  report.message = "the equilibrium found lies " + rounded(report.moved) + " (" +
+                   report.moved_most + ") away from the guess, whose residual is " +
+                   rounded(report.guess_residual) +
+                   ": farther than start.maximum_move = " + rounded(study.start.maximum_move);
+}
+
+StartReport report_of(const statics::FirstEquilibrium& first, const Study& study) {
+  StartReport report;
+  report.found = first.status == statics::StartStatus::found;
+  report.method = study.start.solver == StartSolver::newton
+                      ? "globalised Newton (KINSOL), then exact Newton"
+                      : "fixed-point iteration of paper eq. (6)";
+  if (report.found && first.attempts > 1)
+    report.method += ", from a perturbed guess: see whether this is the equilibrium you mean";
+  report.attempts = first.attempts;
+  report.iterations = first.iterations;
+  report.chain_iterations = first.chain_iterations;
+  report.residual = first.residual;
+  switch (first.status) {
+    case statics::StartStatus::found:
+      break;
+    case statics::StartStatus::no_assembly:
+      report.message =
+          "the chains cannot be closed from this guess: check lengths, attachments, "
+          "axes and the initial pose and coordinates";
+      break;
+    case statics::StartStatus::no_equilibrium:
+      report.message = "no equilibrium was found near this guess; the smallest residual is left";
+      break;
+    case statics::StartStatus::wrong_count:
+      report.message = "as many actuated joints as pose coordinates are needed";
+      break;
+  }
+  return report;
+}
+
+}  // namespace
+
+statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report) {
+  const statics::StartProblem problem = problem_of(setup, study);
+  statics::FirstEquilibrium first = study.start.solver == StartSolver::fixed_point
+                                        ? first_equilibrium_paper(setup.system, problem)
+                                        : first_equilibrium(setup.system, problem);
+  report = report_of(first, study);
+  report_move(setup, study, problem, first, report);
+  return first;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,14 @@
+// The start point of a study. Private to analysis.
+#pragma once
+
+#include "setup.hpp"
+#include "springfold/analysis/result.hpp"
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::analysis {
+
+/// Finds the first equilibrium as the study says and reports how it went. One that lies farther from
+/// its guess than the study allows counts as not found.
+statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report);
+
+}  // namespace springfold::analysis
