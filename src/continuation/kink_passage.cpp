@@ -13,7 +13,7 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr double vertical = 1e-10;   // lambda does not change along the curve at all
+constexpr double vertical = 1e-12;   // lambda does not change along the curve at all
 constexpr double turns_here = 1e-7;  // lambda's rate at a kink that is taken for zero
 constexpr std::size_t most_active = 12;
 
@@ -60,7 +60,7 @@ bool stands_still(const CurvePoint& from, const CurvePoint* middle, const CurveP
                   bool seen) {
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
-  return rate <= (seen || to.s - from.s >= 1e-2 ? vertical : 1e-2 * vertical);
+  return rate <= (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical);
 }
 
 /// Negative eigenvalues of dF/dx + tau tau^T: within a family tau is in the kernel of dF/dx, and this
@@ -96,6 +96,13 @@ void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found
   hit.point.negative.reset();
   found.hits.insert(found.hits.begin(), std::move(hit));
   found.stops.insert(found.stops.begin(), false);
+}
+
+/// Does a kink lie at this place of the curve?
+bool kink_at(const Curve& curve, double s) {
+  return std::any_of(curve.hits.begin(), curve.hits.end(), [s](const Hit& hit) {
+    return !hit.switches.empty() && std::abs(hit.point.s - s) < 1e-9;
+  });
 }
 
 Walker without_special_points(const Walker& walker) {
@@ -301,6 +308,16 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   progress.ds = std::min(progress.ds, walker.options.step.initial);
   curve.hits.push_back(std::move(hit));
   return Outcome::go_on;
+}
+
+void settle_families(Curve& curve) {
+  constexpr double certain = 0.02;  // longer than any inflection stays flat to rounding
+  for (Hit& hit : curve.hits) {
+    if (hit.kind != HitKind::family || hit.s_after - hit.s_before >= certain) continue;
+    if (kink_at(curve, hit.s_before) || kink_at(curve, hit.s_after)) continue;
+    hit.kind = HitKind::unresolved;
+    hit.name = "unresolved: lambda stands still to rounding, it may turn here several times";
+  }
 }
 
 StepEvents passage_events(const Walker& walker, const Progress& progress, const KinkSearch& kink,

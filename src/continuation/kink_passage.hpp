@@ -37,6 +37,10 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 /// belongs to a family; at its end the sign before the family counts.
 Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve);
 
+/// A short family that does not begin at a kink may as well be a flat stretch on which lambda turns
+/// several times within its rounding: it becomes unresolved.
+void settle_families(Curve& curve);
+
 /// Smooth special points on the step progress.here -> end, with what events_on_step() does not know:
 ///  - none within a fold that belongs to a kink at either end;
 ///  - where lambda stands still along the whole step, a family instead of limit and branch points;

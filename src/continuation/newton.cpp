@@ -112,6 +112,11 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     const double length = norm(weights, *step);
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
+      // Beside a singular point rounding of F alone makes corrections that do not contract.
+      if (small && ratio > 0.1 && length < 1e-8) {
+        result.status = NewtonStatus::converged;
+        return result;
+      }
       result.contraction = std::max(result.contraction, ratio);
       if (ratio > 1) {
         result.status = NewtonStatus::diverges;

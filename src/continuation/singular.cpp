@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "bordered_test.hpp"
@@ -21,6 +22,8 @@ constexpr double resolution = 1e-7;   // of features of one function
 constexpr double rounding = 1e-11;    // of a function against its size
 constexpr double unit_noise = 1e-13;  // rounding of a tangent's component
 constexpr double merged = 1e-7;       // zeros that are closer are one multiple zero
+constexpr double poor = 1e-8;         // a limit point that cannot be placed better is not resolved
+constexpr double apart = 200;         // residual over rounding at which branches do not meet
 constexpr double beyond = 0.03;       // share of the step after its end that is searched as well
 
 /// One step, its points (each computed once), and what is watched on it.
@@ -138,23 +141,31 @@ std::optional<Singularity> multiple_zero(const Arc& arc, double t, double free, 
 }
 
 /// Removes what is left of the residual within the directions that dF sees well.
-void polish(const Arc& arc, CurvePoint& point, Index corank) {
+/// @returns what stays in the others against the rounding of F, or infinity: a true branch point
+///          leaves rounding only, branches that pass each other closely leave their distance
+double polish(const Arc& arc, CurvePoint& point, Index corank) {
   const auto& walker = arc.walker();
   Vector F;
-  for (int i = 0; i < 2; ++i) {
+  double left = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
     const auto E = arc.matrix(point);
-    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return;
+    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return left;
     const Borders borders = borders_of(*E, corank);
     const Index n = F.size(), m = corank;
+    const Vector sizes = point.x.cwiseAbs().cwiseMax(1e-3);
+    const double rounding_of_F = std::numeric_limits<double>::epsilon() *
+                                 (E->topLeftCorner(n, n) * sizes.asDiagonal()).norm();
+    left = (borders.B.topRows(n).transpose() * F).norm() / std::max(1e-300, rounding_of_F);
     Matrix A(n + 1 + m, n + 1 + m);
     A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
     Vector right = Vector::Zero(n + 1 + m);
     right.head(n) = -F;
     const Vector step = A.partialPivLu().solve(right);
-    if (!step.allFinite() || step.head(n + 1).norm() > 1e-6) return;
+    if (i == 2 || !step.allFinite() || step.head(n + 1).norm() > 1e-6) return left;
     point.x += step.head(n);
     point.lambda += step[n];
   }
+  return left;
 }
 
 /// A simple branch point re-solved by its augmented system, if that agrees.
@@ -194,6 +205,7 @@ std::optional<Candidate> branch_point_at(const Arc& arc, const std::vector<ZeroO
   result.kind = touches && m == 1 ? HitKind::touch : HitKind::branch_point;
   polish(arc, result.point, m);
   if (const auto refined = refined_point(arc, result)) result.point = *refined;
+  if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
   result.odd = crossings % 2 == 1;
@@ -211,7 +223,8 @@ Search turns_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
   double scale = 0;
   for (const CurvePoint* p : samples) rates.push_back(p->tangent.dlambda);
   for (const double r : rates) scale = std::max(scale, std::abs(r));
-  if (!arc.walker().options.limit_points || scale <= vertical || !within_reach(rates)) return {};
+  if (!arc.walker().options.limit_points || !within_reach(rates)) return {};
+  if (scale <= unit_noise) return {.resolved = false};  // lambda stands still to rounding
   const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(),
                                       std::max(rounding * scale, unit_noise), resolution);
   return {found.zeros, found.resolved};
@@ -272,7 +285,7 @@ bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroO
     if (!candidate) return false;
     // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
     std::erase_if(turns, [&](const ZeroOf& turn) {
-      const bool here = std::abs(turn.at - candidate->at) <= together;
+      const bool here = std::abs(turn.at - candidate->at) <= std::max(together, 20 * turn.off);
       if (here && !turn.touches) candidate->odd = !candidate->odd;
       return here;
     });
@@ -301,7 +314,8 @@ bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
                       std::vector<Candidate>& found) {
   for (const ZeroOf& turn : turns) {
     const auto& point = arc.point(turn.at);
-    if (!point) return false;
+    const bool rough = !turn.several && turn.off > poor;
+    if (!point || rough) return false;
     Candidate candidate{.at = turn.at, .before = turn.before, .after = turn.after, .point = *point};
     candidate.kind = turn.touches   ? HitKind::touch
                      : turn.several ? HitKind::unresolved
@@ -394,7 +408,9 @@ SingularPoints singular_points(const Walker& walker,
     return result;
   }
   if (walker.options.limit_points && walker.options.branch_points)
-    result.doubt = accounting(arc, found, to);
+    result.doubt = walker.problem.symmetric() && from.negative && !to.negative
+                       ? "step ends at a singular point"
+                       : accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
   for (Candidate& candidate : found) result.hits.push_back(hit_of(arc, std::move(candidate)));
   return result;

@@ -100,6 +100,30 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   return Outcome::go_on;
 }
 
+/// The main loop: steps until something ends the curve.
+void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
+            const HitObserver& at_hit, Progress& progress, Curve& curve) {
+  curve.stop = StopReason::max_points;
+  while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
+    const double from = progress.here.s, tried = progress.ds;
+    std::string refusal;
+    const Outcome outcome = advance(walker, events, at_hit, progress, curve, refusal);
+    if (outcome == Outcome::stop) return;
+    if (outcome == Outcome::shorten) {
+      curve.log.push_back({from, tried, refusal});
+      progress.ds *= 0.5;
+      if (progress.ds >= walker.options.step.minimum) continue;
+      curve.stop = StopReason::step_too_small;
+      curve.stop_detail = refusal;
+      return;
+    }
+    if (observer && !observer(progress.here)) {
+      curve.stop = StopReason::observer;
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(StopReason reason) {
@@ -166,25 +190,8 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
   progress.ds = options.step.initial;
   Curve curve{.points = {progress.here}};
 
-  curve.stop = StopReason::max_points;
-  while (static_cast<int>(curve.points.size()) < options.maximum_points) {
-    const double from = progress.here.s, tried = progress.ds;
-    std::string refusal;
-    const Outcome outcome = advance(walker, events, at_hit, progress, curve, refusal);
-    if (outcome == Outcome::stop) return curve;
-    if (outcome == Outcome::shorten) {
-      curve.log.push_back({from, tried, refusal});
-      progress.ds *= 0.5;
-      if (progress.ds >= options.step.minimum) continue;
-      curve.stop = StopReason::step_too_small;
-      curve.stop_detail = refusal;
-      return curve;
-    }
-    if (observer && !observer(progress.here)) {
-      curve.stop = StopReason::observer;
-      return curve;
-    }
-  }
+  follow(walker, events, observer, at_hit, progress, curve);
+  settle_families(curve);
   return curve;
 }
 

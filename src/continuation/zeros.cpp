@@ -82,7 +82,8 @@ class Search {
     if (!fit.polynomial) return give_up();
     const Interpolant& p = *fit.polynomial;
     const double scale = p.values.cwiseAbs().maxCoeff(), least = p.values.cwiseAbs().minCoeff();
-    if (scale <= noise_) return;  // zero all along: a family, not a point
+    // Zero all along: a family, not a point; or a point too flat to be resolved.
+    if (scale <= noise_) return depth > 0 ? give_up() : void();
     const bool last = b - a < resolution_ || depth > 24;
     if (!last && fit.error > 1e-4 * scale) {
       if (least < 0.5 * scale) split(a, b, depth);
@@ -184,13 +185,19 @@ class Search {
         continue;
       }
       if ((value(before) < 0) != (v < 0))
-        add({touched ? touch : bisect(value, before, here), before, here, false, touched});
+        add(zero_of(fit, touched ? touch : bisect(value, before, here), before, here, touched));
       else if (touched)
-        add({touch, before, here, true});
+        add({.at = touch, .before = before, .after = here, .touches = true});
       before = here;
       touched = false;
     }
     return true;
+  }
+
+  static ZeroOf zero_of(const Fit& fit, double at, double before, double after, bool several) {
+    const double slope = std::abs(fit.polynomial->first_slope(at));
+    const double off = slope > 0 ? fit.error / slope : fit.polynomial->b - fit.polynomial->a;
+    return {.at = at, .before = before, .after = after, .off = off, .several = several};
   }
 
   /// Neighbouring cells may see the same zero.

@@ -11,6 +11,7 @@ namespace springfold::continuation {
 struct ZeroOf {
   double at = 0;
   double before = 0, after = 0;  ///< bracket
+  double off = 0;                ///< estimated error of `at`
   bool touches = false;          ///< zero without change of sign
   bool several = false;          ///< flat crossing: three or more zeros that rounding merges
 };

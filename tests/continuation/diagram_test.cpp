@@ -227,8 +227,9 @@ TEST(Diagram, OfATrussClosesItsSwayBranchesAndTracesEachOnce) {
   EXPECT_EQ(count(diagram, StopReason::event), 2);
   EXPECT_EQ(count(diagram, StopReason::step_too_small), 4);
   for (const Branch& branch : diagram.branches)
-    if (branch.curve.stop == StopReason::step_too_small)
+    if (branch.curve.stop == StopReason::step_too_small) {
       EXPECT_NEAR(std::abs(branch.curve.points.back().x[0]), 1, 1e-4);
+    }
 }
 
 TEST(Diagram, DoesNotTraceAStartTwice) {
