@@ -96,16 +96,16 @@ std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
       a, b);
 }
 
-/// Place where all m x m entries of Sigma vanish, near t; nothing if they do not.
-std::optional<Singularity> multiple_zero_on(const Arc& arc, double t, double length, Index m) {
+/// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
+std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double length, Index m) {
   const auto curve = curve_near(arc, t, length);
-  if (!curve) return std::nullopt;
+  if (!curve) return {};
   const Index n = arc.from().x.size();
   CurvePoint centre = arc.from();
   centre.x = (*curve)(t).head(n);
   centre.lambda = (*curve)(t)[n];
   const auto E = arc.matrix(centre);
-  if (!E) return std::nullopt;
+  if (!E) return {};
   const Borders borders = borders_of(*E, m);
   const auto Sigma = interpolate(
       [&](double ds) -> std::optional<Vector> {
@@ -113,29 +113,41 @@ std::optional<Singularity> multiple_zero_on(const Arc& arc, double t, double len
         return entries ? std::optional<Vector>(entries->reshaped()) : std::nullopt;
       },
       curve->a, curve->b);
-  if (!Sigma) return std::nullopt;
-  // Least squares: all entries are multiples of t - t* near the place.
-  for (int i = 0; i < 12; ++i) {
-    const Vector s = (*Sigma)(t), d = Sigma->slope(t);
-    const double step = -d.dot(s) / d.squaredNorm();
-    if (!std::isfinite(step) || t + step < curve->a || t + step > curve->b) return std::nullopt;
-    t += step;
-    if (std::abs(step) < 1e-15) break;
+  if (!Sigma) return {};
+  std::vector<Singularity> found;
+  for (const double start : {t, curve->a, curve->b}) {
+    double place = start;
+    // All entries are multiples of t - t* near the place.
+    for (int i = 0; i < 40; ++i) {
+      const Vector s = (*Sigma)(place), d = Sigma->slope(place);
+      const double step = -d.dot(s) / d.squaredNorm();
+      if (!std::isfinite(step)) break;
+      place = std::clamp(place + step, curve->a, curve->b);
+      if (std::abs(step) < 1e-15) break;
+    }
+    // What is left of Sigma, as an error of the place.
+    const double left = (*Sigma)(place).norm() / Sigma->slope(place).norm();
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
+      return std::abs(other.at - place) < 2 * merged;
+    });
+    if (left <= merged && !known) found.push_back({place, (*curve)(place), left});
   }
-  // What is left of Sigma, as an error of the place.
-  const double left = (*Sigma)(t).norm() / Sigma->slope(t).norm();
-  if (!(left <= merged)) return std::nullopt;
-  return Singularity{t, (*curve)(t), left};
+  return found;
 }
 
-/// The best one of a wide window, on which rounding matters less, and narrower ones.
-std::optional<Singularity> multiple_zero(const Arc& arc, double t, double free, Index m) {
+/// The best ones of a wide window, on which rounding matters less, and narrower ones.
+std::vector<Singularity> multiple_zeros(const Arc& arc, double t, double free, Index m) {
   const double wide = std::min(arc.high() - arc.low(), 0.8 * free);
-  std::optional<Singularity> best;
+  const auto worst = [](const std::vector<Singularity>& list) {
+    double doubt = 0;
+    for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
+    return doubt;
+  };
+  std::vector<Singularity> best;
   for (const double share : {1.0, 0.3, 0.1, 0.03}) {
-    auto found = multiple_zero_on(arc, t, share * wide, m);
-    if (found && (!best || found->doubt < best->doubt)) best = std::move(found);
-    if (best && best->doubt < 1e-12) break;
+    auto found = multiple_zeros_on(arc, t, share * wide, m);
+    if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
+    if (!best.empty() && worst(best) < 1e-12) break;
   }
   return best;
 }
@@ -178,37 +190,45 @@ std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) 
   return refined;
 }
 
-/// A branch point where zeros of det Sigma lie together: a multiple one if all entries vanish in one
-/// place, otherwise a simple one, where the zero is.
-std::optional<Candidate> branch_point_at(const Arc& arc, const std::vector<ZeroOf>& zeros,
-                                         Index most, double free) {
-  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
-  const bool touches = zeros.size() == 1 && zeros.front().touches;
-  std::optional<Singularity> found;
-  Index m = most;
-  for (; m > 1 && !found; --m) {
-    found = multiple_zero(arc, middle, free, m);
-    if (found) break;
-  }
-  if (!found && zeros.size() > 1) return std::nullopt;
-  if (!found) {
-    const auto curve = curve_near(arc, middle, 0.2 * arc.length());
-    if (!curve) return std::nullopt;
-    found = Singularity{middle, (*curve)(middle)};
-  }
-  Candidate result{.at = found->at, .before = zeros.front().before, .after = zeros.back().after};
+/// A branch point from its place; nothing if the branches do not meet there.
+std::optional<Candidate> candidate_at(const Arc& arc, const Singularity& place,
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+  Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
   result.point = arc.from();
   const Index n = arc.from().x.size();
-  result.point.x = found->u.head(n);
-  result.point.lambda = found->u[n];
+  result.point.x = place.u.head(n);
+  result.point.lambda = place.u[n];
   result.multiplicity = static_cast<int>(m);
-  result.kind = touches && m == 1 ? HitKind::touch : HitKind::branch_point;
+  result.kind = touches ? HitKind::touch : HitKind::branch_point;
+  result.odd = m % 2 == 1 && !touches;
   polish(arc, result.point, m);
   if (const auto refined = refined_point(arc, result)) result.point = *refined;
   if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
+  return result;
+}
+
+/// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
+/// place, otherwise a simple one, where the zero is.
+std::vector<Candidate> branch_points_at(const Arc& arc, const std::vector<ZeroOf>& zeros,
+                                        Index most, double free) {
+  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
-  result.odd = crossings % 2 == 1;
+  std::vector<Candidate> result;
+  const auto add = [&](const Singularity& place, Index m, bool touches) {
+    if (auto candidate = candidate_at(arc, place, zeros, m, touches))
+      result.push_back(std::move(*candidate));
+  };
+  for (Index m = most; m > 1; --m) {
+    const auto places = multiple_zeros(arc, middle, free, m);
+    for (const Singularity& place : places) add(place, m, false);
+    // Some of the eigenvalues may only touch zero: the determinant knows.
+    if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
+    if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
+  }
+  if (zeros.size() > 1) return {};
+  if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+    add({middle, (*curve)(middle)}, 1, zeros.front().touches);
   return result;
 }
 
@@ -281,15 +301,17 @@ bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroO
                        std::vector<Candidate>& found) {
   const auto& zeros = singular.zeros;
   const auto add = [&](const std::vector<ZeroOf>& group, double free) {
-    auto candidate = branch_point_at(arc, group, singular.order, free);
-    if (!candidate) return false;
-    // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
-    std::erase_if(turns, [&](const ZeroOf& turn) {
-      const bool here = std::abs(turn.at - candidate->at) <= std::max(together, 20 * turn.off);
-      if (here && !turn.touches) candidate->odd = !candidate->odd;
-      return here;
-    });
-    found.push_back(std::move(*candidate));
+    auto candidates = branch_points_at(arc, group, singular.order, free);
+    if (candidates.empty()) return false;
+    for (Candidate& candidate : candidates) {
+      // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
+      std::erase_if(turns, [&](const ZeroOf& turn) {
+        const bool here = std::abs(turn.at - candidate.at) <= merged + 50 * turn.off;
+        if (here && !turn.touches) candidate.odd = !candidate.odd;
+        return here;
+      });
+      found.push_back(std::move(candidate));
+    }
     return true;
   };
   for (std::size_t i = 0; i < zeros.size();) {

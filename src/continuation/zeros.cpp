@@ -41,6 +41,11 @@ std::vector<double> features_of(const Interpolant& p, double level) {
     before = here;
     here = next;
   }
+  // A turn between an end and its neighbour does not show on the grid.
+  if (places.empty() || places.front() > t(1))
+    if (std::abs(p.first(t(0))) <= level) places.insert(places.begin(), t(0));
+  if (places.empty() || places.back() < t(grid - 1))
+    if (std::abs(p.first(t(grid))) <= level) places.push_back(t(grid));
   return places;
 }
 
