@@ -49,7 +49,6 @@ class Assembler {
       : t_{tracing}, result_{result}, events_{events_of(t_.study, t_.evaluator, t_.quantities)} {
     options_.trace = options_of(t_.study.trace);
     options_.maximum_depth = t_.study.branches.depth;
-    options_.maximum_branches = t_.study.branches.maximum;
   }
 
   void trace(const CurvePoint& start) {
@@ -75,6 +74,8 @@ class Assembler {
 
  private:
   void run() {
+    // The two curves that leave a start count as one branch.
+    options_.maximum_branches = t_.study.branches.maximum + static_cast<int>(starts_.size());
     int points = 0;
     const auto observe = [&](const CurvePoint& point) {
       ++points;

@@ -72,17 +72,17 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
     result.branches.push_back(trace_both_ways(t, start, rays));
     return;
   }
-  if (outside || t.study.path == Path::davidenko || (rays.rays.empty() && !rays.complete)) {
+  const std::string why =
+      rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
+  if (outside || t.study.path == Path::davidenko) {
     result.branches.push_back(
-        not_traced(t, start,
-                   "the start is not an ordinary point of a curve: " +
-                       (rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it"
-                                         : rays.why)));
+        not_traced(t, start, "the start is not an ordinary point of a curve: " + why));
     return;
   }
   trace_branches(t, start, result);
   if (result.branches.empty())
-    result.branches.push_back(not_traced(t, start, "no curve leaves it"));
+    result.branches.push_back(
+        not_traced(t, start, "no curve was found to leave the start: " + why));
 }
 
 /// A start that was held by a wrench stays held in the directions that the study leaves free.

@@ -1,0 +1,321 @@
+// Whole bifurcation diagrams of mechanisms: branches, junctions, searches, starts on special points.
+#include <gmock/gmock.h>
+
+#include <numbers>
+#include <set>
+
+#include "analysis/path_problem.hpp"
+#include "analysis/setup.hpp"
+#include "analysis/steep_truss.hpp"
+#include "cases/planar_orthoglide.hpp"
+
+namespace springfold {
+namespace {
+
+using analysis::Branch;
+using analysis::EventKind;
+using analysis::StudyResult;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr double pi = std::numbers::pi;
+
+double value(const StudyResult& result, const Branch& branch, std::size_t row,
+             const std::string& name) {
+  return branch.samples[row].values[column(result, name)];
+}
+
+std::vector<std::string> labels_on(const Branch& branch) {
+  std::vector<std::string> labels;
+  for (const auto& event : branch.events) labels.push_back(event.label);
+  return labels;
+}
+
+TEST(Diagram, OfASteepTrussHasTheLoopThatLeavesItAndTheFourBranchesToTheFeet) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), truss.study(1));
+  EXPECT_TRUE(complete(result));
+  ASSERT_THAT(result.branches, SizeIs(6));
+  EXPECT_THAT(labels_on(result.branches[0]),
+              ElementsAre("EP1", "BP1", "LP1", "BP2", "BP3", "LP2", "BP4", "EP2"));
+  EXPECT_THAT(labels_on(result.branches[1]), ElementsAre("BP1", "BP4", "BP1"));
+  EXPECT_THAT(result.branches[1].forward.reason, HasSubstr("closed"));
+  for (std::size_t b = 1; b < 6; ++b) {
+    EXPECT_EQ(result.branches[b].depth, 1);
+    EXPECT_EQ(result.branches[b].origin_branch, 1);
+  }
+  const Branch& sway = result.branches[1];
+  const double reach = std::abs(value(result, sway, sway.samples.size() / 4, "apex.x"));
+  EXPECT_GT(reach, 0.5);
+}
+
+TEST(Diagram, HasItsBranchPointsWhereTheClosedFormHasThem) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), truss.study(1));
+  std::vector<double> heights;
+  for (const auto& event : result.branches.front().events)
+    if (event.kind == EventKind::branch_point) {
+      const double y = at_event(result, event, "apex.y");
+      heights.push_back(y);
+      EXPECT_NEAR(at_event(result, event, "lambda"), truss.load(y), 1e-11);
+    }
+  const double first = truss.sway_height(0), second = truss.sway_height(1);
+  ASSERT_THAT(heights, SizeIs(4));
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(heights[i], (std::array{first, second, -second, -first}[i]), 1e-10);
+}
+
+TEST(Diagram, ListsAtEachJunctionWhichBranchRunsAlongEachWay) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), truss.study(1));
+  ASSERT_THAT(result.junctions, SizeIs(4));
+  EXPECT_THAT(result.junctions[0].ways, testing::UnorderedElementsAre(1, 1, 2, 2));
+  EXPECT_EQ(result.junctions[0].branch, 1);
+  EXPECT_EQ(result.junctions[0].label, "BP1");
+}
+
+TEST(Diagram, HasOneLabelForEverySpecialPoint) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), truss.study(1));
+  std::map<std::string, std::pair<double, double>> places;
+  for (const Branch& branch : result.branches)
+    for (const auto& event : branch.events) {
+      const std::pair here{value(result, branch, event.row, "apex.x"),
+                           value(result, branch, event.row, "lambda")};
+      const auto [at, is_new] = places.try_emplace(event.label, here);
+      EXPECT_NEAR(at->second.first, here.first, 1e-9) << event.label;
+      EXPECT_NEAR(at->second.second, here.second, 1e-9) << event.label;
+    }
+  EXPECT_THAT(places, SizeIs(12));  // 4 BP, 2 LP, 6 EP
+}
+
+TEST(Diagram, OfDepthZeroIsTheBranchOfTheStartAlone) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), truss.study(0));
+  EXPECT_TRUE(complete(result));
+  ASSERT_THAT(result.branches, SizeIs(1));
+  EXPECT_THAT(events_of_kind(result, EventKind::branch_point), SizeIs(4));
+}
+
+TEST(Diagram, CountsWaysBeyondItsBoundsAndIsCompleteAllTheSame) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(4);
+  study.branches.maximum = 2;
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_TRUE(complete(result));
+  EXPECT_THAT(result.branches, SizeIs(2));
+  EXPECT_EQ(ways_not_followed(result), 4);  // two at BP2, two at BP3
+}
+
+TEST(Diagram, EndsABranchWhereTheRangeEnds) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.until.push_back({"apex.x", -0.2, 0.3});
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_TRUE(complete(result));
+  const std::size_t x = column(result, "apex.x");
+  for (const Branch& branch : result.branches)
+    for (const auto& sample : branch.samples) {
+      EXPECT_GE(sample.values[x], -0.2 - 1e-12);
+      EXPECT_LE(sample.values[x], 0.3 + 1e-12);
+    }
+}
+
+TEST(Diagram, OnWhoseLimitTheStartLiesEndsThere) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.until.push_back({"lambda", 0, 1});
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_TRUE(complete(result));
+  const std::size_t lambda = column(result, "lambda");
+  for (const auto& sample : result.branches[0].samples) EXPECT_GE(sample.values[lambda], -1e-12);
+  EXPECT_EQ(result.branches[0].start_row, 0u);
+}
+
+/// Pressed slightly aside: nothing is symmetric, and the loop comes loose from the start's branch.
+analysis::Study aside(const SteepTruss& truss) {
+  analysis::Study study = truss.study(2);
+  study.direction = Vector{{0.02, -1.0}} / std::hypot(0.02, 1.0);
+  return study;
+}
+
+TEST(Search, FindsTheBranchesThatAreNotConnectedAndTracesThem) {
+  const SteepTruss truss;
+  const StudyResult alone = run_study(truss.mechanism(), aside(truss));
+  analysis::Study study = aside(truss);
+  study.branches.search_at = {0};
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_TRUE(complete(result));
+  ASSERT_THAT(result.searches, SizeIs(1));
+  EXPECT_GE(result.searches[0].found, 1);
+  EXPECT_EQ(result.searches[0].traced, result.searches[0].found);
+  EXPECT_GT(result.branches.size(), alone.branches.size());
+  // Unloaded, the apex stands above or below the feet, in between, or beside them at distance 1.
+  std::set<std::pair<long, long>> unloaded;
+  for (const Branch& branch : result.branches)
+    for (std::size_t row = 0; row + 1 < branch.samples.size(); ++row) {
+      const double p = value(result, branch, row, "lambda");
+      const double q = value(result, branch, row + 1, "lambda");
+      if (p * q > 0 || p == q) continue;
+      const double t = p / (p - q);
+      const auto at = [&](const char* name) {
+        return std::lround(10 * ((1 - t) * value(result, branch, row, name) +
+                                 t * value(result, branch, row + 1, name)));
+      };
+      unloaded.insert({at("apex.x"), at("apex.y")});
+    }
+  for (const auto& place : {std::pair{0L, 10L}, {0L, -10L}, {0L, 0L}, {10L, 0L}, {-10L, 0L}})
+    EXPECT_THAT(unloaded, Contains(place));
+}
+
+TEST(Search, FindsNothingWhereEveryBranchIsKnown) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.branches.search_at = {0.1};
+  const StudyResult result = run_study(truss.mechanism(), study);
+  ASSERT_THAT(result.searches, SizeIs(1));
+  EXPECT_EQ(result.searches[0].found, 0);
+  EXPECT_THAT(result.branches, SizeIs(6));
+}
+
+/// The truss held where it begins to sway.
+analysis::Study at_sway_point(const SteepTruss& truss) {
+  analysis::Study study = truss.study(0);
+  study.start.solve = analysis::StartSolve::wrench;
+  study.start.pose = Vector{{0.0, truss.sway_height(0)}};
+  return study;
+}
+
+TEST(StartOnABranchPoint, IsFollowedAllWays) {
+  const SteepTruss truss;
+  const StudyResult result = run_study(truss.mechanism(), at_sway_point(truss));
+  EXPECT_TRUE(complete(result));
+  EXPECT_EQ(result.start.situation, "a branch point");
+  ASSERT_THAT(result.start.ways, SizeIs(4));
+  const std::size_t x = column(result, "apex.x");
+  int across = 0;
+  for (const auto& way : result.start.ways) {
+    EXPECT_GT(way.branch, 0);
+    if (std::abs(way.rates[x]) > 0.1) ++across;
+  }
+  EXPECT_EQ(across, 2);
+  for (const Branch& branch : result.branches) EXPECT_EQ(branch.origin, "BP1");
+  EXPECT_THAT(result.branches.front().backward.reason, HasSubstr("the start"));
+}
+
+TEST(StartOnALimitPoint, IsSaidToBeOne) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(0);
+  study.start.solve = analysis::StartSolve::wrench;
+  const double length = std::cbrt(truss.a * truss.a);
+  study.start.pose = Vector{{0.0, std::sqrt(length * length - truss.a * truss.a)}};
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_TRUE(complete(result));
+  EXPECT_EQ(result.start.situation, "a limit point");
+  EXPECT_THAT(events_of_kind(result, EventKind::branch_point), SizeIs(4));
+}
+
+TEST(StartAwayFromEquilibrium, SaysHowFarTheSolveMovedIt) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(0);
+  study.start.pose = Vector{{0.0, truss.height() + 0.05}};
+  const StudyResult result = run_study(truss.mechanism(), study);
+  ASSERT_TRUE(result.start.found);
+  EXPECT_NEAR(result.start.moved, 0.05, 0.02);  // the apex or a bar
+  EXPECT_GT(result.start.guess_residual, 1e-3);
+  EXPECT_FALSE(result.start.moved_most.empty());
+}
+
+TEST(StartAwayFromEquilibrium, IsRefusedBeyondTheLimit) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(0);
+  study.start.pose = Vector{{0.0, truss.height() + 0.05}};
+  study.start.maximum_move = 0.01;
+  const StudyResult result = run_study(truss.mechanism(), study);
+  EXPECT_FALSE(result.start.found);
+  EXPECT_FALSE(complete(result));
+  EXPECT_THAT(result.branches, IsEmpty());
+  EXPECT_THAT(result.start.message, HasSubstr("start.maximum_move = 0.01"));
+}
+
+TEST(BranchSettings, ThatCannotBeUsedAreSaid) {
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.path = analysis::Path::davidenko;
+  study.branches.search_at = {3};
+  study.until.push_back({"lambda", -1, 1});
+  EXPECT_THAT(
+      problems_in(study, truss.mechanism()),
+      ElementsAre(HasSubstr("finds no branch points"), HasSubstr("outside the limits of lambda")));
+}
+
+TEST(Periods, AreThoseOfJointsWithoutSpring) {
+  const SteepTruss truss;
+  const analysis::Setup setup = set_up(truss.mechanism(), truss.study(0), nullptr);
+  const analysis::PathProblem problem(setup.system, setup.rule);
+  const Vector periods = problem.periods();
+  double sum = 0;
+  for (Index i = 0; i < periods.size(); ++i) {
+    const bool is_foot =
+        setup.system.coordinate_names[static_cast<std::size_t>(i)].ends_with(".foot");
+    EXPECT_EQ(periods[i], is_foot ? 2 * pi : 0) << i;
+    sum += periods[i];
+  }
+  EXPECT_EQ(sum, 4 * pi);
+}
+
+TEST(Periods, AreNoneWhereASpringCountsTheTurns) {
+  const analysis::Setup setup =
+      set_up(planar_orthoglide(linear_knee(0.1)), diagonal_study(0.454), nullptr);
+  const analysis::PathProblem problem(setup.system, setup.rule);
+  EXPECT_TRUE(problem.periods().isZero(0));
+}
+
+/// A crank of length 1 on a rod of length 3 that is a spring; a slider drives it. Its relaxed
+/// positions are a closed curve: the crank turns once round while the slider goes out and back.
+TEST(Periods, CloseTheCurveOfACrankAfterOneTurn) {
+  using namespace model;
+  Mechanism m;
+  const double angle = 1, slider = std::cos(angle) + std::sqrt(9 - std::pow(std::sin(angle), 2));
+  m.bodies.push_back({"pin", TaskSpace::xy, Vector{{std::cos(angle), std::sin(angle)}}});
+  Chain crank;
+  crank.name = "crank";
+  crank.elements.push_back(Joint{.name = "turn", .initial = angle});
+  crank.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX()}});
+  Chain rod;
+  rod.name = "rod";
+  rod.elements.push_back(Joint{.name = "slider",
+                               .kind = JointKind::prismatic,
+                               .axis = Vec3<double>::UnitX(),
+                               .role = JointRole::actuated,
+                               .command = slider});
+  rod.elements.push_back(
+      Joint{.name = "swing", .initial = std::atan2(std::sin(angle), std::cos(angle) - slider)});
+  rod.elements.push_back(Joint{.name = "stretch",
+                               .kind = JointKind::prismatic,
+                               .axis = Vec3<double>::UnitX(),
+                               .role = JointRole::compliant,
+                               .spring = LinearSpring{1, 0}});
+  rod.elements.push_back(RigidLink{{Mat3<double>::Identity(), 3 * Vec3<double>::UnitX()}});
+  m.chains = {crank, rod};
+  analysis::Study study;
+  study.name = "drive";
+  study.control = analysis::ControlMode::actuator;
+  study.actuators = {{"rod.slider", 1}};
+  study.until = {{"rod.stretch", -0.5, 0.5}};
+  const StudyResult result = run_study(m, study);
+  ASSERT_THAT(result.branches, SizeIs(1));
+  const Branch& branch = result.branches.front();
+  EXPECT_TRUE(complete(result)) << branch.forward.reason;
+  EXPECT_THAT(branch.forward.reason, HasSubstr("closed"));
+  const double turned = value(result, branch, branch.samples.size() - 1, "crank.turn") -
+                        value(result, branch, 0, "crank.turn");
+  EXPECT_NEAR(std::abs(turned), 2 * pi, 1e-9);
+  EXPECT_NEAR(value(result, branch, branch.samples.size() - 1, "lambda"), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace springfold
