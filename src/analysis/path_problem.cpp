@@ -197,7 +197,7 @@ std::string PathProblem::switch_name(Index j) const {
   const char* what = below == 0      ? "acts above "
                      : above == 0    ? "acts below "
                      : above > below ? "is stiffer above "
-                                     : "is softer above ";
+                                     : "is stiffer below ";
   const bool is_length = system_.is_length[static_cast<std::size_t>(s.coordinate)];
   return "spring " + spring.name + " (" + what +
          rounded(s.breakpoint * (is_length ? rule_.length : 1)) + ")";

@@ -272,7 +272,8 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
     text += named_values("pose", pose_names(planned->mechanism, result), result, the_case.units);
   text += named_values("commands", command_names(result), result, the_case.units);
   const Branch& first = result.branches.front();
-  text += line("index", rounded(value_at(result, first, first.start_row, "index"), digits));
+  const double index = value_at(result, first, first.start_row, "index");
+  text += line("index", std::isnan(index) ? "not defined at this point" : rounded(index, digits));
   text += way_lines(the_case, result);
   text += stiffness_lines(result.start.stiffness);
   for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
