@@ -26,7 +26,7 @@ TEST_F(CaseMessages, NameUnknownKeysWithTheNearestKnownOne) {
               ElementsAre("case.toml:1:1: titel: unknown key, did you mean \"title\"?"));
   EXPECT_THAT(after("attempts = 3", "colour = 3"),
               ElementsAre("case.toml:33:70: study[1].start.colour: unknown key; known here: pose, "
-                          "solve, solver, attempts, seed"));
+                          "solve, solver, attempts, seed, maximum_move"));
 }
 
 TEST_F(CaseMessages, TakeAMisspeltKeyForTheMissingOne) {
@@ -207,6 +207,30 @@ TEST_F(CaseMessages, OfTheAnalysisComeWithThePlaceOfTheKey) {
       after("maximum_step = 0.04", "maximum_step = 0.01"),
       ElementsAre("case.toml:37:9: study[1].trace: need 0 < minimum_step <= initial_step <= "
                   "maximum_step (study \"Q2\", run 1)"));
+}
+
+TEST_F(CaseMessages, OfBranchesSayWhatIsNeeded) {
+  const auto with = [this](const std::string& branches) {
+    std::vector<std::string> said =
+        after("direction = [1, 1]\n", "direction = [1, 1]\nbranches = " + branches + "\n");
+    for (std::string& text : said) text.erase(0, text.find(' ') + 1);  // without its place
+    return said;
+  };
+  EXPECT_THAT(with("{ depth = 1, maximum = 20, search_at = [0, \"0.1*L\"], starts = 8, seed = 2 }"),
+              IsEmpty());
+  EXPECT_THAT(with("{ depth = -1 }"),
+              ElementsAre("study[1].branches.depth: got -1, need a whole number >= 0"));
+  EXPECT_THAT(with("{ maximum = 0 }"),
+              ElementsAre(testing::StartsWith("study[1].branches.maximum: got 0, need a whole")));
+  EXPECT_THAT(with("{ search_at = 1 }"), ElementsAre("study[1].branches.search_at: got 1, need a "
+                                                     "list of values of lambda"));
+  EXPECT_THAT(with("3"),
+              ElementsAre("study[1].branches: got 3, need a table such as { depth = 1 }"));
+  EXPECT_THAT(with("{ deep = 1 }"),
+              ElementsAre(testing::StartsWith("study[1].branches.deep: unknown key")));
+  EXPECT_THAT(with("{ depth = 1 }\npath = \"davidenko\""),
+              ElementsAre("study[1].branches: path = \"davidenko\" follows the branch of the start "
+                          "alone: it finds no branch points (study \"Q2\", run 1)"));
 }
 
 TEST_F(CaseMessages, ComeAllAtOnceInTheOrderOfTheFile) {
