@@ -152,6 +152,20 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   return event;
 }
 
+/// The chain whose closure has a lower rank here than at the rows before and behind: a kinematic
+/// singularity. A rank that is low all along the branch is none.
+std::optional<std::string> singular_chain(const Entry& before, const Entry& entry,
+                                          const Entry& behind, const Evaluator& evaluator,
+                                          const PathProblem& problem) {
+  const auto a = evaluator.closure_ranks(before.point), here = evaluator.closure_ranks(entry.point),
+             b = evaluator.closure_ranks(behind.point);
+  for (std::size_t i = 0; i < here.size() && a.size() == here.size() && b.size() == here.size();
+       ++i)
+    if (here[i] < a[i] && here[i] < b[i])
+      return problem.system(entry.point.lambda).mechanism.chains[i].name;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string piece_text(const statics::System& system, const Piece& piece) {
@@ -224,6 +238,13 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
     const Entry* next = i + 1 < entries.size() ? &entries[i + 1] : nullptr;
     Event event = hit_event(e, i, next, evaluator, quantities, problem);
     const bool first = i == 0, last = next == nullptr;
+    const bool is_singular =
+        event.kind == EventKind::branch_point || event.kind == EventKind::touch;
+    if (is_singular && !first && !last)
+      if (const auto chain = singular_chain(entries[i - 1], e, *next, evaluator, problem)) {
+        event.kind = EventKind::kinematic_singularity;
+        event.detail = "the closure of chain " + *chain + " loses rank; " + event.detail;
+      }
     if ((first || last) && ends_at_junction(e, first ? branch.backward : branch.forward))
       event.detail += (event.detail.empty() ? "" : ", ") +
                       (first ? branch.backward.reason : branch.forward.reason);
@@ -242,19 +263,23 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
   return rows;
 }
 
-std::vector<std::string> label_events(std::vector<BranchRows>& all, std::size_t junctions,
-                                      const std::vector<QuantityDefinition>& quantities) {
+std::vector<JunctionLabel> label_events(std::vector<BranchRows>& all, std::size_t junctions,
+                                        const std::vector<QuantityDefinition>& quantities) {
   std::map<std::string, int> counts;
-  std::vector<std::string> labels(junctions);
+  std::vector<JunctionLabel> labels(junctions);
   for (auto& [branch, numbers] : all) {
     for (std::size_t i = 0; i < branch.events.size(); ++i) {
       Event& event = branch.events[i];
-      const bool meets = numbers[i] >= 0;
-      if (meets) event.label = labels[static_cast<std::size_t>(numbers[i])];
-      if (!event.label.empty()) continue;
+      JunctionLabel* junction =
+          numbers[i] < 0 ? nullptr : &labels[static_cast<std::size_t>(numbers[i])];
+      if (junction != nullptr && !junction->label.empty()) {
+        event.kind = junction->kind;
+        event.label = junction->label;
+        continue;
+      }
       const std::string code = code_of(event.kind);
       event.label = code + std::to_string(++counts[code]);
-      if (meets) labels[static_cast<std::size_t>(numbers[i])] = event.label;
+      if (junction != nullptr) *junction = {event.label, event.kind};
     }
     mark_rows(branch);
     fill_indices(branch, quantities);

@@ -35,11 +35,17 @@ struct BranchRows {
 BranchRows join(const BranchSource& source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem);
 
+/// How a junction is called, and as what it is seen on the first branch that shows it.
+struct JunctionLabel {
+  std::string label{};
+  EventKind kind = EventKind::branch_point;
+};
+
 /// Numbers the events of all branches, LP1, LP2, ..., each branch from its first row; all events of
 /// a junction have one label. Then fills the indices at critical points.
-/// @returns labels of the junctions; empty for those that no branch shows
-std::vector<std::string> label_events(std::vector<BranchRows>& all, std::size_t junctions,
-                                      const std::vector<QuantityDefinition>& quantities);
+/// @returns one per junction; without a label where no branch shows it
+std::vector<JunctionLabel> label_events(std::vector<BranchRows>& all, std::size_t junctions,
+                                        const std::vector<QuantityDefinition>& quantities);
 
 EventKind kind_of(const continuation::Hit& hit);
 

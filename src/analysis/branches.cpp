@@ -250,11 +250,12 @@ class Assembler {
     return 0;
   }
 
-  void write_junctions(const std::vector<std::string>& labels) {
+  void write_junctions(const std::vector<JunctionLabel>& labels) {
     for (std::size_t i = 0; i < diagram_.junctions.size(); ++i) {
       const continuation::Junction& from = diagram_.junctions[i];
-      Junction junction{.kind = kind_of_junction(from.kind),
-                        .label = labels[i],
+      const bool is_shown = !labels[i].label.empty();
+      Junction junction{.kind = is_shown ? labels[i].kind : kind_of_junction(from.kind),
+                        .label = labels[i].label,
                         .branch = met_on(i),
                         .multiplicity = from.multiplicity};
       for (const continuation::Way& way : from.ways) junction.ways.push_back(number_of(way.branch));
@@ -285,14 +286,14 @@ class Assembler {
     for (const int i : own) add(traced(i).curve.points.front(), i);
   }
 
-  void describe(std::size_t i, const std::vector<std::string>& labels) {
+  void describe(std::size_t i, const std::vector<JunctionLabel>& labels) {
     const continuation::Branch& from = traced(groups_[i].front());
     Branch& branch = result_.branches[i];
     branch.depth = from.depth;
     branch.start = std::max(from.start, 0);
     if (from.junction < 0) return;
     const auto j = static_cast<std::size_t>(from.junction);
-    branch.origin = labels[j];
+    branch.origin = labels[j].label;
     branch.origin_branch = result_.junctions[j].branch;
     branch.backward.reason =
         "begins at " + branch.origin +

@@ -1,5 +1,6 @@
 #include "quantities.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -283,6 +284,18 @@ Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) cons
   }
   return wrench.asDiagonal() * in_world_axes(system, at->z, at->platform.K) *
          pose.cwiseInverse().asDiagonal();
+}
+
+std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  if (!at) return {};
+  std::vector<Index> ranks;
+  for (const statics::ChainSlice& slice : problem_.system(point.lambda).chain_slices) {
+    const Matrix J = at->A.block(slice.F, slice.x, slice.F_count, slice.x_count);
+    const Vector values = J.jacobiSvd().singularValues();
+    ranks.push_back((values.array() > 1e-7 * std::max(1.0, J.norm())).count());
+  }
+  return ranks;
 }
 
 std::vector<Matrix> Evaluator::chain_stiffnesses(const continuation::CurvePoint& point) const {

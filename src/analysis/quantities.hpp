@@ -71,6 +71,8 @@ class Evaluator {
 
   /// K_Sigma at a point, physical units, world axes; empty if undefined.
   Matrix platform_stiffness(const continuation::CurvePoint& point) const;
+  /// Rank of the closure of every chain in its own coordinates; empty where it is not defined.
+  std::vector<Index> closure_ranks(const continuation::CurvePoint& point) const;
   /// K_ci of all chains, paper eq. (12); empty matrices where undefined.
   std::vector<Matrix> chain_stiffnesses(const continuation::CurvePoint& point) const;
 

@@ -130,8 +130,13 @@ std::string study_text(const io::Case& the_case, const std::string& name) {
     if (!planned.label.empty()) labels += (labels.empty() ? ": " : "; ") + planned.label;
   }
   const bool is_curve = first->plan.kind == StudyKind::force_deflection;
-  return fmt::format("  study     {} ({}{}), {}{}\n", name, word_of(first->plan.kind),
-                     is_curve ? ", control " + word_of(first->plan.control) : "",
+  const auto& branches = first->plan.branches;
+  std::string more;
+  if (branches.depth > 0) more += fmt::format(", branches to depth {}", branches.depth);
+  if (!branches.search_at.empty())
+    more += ", searches at " + counted(std::ssize(branches.search_at), "value") + " of lambda";
+  return fmt::format("  study     {} ({}{}{}), {}{}\n", name, word_of(first->plan.kind),
+                     is_curve ? ", control " + word_of(first->plan.control) : "", more,
                      counted(runs, "run"), labels);
 }
 

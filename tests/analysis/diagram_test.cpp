@@ -135,6 +135,79 @@ TEST(Diagram, OnWhoseLimitTheStartLiesEndsThere) {
   EXPECT_EQ(result.branches[0].start_row, 0u);
 }
 
+TEST(Diagram, TellsAKinematicSingularityFromABranchPoint) {
+  // A bar that has shrunk to nothing may point anywhere: the apex is at its foot.
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.until = {{"apex.y", -1.2 * truss.height(), 1.2 * truss.height()}, {"lambda", -2, 2}};
+  const StudyResult result = run_study(truss.mechanism(), study);
+  int singular = 0;
+  for (const Branch& branch : result.branches)
+    for (const auto& event : branch.events) {
+      if (event.kind != EventKind::kinematic_singularity) continue;
+      ++singular;
+      EXPECT_NEAR(std::abs(value(result, branch, event.row, "apex.x")), truss.a, 1e-10);
+      EXPECT_NEAR(value(result, branch, event.row, "apex.y"), 0, 1e-10);
+      EXPECT_THAT(event.detail, HasSubstr("loses rank"));
+    }
+  EXPECT_EQ(singular, 4);
+  EXPECT_THAT(events_of_kind(result, EventKind::branch_point), SizeIs(4 + 3 + 4));
+}
+
+/// N bars from a ring of radius R to a point on the axis, free length and stiffness 1.
+model::Mechanism dome(int bars, double R) {
+  using namespace model;
+  const double h = std::sqrt(1 - R * R);
+  Mechanism m;
+  m.bodies.push_back({"apex", TaskSpace::xyz, Vector{{0.0, 0.0, h}}});
+  for (int i = 0; i < bars; ++i) {
+    const double angle = 2 * pi * i / bars;
+    Chain chain;
+    chain.name = "bar" + std::to_string(i + 1);
+    chain.from_attachment.p = {R * std::cos(angle), R * std::sin(angle), 0};
+    chain.from_attachment.R = rotation_about<double>(Vec3<double>::UnitZ(), angle + pi);
+    chain.elements.push_back(Joint{.name = "turn", .axis = Vec3<double>::UnitZ()});
+    chain.elements.push_back(
+        Joint{.name = "tilt", .axis = -Vec3<double>::UnitY(), .initial = std::atan2(h, R)});
+    chain.elements.push_back(Joint{.name = "length",
+                                   .kind = JointKind::prismatic,
+                                   .axis = Vec3<double>::UnitX(),
+                                   .role = JointRole::compliant,
+                                   .spring = LinearSpring{1, 0}});
+    chain.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX()}});
+    m.chains.push_back(std::move(chain));
+  }
+  return m;
+}
+
+TEST(Diagram, OfATripodHasThreeCurvesThroughEachDoublePoint) {
+  const double R = 0.4, h = std::sqrt(1 - R * R);
+  analysis::Study study;
+  study.name = "press";
+  study.direction = Vector{{0.0, 0.0, -1.0}};
+  study.until = {{"apex.x", -0.1, 0.1}, {"apex.y", -0.1, 0.1}, {"apex.z", -1.1 * h, 1.1 * h}};
+  study.branches.depth = 1;
+  const StudyResult result = run_study(dome(3, R), study);
+  EXPECT_TRUE(complete(result));
+  ASSERT_THAT(result.junctions, SizeIs(2));
+  EXPECT_EQ(result.junctions[0].multiplicity, 2);
+  EXPECT_THAT(result.branches, SizeIs(1 + 2 * 6));
+  std::set<long> directions;  // in degrees
+  for (const Branch& branch : result.branches) {
+    if (branch.origin != "BP1") continue;
+    const std::size_t end = branch.samples.size() - 1;
+    const double angle =
+        std::atan2(value(result, branch, end, "apex.y"), value(result, branch, end, "apex.x"));
+    directions.insert(std::lround(angle * 1800 / pi) % 3600);
+  }
+  std::set<long> expected{-1200, -600, 0, 600, 1200, 1800};
+  if (directions.contains(-1800)) expected.erase(1800), expected.insert(-1800);
+  EXPECT_EQ(directions, expected);
+  const auto points = events_of_kind(result, EventKind::branch_point);
+  const double z = at_event(result, points[0], "apex.z"), L = std::hypot(R, z);
+  EXPECT_NEAR(L * L * L - L * L + R * R / 2, 0, 1e-10);
+}
+
 /// Pressed slightly aside: nothing is symmetric, and the loop comes loose from the start's branch.
 analysis::Study aside(const SteepTruss& truss) {
   analysis::Study study = truss.study(2);

@@ -100,6 +100,16 @@ TEST_F(DiagramProgram, FollowsAllWaysFromAStartOnABranchPoint) {
   EXPECT_THAT(outcome.out, HasSubstr("branch 4      begins at BP1, the start"));
 }
 
+TEST_F(DiagramProgram, ChecksACaseAndSaysWhatItWillTrace) {
+  put_text(scratch.path() / "case.toml", column("branches = { depth = 2, search_at = [0.1] }\n"));
+  const std::string file = (scratch.path() / "case.toml").string();
+  const std::vector<const char*> argv{"springfold", "check", file.c_str()};
+  std::ostringstream out, err;
+  EXPECT_EQ(run_main(static_cast<int>(argv.size()), argv.data(), out, err), all_done);
+  EXPECT_THAT(out.str(), HasSubstr("press (force_deflection, control load, branches to depth 2, "
+                                   "searches at 1 value of lambda), 1 run"));
+}
+
 TEST_F(DiagramProgram, GivesTheSameBytesTwice) {
   const std::string text = column("branches = { depth = 2, search_at = [0.1, 1] }\n");
   run(text);
