@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "branch_rows.hpp"
-#include "limits.hpp"
-#include "search_box.hpp"
-#include "springfold/continuation/search.hpp"
+#include "grow_diagram.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -42,21 +40,11 @@ EventKind kind_of_junction(HitKind kind) {
   return kind_of(hit);
 }
 
-/// The diagram as it grows with the searches, and its translation into a result.
-class Assembler {
+/// Translates a diagram into a result.
+class Writer {
  public:
-  Assembler(const Tracing& tracing, StudyResult& result)
-      : t_{tracing}, result_{result}, events_{events_of(t_.study, t_.evaluator, t_.quantities)} {
-    options_.trace = options_of(t_.study.trace);
-    options_.maximum_depth = t_.study.branches.depth;
-  }
-
-  void trace(const CurvePoint& start) {
-    starts_ = {{start.x, start.lambda, start.piece}};
-    run();
-    for (const double lambda : t_.study.branches.search_at) search(lambda);
-    count_traced();
-  }
+  Writer(const Tracing& tracing, const Grown& grown, StudyResult& result)
+      : t_{tracing}, diagram_{grown.diagram}, start_{grown.starts.front()}, result_{result} {}
 
   void write() {
     number_branches();
@@ -73,86 +61,6 @@ class Assembler {
   }
 
  private:
-  void run() {
-    // The two curves that leave a start count as one branch.
-    options_.maximum_branches = t_.study.branches.maximum + static_cast<int>(starts_.size());
-    int points = 0;
-    const auto observe = [&](const CurvePoint& point) {
-      ++points;
-      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
-      return !t_.observer || t_.observer(points, point.s);
-    };
-    diagram_ = trace_diagram(t_.problem, starts_, events_, options_, observe);
-    for (continuation::Branch& branch : diagram_.branches) cut_to_range(branch.curve);
-  }
-
-  /// A branch that begins on a limit and leads out of the range ends where it begins.
-  void cut_to_range(Curve& curve) const {
-    if (curve.stop != StopReason::observer) return;
-    std::optional<std::string> passed;
-    while (curve.points.size() > 1) {
-      const auto beyond = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.points.back());
-      if (!beyond) break;
-      passed = beyond;
-      curve.points.pop_back();
-    }
-    if (!passed) return;
-    const double end = curve.points.back().s;
-    std::erase_if(curve.hits, [end](const Hit& hit) { return hit.point.s > end; });
-    curve.stop = StopReason::event;
-    curve.stop_detail = *passed;
-  }
-
-  bool lies_on_a_branch(const DiagramStart& at) const {
-    const auto rays = rays_from(t_.problem, at.x, at.lambda, at.piece, options_.trace);
-    return std::any_of(rays.rays.begin(), rays.rays.end(), [&](const continuation::Ray& ray) {
-      const CurvePoint point{
-          .x = at.x, .lambda = at.lambda, .tangent = ray.tangent, .piece = ray.piece};
-      return std::any_of(diagram_.branches.begin(), diagram_.branches.end(),
-                         [&](const auto& branch) {
-                           return passes_through(t_.problem, branch.curve, point, options_.trace);
-                         });
-    });
-  }
-
-  void search(double lambda) {
-    const BranchSettings& settings = t_.study.branches;
-    const double scaled = lambda / t_.lambda_scale;
-    const auto known = known_at(t_.problem, diagram_, scaled, options_.trace.newton);
-    const auto [low, high] = search_box(t_.problem, diagram_);
-    const auto found = continuation::search_at(
-        t_.problem, scaled, known,
-        {.low = low, .high = high, .starts = settings.starts, .seed = settings.seed});
-    Search report{.lambda = lambda, .starts = found.starts_used};
-    report.limit_reached = found.limit_reached;
-    std::vector<int> numbers;
-    for (std::size_t i = 0; i < found.solutions.size(); ++i) {
-      const DiagramStart start{found.solutions[i], scaled, found.pieces[i]};
-      if (lies_on_a_branch(start)) continue;
-      const CurvePoint point{.x = start.x, .lambda = scaled, .piece = start.piece};
-      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) {
-        ++report.out_of_range;
-        continue;
-      }
-      ++report.found;
-      numbers.push_back(static_cast<int>(starts_.size()));
-      starts_.push_back(start);
-    }
-    result_.searches.push_back(report);
-    found_.push_back(std::move(numbers));
-    if (report.found > 0) run();
-  }
-
-  void count_traced() {
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      for (const int number : found_[i]) {
-        const bool own = std::any_of(diagram_.branches.begin(), diagram_.branches.end(),
-                                     [number](const auto& b) { return b.start == number; });
-        if (own || lies_on_a_branch(starts_[static_cast<std::size_t>(number)]))
-          ++result_.searches[i].traced;
-      }
-  }
-
   /// The two curves that leave an ordinary start become one branch, every other curve is its own.
   void number_branches() {
     const auto& branches = diagram_.branches;
@@ -187,7 +95,7 @@ class Assembler {
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
     for (std::size_t i = 0; i < diagram_.junctions.size(); ++i)
       if (distance(t_.problem, diagram_.junctions[i].point, hit.point) <=
-          options_.same_place * scale)
+          continuation::DiagramOptions{}.same_place * scale)
         return static_cast<int>(i);
     return -1;
   }
@@ -271,7 +179,7 @@ class Assembler {
       result_.start.ways.push_back({t_.evaluator.rates(t_.quantities, along), number_of(branch)});
     };
     for (const continuation::Junction& junction : diagram_.junctions) {
-      const CurvePoint start{.x = starts_[0].x, .lambda = starts_[0].lambda};
+      const CurvePoint start{.x = start_.x, .lambda = start_.lambda};
       if (junction.depth >= 0 || distance(t_.problem, junction.point, start) > 1e-9) continue;
       result_.start.situation = "a branch point";
       for (const continuation::Way& way : junction.ways) add(way.point, way.branch);
@@ -303,31 +211,19 @@ class Assembler {
   }
 
   const Tracing& t_;
+  const Diagram& diagram_;
+  const DiagramStart& start_;  ///< the study's own
   StudyResult& result_;
-  std::vector<continuation::Event> events_;
-  continuation::DiagramOptions options_{};
-  std::vector<DiagramStart> starts_{};
-  std::vector<std::vector<int>> found_{};  ///< per search: numbers of its starts
-  Diagram diagram_{};
   std::vector<int> number_{};               ///< per curve of the diagram: its branch, from 1
   std::vector<std::vector<int>> groups_{};  ///< per branch: its one or two curves
 };
 
 }  // namespace
 
-continuation::TraceOptions options_of(const TraceSettings& settings) {
-  continuation::TraceOptions options;
-  options.step.initial = settings.initial_step;
-  options.step.minimum = settings.minimum_step;
-  options.step.maximum = settings.maximum_step;
-  options.maximum_points = settings.maximum_points;
-  return options;
-}
-
 void trace_branches(const Tracing& tracing, const CurvePoint& start, StudyResult& result) {
-  Assembler assembler(tracing, result);
-  assembler.trace(start);
-  assembler.write();
+  const Grown grown = grow_diagram(tracing, start);
+  result.searches = grown.searches;
+  Writer(tracing, grown, result).write();
 }
 
 }  // namespace springfold::analysis

@@ -9,10 +9,9 @@ namespace springfold::analysis {
 
 using continuation::CurvePoint;
 
-SearchBox search_box(const PathProblem& problem, const continuation::Diagram& diagram) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  SearchBox box{Vector::Constant(problem.size(), infinity),
-                Vector::Constant(problem.size(), -infinity)};
+SearchBox search_box(const PathProblem& problem, const continuation::Diagram& diagram,
+                     const Vector& start) {
+  SearchBox box{start, start};
   for (const continuation::Branch& branch : diagram.branches)
     for (const CurvePoint& point : branch.curve.points) {
       box.low = box.low.cwiseMin(point.x);

@@ -1,0 +1,140 @@
+#include "grow_diagram.hpp"
+
+#include <algorithm>
+
+#include "limits.hpp"
+#include "search_box.hpp"
+#include "springfold/continuation/search.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::DiagramStart;
+using continuation::Hit;
+using continuation::StopReason;
+
+class Grower {
+ public:
+  explicit Grower(const Tracing& tracing)
+      : t_{tracing}, events_{events_of(t_.study, t_.evaluator, t_.quantities)} {
+    options_.trace = options_of(t_.study.trace);
+    options_.maximum_depth = t_.study.branches.depth;
+  }
+
+  Grown grow(const CurvePoint& start) {
+    grown_.starts = {{start.x, start.lambda, start.piece}};
+    run();
+    for (const double lambda : t_.study.branches.search_at)
+      if (!stopped_) search(lambda);
+    count_traced();
+    return std::move(grown_);
+  }
+
+ private:
+  void run() {
+    // The two curves that leave a start count as one branch.
+    options_.maximum_branches = t_.study.branches.maximum + static_cast<int>(grown_.starts.size());
+    int points = 0;
+    const auto observe = [&](const CurvePoint& point) {
+      ++points;
+      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
+      stopped_ = stopped_ || (t_.observer && !t_.observer(points, point.s));
+      return !stopped_;
+    };
+    grown_.diagram = trace_diagram(t_.problem, grown_.starts, events_, options_, observe);
+    for (continuation::Branch& branch : grown_.diagram.branches) cut_to_range(branch.curve);
+  }
+
+  /// A branch that begins on a limit and leads out of the range ends where it begins.
+  void cut_to_range(Curve& curve) const {
+    if (curve.stop != StopReason::observer) return;
+    std::optional<std::string> passed;
+    while (curve.points.size() > 1) {
+      const auto beyond = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.points.back());
+      if (!beyond) break;
+      passed = beyond;
+      curve.points.pop_back();
+    }
+    if (!passed) return;
+    const double end = curve.points.back().s;
+    std::erase_if(curve.hits, [end](const Hit& hit) { return hit.point.s > end; });
+    curve.stop = StopReason::event;
+    curve.stop_detail = *passed;
+  }
+
+  bool lies_on_a_branch(const DiagramStart& at) const {
+    const auto rays = rays_from(t_.problem, at.x, at.lambda, at.piece, options_.trace);
+    return std::any_of(rays.rays.begin(), rays.rays.end(), [&](const continuation::Ray& ray) {
+      const CurvePoint point{
+          .x = at.x, .lambda = at.lambda, .tangent = ray.tangent, .piece = ray.piece};
+      return std::any_of(grown_.diagram.branches.begin(), grown_.diagram.branches.end(),
+                         [&](const auto& branch) {
+                           return passes_through(t_.problem, branch.curve, point, options_.trace);
+                         });
+    });
+  }
+
+  void search(double lambda) {
+    const BranchSettings& settings = t_.study.branches;
+    const double scaled = lambda / t_.lambda_scale;
+    const auto known = known_at(t_.problem, grown_.diagram, scaled, options_.trace.newton);
+    const auto [low, high] = search_box(t_.problem, grown_.diagram, grown_.starts.front().x);
+    const auto found = continuation::search_at(
+        t_.problem, scaled, known,
+        {.low = low, .high = high, .starts = settings.starts, .seed = settings.seed});
+    Search report{.lambda = lambda, .starts = found.starts_used};
+    report.limit_reached = found.limit_reached;
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < found.solutions.size(); ++i) {
+      const DiagramStart start{found.solutions[i], scaled, found.pieces[i]};
+      if (lies_on_a_branch(start)) continue;
+      const CurvePoint point{.x = start.x, .lambda = scaled, .piece = start.piece};
+      if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) {
+        ++report.out_of_range;
+        continue;
+      }
+      ++report.found;
+      numbers.push_back(static_cast<int>(grown_.starts.size()));
+      grown_.starts.push_back(start);
+    }
+    grown_.searches.push_back(report);
+    found_.push_back(std::move(numbers));
+    if (report.found > 0) run();
+  }
+
+  void count_traced() {
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      for (const int number : found_[i]) {
+        const bool own = std::any_of(grown_.diagram.branches.begin(), grown_.diagram.branches.end(),
+                                     [number](const auto& b) { return b.start == number; });
+        if (own || lies_on_a_branch(grown_.starts[static_cast<std::size_t>(number)]))
+          ++grown_.searches[i].traced;
+      }
+  }
+
+  const Tracing& t_;
+  std::vector<continuation::Event> events_;
+  continuation::DiagramOptions options_{};
+  Grown grown_{};
+  std::vector<std::vector<int>> found_{};  ///< per search: numbers of its starts
+  bool stopped_ = false;                   ///< the observer wants no more
+};
+
+}  // namespace
+
+continuation::TraceOptions options_of(const TraceSettings& settings) {
+  continuation::TraceOptions options;
+  options.step.initial = settings.initial_step;
+  options.step.minimum = settings.minimum_step;
+  options.step.maximum = settings.maximum_step;
+  options.maximum_points = settings.maximum_points;
+  return options;
+}
+
+Grown grow_diagram(const Tracing& tracing, const CurvePoint& start) {
+  return Grower(tracing).grow(start);
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,35 @@
+// A study's bifurcation diagram: the engine's diagram of the start, and of what searches find.
+// Private to analysis.
+#pragma once
+
+#include "quantities.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/continuation/diagram.hpp"
+
+namespace springfold::analysis {
+
+/// What is needed to trace a study; the references must outlive it.
+struct Tracing {
+  const PathProblem& problem;
+  const Study& study;
+  const Evaluator& evaluator;
+  const std::vector<QuantityDefinition>& quantities;
+  const Observer& observer;
+  double lambda_scale = 1;  ///< physical lambda = lambda_scale * dimensionless lambda
+};
+
+continuation::TraceOptions options_of(const TraceSettings& settings);
+
+struct Grown {
+  continuation::Diagram diagram{};
+  std::vector<continuation::DiagramStart>
+      starts{};  ///< the study's own, then those that were found
+  std::vector<Search> searches{};
+};
+
+/// Traces the branches of the start and of all special points to the study's depth. At every lambda
+/// that the study names, further equilibria are searched for, in order; where some are found, all
+/// is traced again with them as further starts.
+Grown grow_diagram(const Tracing& tracing, const continuation::CurvePoint& start);
+
+}  // namespace springfold::analysis
