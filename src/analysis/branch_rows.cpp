@@ -38,6 +38,30 @@ std::vector<Entry> entries_of(const Curve& curve) {
   return entries;
 }
 
+/// Where a curve crosses another one at its tip, force and lambda turn back at the branch point
+/// itself: it says so, and the extremum of the force is no point of its own.
+Curve with_merged_force_limits(Curve curve) {
+  constexpr double same_place = 1e-6;
+  for (Hit& hit : curve.hits) {
+    if (hit.kind != HitKind::branch_point) continue;
+    const auto doubles = [&hit](const Hit& other) {
+      return other.kind == HitKind::user && other.name == force_limit &&
+             std::abs(other.point.s - hit.point.s) <= same_place;
+    };
+    if (std::any_of(curve.hits.begin(), curve.hits.end(), doubles))
+      hit.name += ", the force turns back";
+  }
+  const std::vector<Hit> all = curve.hits;
+  std::erase_if(curve.hits, [&all](const Hit& hit) {
+    return hit.kind == HitKind::user && hit.name == force_limit &&
+           std::any_of(all.begin(), all.end(), [&hit](const Hit& other) {
+             return other.kind == HitKind::branch_point &&
+                    std::abs(other.point.s - hit.point.s) <= same_place;
+           });
+  });
+  return curve;
+}
+
 /// The same curve walked the other way: s and tangents change sign, kinks swap their sides.
 std::vector<Entry> reversed(std::vector<Entry> entries) {
   std::reverse(entries.begin(), entries.end());
@@ -196,7 +220,8 @@ Curve nothing_behind(const Curve& curve) {
 
 BranchRows join(const BranchSource& source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
-  const Curve &backward = source.backward, &forward = source.forward;
+  const Curve backward = with_merged_force_limits(source.backward);
+  const Curve forward = with_merged_force_limits(source.forward);
   std::vector<Entry> entries = reversed(entries_of(backward));
   BranchRows rows;
   Branch& branch = rows.branch;

@@ -107,6 +107,24 @@ TEST(Diagram, CountsWaysBeyondItsBoundsAndIsCompleteAllTheSame) {
   EXPECT_EQ(ways_not_followed(result), 4);  // two at BP2, two at BP3
 }
 
+TEST(Diagram, HasNoLimitPointOfTheForceBesideABranchPointAtWhichItTurns) {
+  // Driven down, the sway branch passes BP4 at its tip: displacement and force both turn there.
+  const SteepTruss truss;
+  analysis::Study study = truss.study(1);
+  study.control = analysis::ControlMode::mixed;
+  const StudyResult result = run_study(truss.mechanism(), study);
+  ASSERT_GT(result.branches.size(), 1u);
+  EXPECT_THAT(labels_on(result.branches[1]), ElementsAre("BP1", "BP4", "BP1"));
+  EXPECT_THAT(result.branches[1].events[1].detail, HasSubstr("the force turns back"));
+  for (const auto& sample : result.branches[1].samples) {
+    const double x = sample.values[column(result, "apex.x")];
+    const double y = sample.values[column(result, "apex.y")];
+    const double left = std::hypot(x + truss.a, y), right = std::hypot(x - truss.a, y);
+    if (std::abs(x) < 1e-12) continue;
+    EXPECT_NEAR(x * (2 - 1 / left - 1 / right) + truss.a * (1 / right - 1 / left), 0, 1e-10);
+  }
+}
+
 TEST(Diagram, EndsABranchWhereTheRangeEnds) {
   const SteepTruss truss;
   analysis::Study study = truss.study(1);
