@@ -189,8 +189,11 @@ class Writer {
     for (std::size_t i = 0; i < diagram_.branches.size(); ++i)
       if (diagram_.branches[i].start == 0) own.push_back(static_cast<int>(i));
     const bool closed = own.size() == 1 && traced(own[0]).curve.stop == StopReason::closed;
-    if (own.size() == 2 || closed) return;
-    result_.start.situation = own.empty() ? "a point that no curve leaves" : "a branching kink";
+    std::string& situation = result_.start.situation;
+    if (own.size() != 2 && !closed)
+      situation = (own.empty() ? "a point that no curve leaves" : "a branching kink") +
+                  (situation.empty() ? "" : ", " + situation);
+    if (situation.empty()) return;
     for (const int i : own) add(traced(i).curve.points.front(), i);
   }
 

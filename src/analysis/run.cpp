@@ -51,6 +51,22 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   return rows.front().branch;
 }
 
+/// What is special about a start, as far as it is seen at once; branch points are found later.
+std::string situation_of(const Tracing& t, const CurvePoint& start,
+                         const continuation::Rays& rays) {
+  Vector g;
+  std::string names;
+  if (t.problem.switches(start.x, start.lambda, g))
+    for (Index j = 0; j < g.size(); ++j)
+      if (std::abs(g[j]) <= 1e-10) names += (names.empty() ? "" : ", ") + t.problem.switch_name(j);
+  if (!names.empty()) return "on the threshold of " + names;
+  const bool turns =
+      !rays.rays.empty() && std::all_of(rays.rays.begin(), rays.rays.end(), [](const auto& ray) {
+        return std::abs(ray.tangent.dlambda) < 1e-6;
+      });
+  return turns && rays.rays.size() == 2 ? "a limit point" : "";
+}
+
 Branch not_traced(const Tracing& t, const CurvePoint& start, const std::string& why) {
   Branch branch = single_point(start, t.evaluator, t.quantities, t.problem);
   branch.forward = branch.backward = {why, false};
@@ -64,11 +80,16 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
   const auto rays =
       rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
   const bool ordinary = rays.rays.size() == 2 && rays.complete;
+  result.start.situation = situation_of(t, start, rays);
   const auto outside = limit_passed(t.study, t.evaluator, t.quantities, start);
   if (ordinary && (outside || (wanted.depth == 0 && wanted.search_at.empty()))) {
-    if (std::abs(rays.rays[0].tangent.dlambda) < 1e-6 &&
-        std::abs(rays.rays[1].tangent.dlambda) < 1e-6)
-      result.start.situation = "a limit point";
+    if (!result.start.situation.empty())
+      for (const continuation::Ray& ray : rays.rays) {
+        CurvePoint along = start;
+        along.tangent = ray.tangent;
+        along.piece = ray.piece;
+        result.start.ways.push_back({t.evaluator.rates(t.quantities, along), 1});
+      }
     result.branches.push_back(trace_both_ways(t, start, rays));
     return;
   }

@@ -59,7 +59,24 @@ TEST(StartOnALimitPoint, IsSaidToBeOne) {
   const StudyResult result = run_study(truss.mechanism(), study);
   EXPECT_TRUE(complete(result));
   EXPECT_EQ(result.start.situation, "a limit point");
+  ASSERT_THAT(result.start.ways, SizeIs(2));
+  const std::size_t y = column(result, "apex.y");
+  EXPECT_LT(result.start.ways[0].rates[y] * result.start.ways[1].rates[y], 0);
   EXPECT_THAT(events_of_kind(result, EventKind::branch_point), SizeIs(4));
+}
+
+TEST(StartOnAThreshold, NamesTheSpringAndIsFollowedBothWays) {
+  // The knees stand at 15 degrees, where their springs begin to act.
+  const double angle = pi / 12;
+  auto study = diagonal_study(std::sin(angle));
+  const StudyResult result = run_study(planar_orthoglide(one_sided_knee()), study);
+  EXPECT_TRUE(complete(result));
+  EXPECT_EQ(result.start.situation,
+            "on the threshold of spring leg_x.knee (acts above 0.2618), spring leg_y.knee (acts "
+            "above 0.2618)");
+  EXPECT_THAT(result.start.ways, SizeIs(2));
+  EXPECT_GT(result.branches.front().start_row, 0u);
+  EXPECT_LT(result.branches.front().start_row + 1, result.branches.front().samples.size());
 }
 
 TEST(StartAwayFromEquilibrium, SaysHowFarTheSolveMovedIt) {
