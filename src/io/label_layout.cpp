@@ -173,6 +173,28 @@ bool is_labelled_already(const Figure& figure, const Scene& scene, std::size_t m
   return false;
 }
 
+/// Do two marks of one kind lie on each other? Mirrored points do where the mirror is not shown.
+bool is_covered(const Figure& figure, const Scene& scene, std::size_t a, std::size_t b) {
+  constexpr double near = 3;
+  return figure.marks[a].code == figure.marks[b].code &&
+         distance(scene.marks[a].centre, scene.marks[b].centre) < near;
+}
+
+/// "LP3, LP6": labels of all marks that lie on this one; empty if an earlier one has said them.
+std::string shared_label(const Figure& figure, const Scene& scene, std::size_t mark) {
+  for (std::size_t i = 0; i < mark; ++i)
+    if (is_covered(figure, scene, i, mark)) return "";
+  std::vector<std::string> labels;
+  for (std::size_t i = mark; i < figure.marks.size(); ++i) {
+    const std::string& label = figure.marks[i].label;
+    const bool is_new = std::find(labels.begin(), labels.end(), label) == labels.end();
+    if (is_new && !label.empty() && is_covered(figure, scene, i, mark)) labels.push_back(label);
+  }
+  std::string text;
+  for (const std::string& label : labels) text += (text.empty() ? "" : ", ") + label;
+  return text;
+}
+
 PlacedLabel placed(const std::string& text, const Candidate& best) {
   PlacedLabel label{.text = text, .at = best.box.centre};
   label.leader_from = best.anchor;
@@ -220,8 +242,9 @@ std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas
     labels.back().is_curve_label = is_curve_label;
   };
   for (std::size_t i = 0; i < figure.marks.size(); ++i) {
-    const auto& text = figure.marks[i].label;
-    if (text.empty() || is_labelled_already(figure, scene, i)) continue;
+    if (is_labelled_already(figure, scene, i)) continue;
+    const std::string text = shared_label(figure, scene, i);
+    if (text.empty()) continue;
     keep(text, place_of_mark(scene, box_of(text, canvas), scene.marks[i].centre), false);
   }
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

@@ -167,6 +167,19 @@ TEST(FigureOfADiagram, MarksAPointWhereBranchesMeetOnce) {
   EXPECT_EQ(labels, 1);
 }
 
+TEST(FigureOfADiagram, SaysTheLabelsOfPointsThatLieOnEachOtherTogether) {
+  Figure figure;
+  figure.high = {1, 1};
+  figure.marks = {{"LP", "LP1", {0.5, 0.5}},
+                  {"BP", "BP1", {0.5, 0.5}},
+                  {"LP", "LP2", {0.5, 0.5}},
+                  {"LP", "LP3", {0.8, 0.5}},
+                  {"LP", "LP1", {0.5, 0.5}}};
+  std::vector<std::string> texts;
+  for (const auto& label : place_labels(figure, {})) texts.push_back(label.text);
+  EXPECT_THAT(texts, ElementsAre("LP1, LP2", "BP1", "LP3"));
+}
+
 TEST(FigureOfOneBranch, TellsStabilityByColour) {
   std::vector<std::string> problems;
   const auto figures = figures_of(sample::two_runs(), sample::two_results(), problems);
