@@ -28,22 +28,34 @@ bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& 
     scale = std::max(scale, std::abs(values.back()));
   }
   if (!within_reach(values)) return true;
+  // At the ends the very values that the neighbouring steps see: a sign must not change in between.
   const auto value = [&](double ds) -> std::optional<double> {
+    if (ds == 0) return values.front();
+    if (ds == h) return values.back();
     const auto point = point_at(walker, from, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   constexpr double rounding = 1e-14, resolution = 1e-9;
   const ZeroSearch search = find_zeros(value, 0, h, rounding * scale, resolution * h);
+  const auto add = [&](CurvePoint point, double before, double after) {
+    Hit hit{.kind = HitKind::user, .name = event.name};
+    hit.point = std::move(point);
+    hit.s_before = from.s + before;
+    hit.s_after = from.s + after;
+    found.push_back({std::move(hit), event.action == EventAction::stop});
+  };
+  const double begin = from.s > 0 ? 0 : 1e-13 * h;  // a start that is on the event does not meet it
+  bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
-    if (zero.touches || !(zero.at > 1e-13 * h)) continue;
+    if (zero.touches || !(zero.at > begin)) continue;
     auto point = point_at(walker, from, zero.at);
     if (!point) return false;
-    Hit hit{.kind = HitKind::user, .name = event.name};
-    hit.point = std::move(*point);
-    hit.s_before = from.s + zero.before;
-    hit.s_after = from.s + zero.after;
-    found.push_back({std::move(hit), event.action == EventAction::stop});
+    at_end = at_end || zero.at == h;
+    add(std::move(*point), zero.before, zero.after);
   }
+  // Zero exactly at the end: a crossing if the sign beyond is another one.
+  const auto beyond = values.back() == 0 && values.front() != 0 ? value(1.01 * h) : std::nullopt;
+  if (beyond && !at_end && (*beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
   return search.resolved;
 }
 

@@ -14,6 +14,9 @@ constexpr double singular_pivot = 1e-15;
 /// Newton stops only when the next correction would be shorter than this.
 constexpr double refined_step = 1e-13;
 
+/// Corrections below this may be rounding of F, magnified by a nearly singular matrix.
+constexpr double noise_step = 1e-8;
+
 double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
 }
@@ -99,21 +102,23 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
       result.status = NewtonStatus::converged;
       return result;
     }
+    const bool settled =
+        small && (result.corrections.empty() || result.corrections.back() < noise_step);
     if (result.iterations == options.maximum_iterations) {
-      result.status = small ? NewtonStatus::converged : NewtonStatus::too_many_iterations;
+      result.status = settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations;
       return result;
     }
     if (!linearise(problem, result.x, result.lambda, piece, at)) return result;
     const auto step = solve_bordered(at, weights, border, -F, 0.0);
     if (!step) {
-      result.status = small ? NewtonStatus::converged : NewtonStatus::singular;
+      result.status = settled ? NewtonStatus::converged : NewtonStatus::singular;
       return result;
     }
     const double length = norm(weights, *step);
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > 0.1 && length < 1e-8) {
+      if (small && ratio > 0.1 && length < noise_step) {
         result.status = NewtonStatus::converged;
         return result;
       }

@@ -135,17 +135,18 @@ std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double leng
   return found;
 }
 
-/// The best ones of a wide window, on which rounding matters less, and narrower ones.
+/// The best ones of a wide window, on which rounding matters less, and narrower ones; none that
+/// belongs to other zeros of the determinant.
 std::vector<Singularity> multiple_zeros(const Arc& arc, double t, double free, Index m) {
-  const double wide = std::min(arc.high() - arc.low(), 0.8 * free);
   const auto worst = [](const std::vector<Singularity>& list) {
     double doubt = 0;
     for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
     return doubt;
   };
   std::vector<Singularity> best;
-  for (const double share : {1.0, 0.3, 0.1, 0.03}) {
-    auto found = multiple_zeros_on(arc, t, share * wide, m);
+  for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    auto found = multiple_zeros_on(arc, t, share * (arc.high() - arc.low()), m);
+    std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > 0.6 * free; });
     if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
     if (!best.empty() && worst(best) < 1e-12) break;
   }
@@ -332,19 +333,47 @@ bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroO
   return true;
 }
 
+/// Turns of lambda that rounding places worse than `poor`, though not far apart: one cluster with
+/// their number.
+Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) {
+  Candidate cluster{.at = turns.front().at,
+                    .before = turns.front().before,
+                    .after = turns.back().after,
+                    .point = point,
+                    .kind = HitKind::unresolved,
+                    .multiplicity = 0};
+  for (const ZeroOf& turn : turns) {
+    cluster.multiplicity += turn.several ? 3 : turn.touches ? 2 : 1;
+    cluster.odd = cluster.odd != !turn.touches;
+  }
+  return cluster;
+}
+
 bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
                       std::vector<Candidate>& found) {
-  for (const ZeroOf& turn : turns) {
+  for (std::size_t i = 0; i < turns.size();) {
+    const ZeroOf& turn = turns[i];
     const auto& point = arc.point(turn.at);
-    const bool rough = !turn.several && turn.off > poor;
-    if (!point || rough) return false;
-    Candidate candidate{.at = turn.at, .before = turn.before, .after = turn.after, .point = *point};
-    candidate.kind = turn.touches   ? HitKind::touch
-                     : turn.several ? HitKind::unresolved
-                                    : HitKind::limit_point;
-    if (turn.several) candidate.multiplicity = 3;
-    candidate.odd = !turn.touches;
-    found.push_back(std::move(candidate));
+    if (!point) return false;
+    std::size_t last = i;
+    while (last + 1 < turns.size() &&
+           turns[last + 1].at - turns[last].at < 100 * (turns[last + 1].off + turns[last].off))
+      ++last;
+    if (last > i || turn.several) {
+      const std::vector<ZeroOf> group(turns.begin() + static_cast<std::ptrdiff_t>(i),
+                                      turns.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+      found.push_back(cluster_of(group, *point));
+    } else {
+      if (turn.off > poor) return false;
+      found.push_back({.at = turn.at,
+                       .before = turn.before,
+                       .after = turn.after,
+                       .point = *point,
+                       .kind = turn.touches ? HitKind::touch : HitKind::limit_point,
+                       .multiplicity = turn.touches ? 2 : 1,
+                       .odd = !turn.touches});
+    }
+    i = last + 1;
   }
   return true;
 }

@@ -29,7 +29,7 @@ constexpr int grid = 200;
 /// Where the interpolant crosses zero, or has an extremum that reaches the level.
 std::vector<double> features_of(const Interpolant& p, double level) {
   std::vector<double> places;
-  const auto t = [&](int i) { return p.a + (p.b - p.a) * i / grid; };
+  const auto t = [&](int i) { return i == grid ? p.b : p.a + (p.b - p.a) * i / grid; };
   double before = p.first(t(0)), here = p.first(t(1));
   if ((before < 0) != (here < 0)) places.push_back(t(0));
   for (int i = 1; i < grid; ++i) {

@@ -185,5 +185,18 @@ TEST(StepControl, KeepsWithinItsLimits) {
   }
 }
 
+TEST(Ends, ExactlyAtTheEndOfAStepAreNotPassed) {
+  // x = 0 all along, steps of 2^-5: lambda is the limit itself after sixteen of them.
+  const ScalarProblem straight{[](double x, double) { return x; },
+                               [](double, double) { return 1.0; },
+                               [](double, double) { return 0.0; }};
+  TraceOptions options;
+  options.step.initial = options.step.maximum = 0x1p-5;
+  const Curve curve = follow(straight, at(0, 0, 0, 1), {lambda_reaches(0.5)}, options);
+  EXPECT_EQ(curve.stop, StopReason::event);
+  ASSERT_EQ(curve.hits.size(), 1u);
+  EXPECT_EQ(curve.hits[0].point.lambda, 0.5);
+}
+
 }  // namespace
 }  // namespace springfold::continuation
