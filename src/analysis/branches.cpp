@@ -1,10 +1,12 @@
 #include "branches.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
+#include "number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -40,6 +42,18 @@ EventKind kind_of_junction(HitKind kind) {
   return kind_of(hit);
 }
 
+/// The engine's sentence "... at lambda = 0.25" with lambda in the units of the case.
+std::string in_units(const std::string& sentence, double lambda_scale) {
+  const std::string words = " at lambda = ";
+  const std::size_t at = sentence.rfind(words);
+  if (at == std::string::npos) return sentence;
+  double lambda = 0;
+  const char* begin = sentence.data() + at + words.size();
+  const char* end = sentence.data() + sentence.size();
+  if (std::from_chars(begin, end, lambda).ptr != end) return sentence;
+  return sentence.substr(0, at) + words + rounded(lambda_scale * lambda);
+}
+
 /// Translates a diagram into a result.
 class Writer {
  public:
@@ -58,6 +72,7 @@ class Writer {
     result_.doubts = diagram_.doubts;
     // The last one: what the bounds leave out. It is counted by the junctions and no doubt.
     if (diagram_.not_followed > 0) result_.doubts.pop_back();
+    for (std::string& doubt : result_.doubts) doubt = in_units(doubt, t_.lambda_scale);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include "coincide.hpp"
 #include "kink_passage.hpp"
 #include "springfold/continuation/evidence.hpp"
+#include "springfold/continuation/locate.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -72,12 +73,22 @@ int Tracer::junction_at(const Hit& hit) {
   return -1;
 }
 
+/// Where to begin along a way out of a kink: a little further where lambda turns at the kink itself,
+/// because a trace that begins there would find a turn at its own start.
+CurvePoint clear_of_turn(const Walker& walker, const CurvePoint& leaving) {
+  constexpr double level = 1e-8, far_enough = 1e-3;
+  if (std::abs(leaving.tangent.dlambda) > level) return leaving;
+  const auto point = point_at(walker, leaving, far_enough);
+  return point ? *point : leaving;
+}
+
 /// Finds the ways out of a special point. A touch may have no more than the curve itself.
 int Tracer::add_junction(const Hit& hit) {
   Junction junction{
       .kind = hit.kind, .point = hit.point, .multiplicity = hit.multiplicity, .depth = depth_};
   if (hit.kind == HitKind::branching_kink) {
-    for (const CurvePoint& leaving : hit.leaving) junction.ways.push_back({leaving, leaving});
+    for (const CurvePoint& leaving : hit.leaving)
+      junction.ways.push_back({leaving, clear_of_turn(walker_, leaving)});
     CurvePoint back = hit.point;
     back.tangent.dx *= -1;
     back.tangent.dlambda *= -1;
@@ -182,16 +193,21 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
   near.trace.maximum_points = 500;
   bool reached = false;
   std::vector<Hit> between_them;
-  const auto hit_on_the_way = [&](const Hit& hit) {
+  const auto is_junction_itself = [&](const Hit& hit) {
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
-    reached = length_of(walker_, between(walker_, junction.point, hit.point)) <=
-              options_.same_place * scale;
+    return length_of(walker_, between(walker_, junction.point, hit.point)) <=
+           options_.same_place * scale;
+  };
+  const auto hit_on_the_way = [&](const Hit& hit) {
+    reached = is_junction_itself(hit);
     if (!reached) between_them.push_back(hit);
     return !reached;
   };
   const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
   const Curve way_back = trace(walker_.problem, back.x, back.lambda, {back.piece, back.tangent}, {},
                                near.trace, not_too_far, hit_on_the_way);
+  // A kink ends the trace by itself.
+  if (!reached && !way_back.hits.empty()) reached = is_junction_itself(way_back.hits.back());
   if (!reached) {
     doubt("a branch could not be traced back to its branch point", junction.point);
     return;

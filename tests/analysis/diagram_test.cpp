@@ -169,8 +169,8 @@ TEST(Diagram, TellsAKinematicSingularityFromABranchPoint) {
   EXPECT_THAT(events_of_kind(result, EventKind::branch_point), SizeIs(4 + 3 + 4));
 }
 
-/// N bars from a ring of radius R to a point on the axis, free length and stiffness 1.
-model::Mechanism dome(int bars, double R) {
+/// N bars from a ring of radius R to a point on the axis, free length 1.
+model::Mechanism dome(int bars, double R, double stiffness = 1) {
   using namespace model;
   const double h = std::sqrt(1 - R * R);
   Mechanism m;
@@ -188,11 +188,69 @@ model::Mechanism dome(int bars, double R) {
                                    .kind = JointKind::prismatic,
                                    .axis = Vec3<double>::UnitX(),
                                    .role = JointRole::compliant,
-                                   .spring = LinearSpring{1, 0}});
+                                   .spring = LinearSpring{stiffness, 0}});
     chain.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX()}});
     m.chains.push_back(std::move(chain));
   }
   return m;
+}
+
+TEST(Diagram, SaysInTheUnitsOfTheCaseWhereItHasDoubts) {
+  // Where a bar stands upright its turn is undetermined; which curves leave such a point is not known.
+  const double R = 0.4, h = std::sqrt(1 - R * R);
+  analysis::Study study;
+  study.name = "press";
+  study.direction = Vector{{0.0, 0.0, -1.0}};
+  study.until = {{"apex.z", -1.1 * h, 1.1 * h}};
+  study.branches.depth = 1;
+  const StudyResult result = run_study(dome(3, R, 1000), study);
+  EXPECT_FALSE(complete(result));
+  double upright = 0;
+  for (const auto& event : events_of_kind(result, EventKind::kinematic_singularity))
+    if (event.label == "KS1")
+      upright = std::abs(value(result, result.branches[1], event.row, "lambda"));
+  ASSERT_THAT(result.doubts, testing::Not(testing::IsEmpty()));
+  for (const std::string& doubt : result.doubts) {
+    const std::string words = "at lambda = ";
+    ASSERT_THAT(doubt, HasSubstr(words));
+    EXPECT_NEAR(std::abs(std::stod(doubt.substr(doubt.find(words) + words.size()))), upright,
+                0.01 * upright);
+  }
+}
+
+/// Three links of length 1; the hinge at the foot is twice as stiff when it turns to the left.
+TEST(Diagram, OfAColumnOnAOneSidedHingeHasAHalfBranchForEveryModeOfEachSide) {
+  using namespace model;
+  Mechanism m;
+  m.bodies.push_back({"tip", TaskSpace::xy, Vector{{3.0, 0.0}}});
+  Chain column_;
+  column_.name = "column";
+  for (const char* name : {"a", "b", "c"}) {
+    column_.elements.push_back(
+        Joint{.name = name, .role = JointRole::preloaded, .spring = LinearSpring{1, 0}});
+    column_.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX()}});
+  }
+  std::get<Joint>(column_.elements[0]).spring =
+      PiecewiseLinearSpring{.breakpoints = {0}, .stiffnesses = {1, 2}};
+  m.chains.push_back(column_);
+  analysis::Study study;
+  study.name = "press";
+  study.direction = Vector{{-1.0, 0.0}};
+  study.until = {{"lambda", -0.2, 4}, {"column.a", -1, 1}};
+  study.branches.depth = 1;
+  const StudyResult result = run_study(m, study);
+  EXPECT_TRUE(complete(result));
+  ASSERT_THAT(result.branches, SizeIs(7));
+  const auto soft = [](int j) { return 4 * std::pow(std::sin((2 * j - 1) * pi / 14), 2); };
+  const std::vector<double> loads{soft(1), 2 - std::sqrt(3), soft(2), 2, soft(3), 2 + std::sqrt(3)};
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Branch& branch = result.branches[i + 1];
+    EXPECT_EQ(branch.origin, "KB" + std::to_string(i + 1));
+    EXPECT_NEAR(value(result, branch, 0, "lambda"), loads[i], 1e-10);
+    // The first, third and fifth bend to the soft side of the hinge.
+    const double foot = value(result, branch, branch.samples.size() - 1, "column.a");
+    EXPECT_EQ(foot < 0, i % 2 == 0) << branch.origin;
+  }
 }
 
 TEST(Diagram, OfATripodHasThreeCurvesThroughEachDoublePoint) {
