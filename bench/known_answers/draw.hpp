@@ -29,7 +29,6 @@ struct Answer {
   Vector z{};
   int multiplicity = 1;   ///< branch points: corank; kinks and corners: number of switches
   double separation = 1;  ///< distance in (z, lambda) to the next answer over size; 1: no other one
-  double rounding = 0;    ///< rounding of F alone moves it by about this much
 };
 
 /// The curve ends where `inside` falls to zero.
@@ -48,6 +47,8 @@ struct Draw {
   double gap = 1;                 ///< distance of the nearest other branch or arm, over size
   std::vector<Answer> answers{};  ///< on the curve through the start, within the limits
   bool blurred = false;           ///< in double precision not all answers can be told apart
+  /// Decides `blurred` for a slope dlambda/dz with this error. Empty: never blurred.
+  std::function<bool(double error)> blurs{};
   /// On the smooth branch of the start, also beyond branch points? Empty: there is no other one.
   std::function<bool(const Vector& z, double lambda)> on_curve{};
   /// Strictly monotone along the branch.

@@ -1,7 +1,9 @@
 #include "judge.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace springfold::known_answers {
 namespace {
@@ -35,11 +37,41 @@ struct Matching {
   const Draw& draw;
   Verdict& verdict;
   std::vector<const Hit*> hits{};
+  std::vector<const Curve*> curves{};  ///< of the hits
   std::vector<bool> answered{}, explained{};
+
+  void add(const Hit& hit, const Curve& curve) {
+    hits.push_back(&hit);
+    curves.push_back(&curve);
+  }
 
   double off(const Answer& a, const Hit& hit) const {
     return std::max((problem.base_point(hit.point.x) - a.z).norm(),
                     std::abs(hit.point.lambda - a.lambda));
+  }
+
+  /// Eigenvalue of dF/dq nearest to zero, and the error that rounding of dF/dq makes in it.
+  std::pair<double, double> least_eigenvalue(const CurvePoint& p) const {
+    Matrix H;
+    Vector F_lambda;
+    problem.derivatives(p.x, p.lambda, p.piece, H, F_lambda);
+    const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(H).eigenvalues();
+    return {values.cwiseAbs().minCoeff(), 4 * std::numeric_limits<double>::epsilon() * H.norm()};
+  }
+
+  /// How far rounding of dF/dq moves the place where its eigenvalue is zero: the slope of the
+  /// eigenvalue along the curve is taken from the stored points around it, and measured in z.
+  double rounding(const Hit& hit, const Curve& curve) const {
+    const auto after = std::find_if(curve.points.begin(), curve.points.end(),
+                                    [&](const CurvePoint& p) { return p.s > hit.point.s; });
+    if (after == curve.points.end() || after == curve.points.begin()) return 0;
+    double worst = 0;
+    for (const CurvePoint* p : {&*after, &*(after - 1)}) {
+      const auto [eigenvalue, error] = least_eigenvalue(*p);
+      const double way = (problem.base_point(p->x) - problem.base_point(hit.point.x)).norm();
+      worst = std::max(worst, eigenvalue > 0 ? error / eigenvalue * way : 1);
+    }
+    return worst;
   }
 
   /// Nearest pairs first; those with the right label before the others.
@@ -59,6 +91,30 @@ struct Matching {
       answered[pair.answer] = explained[pair.hit] = true;
       verdict.answers[pair.answer].outcome = pair.label ? Outcome::found : Outcome::mislabelled;
       verdict.answers[pair.answer].place_error = pair.off / std::max(1.0, draw.size);
+      verdict.answers[pair.answer].rounding =
+          rounding(*hits[pair.hit], *curves[pair.hit]) / std::max(1.0, draw.size);
+    }
+  }
+
+  /// A touch has multiplicity two: it may stand for two folds in one cluster.
+  void pairs_of_folds() {
+    for (std::size_t j = 0; j < hits.size(); ++j) {
+      if (hits[j]->kind != HitKind::touch) continue;
+      std::vector<std::size_t> folds;
+      for (std::size_t i = 0; i < draw.answers.size(); ++i) {
+        const Answer& a = draw.answers[i];
+        const bool open = verdict.answers[i].outcome == Outcome::missed ||
+                          verdict.answers[i].outcome == Outcome::mislabelled;
+        if (a.kind == AnswerKind::fold && open && a.separation < may_be_cluster &&
+            off(a, *hits[j]) < may_be_cluster * std::max(1.0, draw.size))
+          folds.push_back(i);
+      }
+      if (folds.size() != 2) continue;
+      explained[j] = true;
+      for (const std::size_t i : folds) {
+        answered[i] = true;
+        verdict.answers[i].outcome = Outcome::cluster;
+      }
     }
   }
 
@@ -152,20 +208,18 @@ void excuse(const Embedded& problem, const Draw& draw, const Followed& followed,
 Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed) {
   Verdict verdict{.family = draw.family, .gap = draw.gap, .separation = smallest_separation(draw)};
   verdict.blurred = draw.blurred;
-  for (const Answer& a : draw.answers)
-    verdict.answers.push_back(
-        {.separation = a.separation, .rounding = a.rounding / std::max(1.0, draw.size)});
+  for (const Answer& a : draw.answers) verdict.answers.push_back({.separation = a.separation});
   verdict.refused = !followed.refusal.empty();
   Matching matching{problem, draw, verdict};
   for (const Curve& curve : followed.curves) {
     check_points(problem, draw, curve, verdict);
     for (const Hit& hit : curve.hits)
-      if (hit.kind != HitKind::user && hit.kind != HitKind::unresolved)
-        matching.hits.push_back(&hit);
+      if (hit.kind != HitKind::user && hit.kind != HitKind::unresolved) matching.add(hit, curve);
   }
   matching.answered.resize(draw.answers.size());
   matching.explained.resize(matching.hits.size());
   matching.match();
+  matching.pairs_of_folds();
   matching.false_events();
   excuse(problem, draw, followed, matching.answered, verdict);
   return verdict;

@@ -41,12 +41,10 @@ double largest(const std::vector<double>& c, double low, double high) {
   return value;
 }
 
-/// How well the places can be known if the slope p' has errors of 1e-14 of its largest value. Near
-/// a_i it is C (x - a_i)^m. A fold moves by error / C. A touch is known from the change of the slope
-/// around it, out to its neighbours; but it is no longer one place if the slope is within the errors
-/// up to a tenth of the way to them.
-void judge_rounding(Draw& draw, double error, double c, const std::vector<double>& places,
-                    const std::vector<int>& order) {
+/// Can the places be told apart if the slope p' has this error? Near a_i it is C (x - a_i)^m; a place
+/// is no longer one if the slope is within the error up to a tenth of the way to its neighbours.
+bool blurs(double error, double c, const std::vector<double>& places,
+           const std::vector<int>& order) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     double C = std::abs(c), width = 0.1;
     for (std::size_t j = 0; j < places.size(); ++j) {
@@ -55,9 +53,9 @@ void judge_rounding(Draw& draw, double error, double c, const std::vector<double
       C *= std::pow(distance, order[j]);
       width = std::min(width, distance);
     }
-    draw.answers[i].rounding = order[i] == 1 ? error / C : error / (C * width);
-    if (std::pow(error / C, 1.0 / order[i]) > 0.1 * width) draw.blurred = true;
+    if (std::pow(error / C, 1.0 / order[i]) > 0.1 * width) return true;
   }
+  return false;
 }
 
 }  // namespace
@@ -92,8 +90,7 @@ Draw fold_ladder(Random& random) {
   for (std::size_t i = 0; i < places.size(); ++i)
     draw.answers.push_back({order[i] == 1 ? AnswerKind::fold : AnswerKind::touch,
                             polynomial(p, places[i]), scalar(places[i])});
-  judge_rounding(draw, 1e-14 * largest(slope, -1.5, 1.5), c, places, order);
-  if (draw.blurred) draw.family = "fold ladder, blurred";
+  draw.blurs = [c, places, order](double error) { return blurs(error, c, places, order); };
   limit_unknown(draw, 0, -1.5, 1.5);
   draw.z_start = scalar(uniform(random, -1.4, -1.1));
   draw.lambda_start = polynomial(p, draw.z_start[0]);
