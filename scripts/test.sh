@@ -8,3 +8,6 @@ scripts/setup.sh
 cmake --preset release --log-level=NOTICE -DSPRINGFOLD_WARNINGS_AS_ERRORS=ON
 cmake --build --preset release
 ctest --preset release --parallel "$(nproc)" --no-label-summary
+
+# The engine against problems with known answers; scripts/known-answers.sh runs more of them.
+build/release/bench/known_answers 1000 1 --check

@@ -1,0 +1,256 @@
+#include "arc.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "chebyshev.hpp"
+#include "springfold/continuation/branch_point.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// A branch point on the arc, from the curve's points around it: (x, lambda) and Sigma are
+/// interpolated on a window; neither is ever computed at the singular point itself.
+struct Singularity {
+  double at = 0;
+  Vector u{};        ///< (x, lambda)
+  double doubt = 0;  ///< how far the place may be off
+};
+
+/// The curve's points near t, interpolated.
+std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
+  const auto [a, b] = window_around(t, length, arc.low(), arc.high());
+  return interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto& p = arc.point(ds);
+        if (!p) return std::nullopt;
+        Vector u(p->x.size() + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+}
+
+/// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
+std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double length, Index m) {
+  const auto curve = curve_near(arc, t, length);
+  if (!curve) return {};
+  const Index n = arc.from().x.size();
+  CurvePoint centre = arc.from();
+  centre.x = (*curve)(t).head(n);
+  centre.lambda = (*curve)(t)[n];
+  const auto E = arc.matrix(centre);
+  if (!E) return {};
+  const Borders borders = borders_of(*E, m);
+  const auto Sigma = interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto entries = arc.sigma(ds, borders);
+        return entries ? std::optional<Vector>(entries->reshaped()) : std::nullopt;
+      },
+      curve->a, curve->b);
+  if (!Sigma) return {};
+  std::vector<Singularity> found;
+  for (const double start : {t, curve->a, curve->b}) {
+    double place = start;
+    // All entries are multiples of t - t* near the place.
+    for (int i = 0; i < 40; ++i) {
+      const Vector s = (*Sigma)(place), d = Sigma->slope(place);
+      const double step = -d.dot(s) / d.squaredNorm();
+      if (!std::isfinite(step)) break;
+      place = std::clamp(place + step, curve->a, curve->b);
+      if (std::abs(step) < 1e-15) break;
+    }
+    // What is left of Sigma, as an error of the place.
+    const double left = (*Sigma)(place).norm() / Sigma->slope(place).norm();
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
+      return std::abs(other.at - place) < 2 * merged;
+    });
+    if (left <= merged && !known) found.push_back({place, (*curve)(place), left});
+  }
+  return found;
+}
+
+/// The best ones of a wide window, on which rounding matters less, and narrower ones; none that
+/// belongs to other zeros of the determinant.
+std::vector<Singularity> multiple_zeros(const Arc& arc, double t, double free, Index m) {
+  const auto worst = [](const std::vector<Singularity>& list) {
+    double doubt = 0;
+    for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
+    return doubt;
+  };
+  std::vector<Singularity> best;
+  for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    auto found = multiple_zeros_on(arc, t, share * (arc.high() - arc.low()), m);
+    std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > 0.6 * free; });
+    if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
+    if (!best.empty() && worst(best) < 1e-12) break;
+  }
+  return best;
+}
+
+/// Removes what is left of the residual within the directions that dF sees well.
+/// @returns what stays in the others against the rounding of F, or infinity: a true branch point
+///          leaves rounding only, branches that pass each other closely leave their distance
+double polish(const Arc& arc, CurvePoint& point, Index corank) {
+  const auto& walker = arc.walker();
+  Vector F;
+  double left = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const auto E = arc.matrix(point);
+    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return left;
+    const Borders borders = borders_of(*E, corank);
+    const Index n = F.size(), m = corank;
+    const Vector sizes = point.x.cwiseAbs().cwiseMax(1e-3);
+    const double rounding_of_F = std::numeric_limits<double>::epsilon() *
+                                 (E->topLeftCorner(n, n) * sizes.asDiagonal()).norm();
+    left = (borders.B.topRows(n).transpose() * F).norm() / std::max(1e-300, rounding_of_F);
+    Matrix A(n + 1 + m, n + 1 + m);
+    A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
+    Vector right = Vector::Zero(n + 1 + m);
+    right.head(n) = -F;
+    const Vector step = A.partialPivLu().solve(right);
+    if (i == 2 || !step.allFinite() || step.head(n + 1).norm() > 1e-6) return left;
+    point.x += step.head(n);
+    point.lambda += step[n];
+  }
+  return left;
+}
+
+/// A simple branch point re-solved by its augmented system, if that agrees.
+std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) {
+  if (found.kind != HitKind::branch_point || found.multiplicity != 1) return std::nullopt;
+  auto refined = refine_branch_point(arc.walker(), found.point);
+  if (!refined) return std::nullopt;
+  const Direction moved{refined->x - found.point.x, refined->lambda - found.point.lambda};
+  if (metric_product(arc.walker().weights, moved, moved) > merged * merged) return std::nullopt;
+  return refined;
+}
+
+/// A branch point from its place; nothing if the branches do not meet there.
+std::optional<Candidate> candidate_at(const Arc& arc, const Singularity& place,
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+  Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
+  result.point = arc.from();
+  const Index n = arc.from().x.size();
+  result.point.x = place.u.head(n);
+  result.point.lambda = place.u[n];
+  result.multiplicity = static_cast<int>(m);
+  result.kind = touches ? HitKind::touch : HitKind::branch_point;
+  result.odd = m % 2 == 1 && !touches;
+  polish(arc, result.point, m);
+  if (const auto refined = refined_point(arc, result)) result.point = *refined;
+  if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
+  return result;
+}
+
+/// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
+/// place, otherwise a simple one, where the zero is.
+std::vector<Candidate> branch_points_at(const Arc& arc, const std::vector<ZeroOf>& zeros,
+                                        Index most, double free) {
+  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
+  const auto crossings =
+      std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
+  std::vector<Candidate> result;
+  const auto add = [&](const Singularity& place, Index m, bool touches) {
+    if (auto candidate = candidate_at(arc, place, zeros, m, touches))
+      result.push_back(std::move(*candidate));
+  };
+  for (Index m = most; m > 1; --m) {
+    const auto places = multiple_zeros(arc, middle, free, m);
+    for (const Singularity& place : places) add(place, m, false);
+    // Some of the eigenvalues may only touch zero: the determinant knows.
+    if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
+    if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
+  }
+  if (zeros.size() > 1) return {};
+  if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+    add({middle, (*curve)(middle)}, 1, zeros.front().touches);
+  return result;
+}
+
+/// Distance from zeros[first..last] to the nearest other one.
+double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::size_t last,
+                   double length) {
+  double free = length;
+  if (first > 0) free = std::min(free, zeros[first].at - zeros[first - 1].at);
+  if (last + 1 < zeros.size()) free = std::min(free, zeros[last + 1].at - zeros[last].at);
+  return free;
+}
+
+}  // namespace
+
+Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
+  if (!arc.walker().options.branch_points) return {};
+  std::vector<Matrix> E;
+  for (const CurvePoint* p : samples) {
+    const auto matrix = arc.matrix(*p);
+    if (!matrix) return {.resolved = false};
+    E.push_back(*matrix);
+  }
+  bool regular = true;
+  double reach = 0;
+  const std::size_t middle = E.size() / 2;
+  for (std::size_t i = 0; i < E.size(); ++i) {
+    if (i == middle) continue;
+    regular = regular && surely_regular(E[middle], E[i]);
+    reach = std::max(reach, (E[i] - E[middle]).norm());
+  }
+  if (regular) return {};
+  Search result{.order = small_singular_values(E[middle], 2 * reach)};
+  const Borders borders = borders_of(E[middle], result.order);
+  double scale = 0, entries = 0;
+  const auto determinant = [&](double ds) -> std::optional<double> {
+    const auto Sigma = arc.sigma(ds, borders);
+    if (!Sigma) return std::nullopt;
+    const double value = Sigma->determinant();
+    scale = std::max(scale, std::abs(value));
+    entries = std::max(entries, Sigma->norm());
+    return value;
+  };
+  for (const double t : {0.0, 0.5, 1.0})
+    if (!determinant(t * arc.length())) return {.resolved = false};
+  const ZeroSearch found =
+      find_zeros(determinant, 0, (1 + beyond) * arc.length(), rounding * scale, resolution);
+  result.zeros = found.zeros;
+  result.resolved = found.resolved;
+  return result;
+}
+
+bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroOf>& turns,
+                       std::vector<Candidate>& found) {
+  const auto& zeros = singular.zeros;
+  const auto add = [&](const std::vector<ZeroOf>& group, double free) {
+    auto candidates = branch_points_at(arc, group, singular.order, free);
+    if (candidates.empty()) return false;
+    for (Candidate& candidate : candidates) {
+      // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
+      std::erase_if(turns, [&](const ZeroOf& turn) {
+        const bool here = std::abs(turn.at - candidate.at) <= merged + 50 * turn.off;
+        if (here && !turn.touches) candidate.odd = !candidate.odd;
+        return here;
+      });
+      found.push_back(std::move(candidate));
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < zeros.size();) {
+    std::size_t last = i;
+    while (last + 1 < zeros.size() && zeros[last + 1].at - zeros[last].at < together) ++last;
+    const double free = free_length(zeros, i, last, arc.length());
+    const std::vector<ZeroOf> group(zeros.begin() + static_cast<std::ptrdiff_t>(i),
+                                    zeros.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    bool explained = add(group, free);
+    if (!explained && last > i) {  // close, but not one point
+      explained = true;
+      for (std::size_t k = i; k <= last; ++k)
+        explained = add({zeros[k]}, free_length(zeros, k, k, arc.length())) && explained;
+    }
+    if (!explained) return false;
+    i = last + 1;
+  }
+  return true;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,84 @@
+// A step on which special points are looked for, and what is found on it. Private to the engine.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "bordered_test.hpp"
+#include "springfold/continuation/locate.hpp"
+#include "zeros.hpp"
+
+namespace springfold::continuation {
+
+inline constexpr double together = 1e-5;  // arc length within which zeros are examined as one point
+inline constexpr double resolution = 1e-7;   // of features of one function
+inline constexpr double rounding = 1e-11;    // of a function against its size
+inline constexpr double unit_noise = 1e-13;  // rounding of a tangent's component
+inline constexpr double merged = 1e-7;       // zeros that are closer are one multiple zero
+inline constexpr double poor = 1e-8;  // a limit point that cannot be placed better is not resolved
+inline constexpr double apart = 200;  // residual over rounding at which branches do not meet
+inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
+
+/// One step, its points (each computed once), and what is watched on it.
+class Arc {
+ public:
+  Arc(const Walker& walker, const CurvePoint& from, double length)
+      : walker_{walker}, from_{from}, length_{length} {}
+
+  const Walker& walker() const { return walker_; }
+  const CurvePoint& from() const { return from_; }
+  double length() const { return length_; }
+  double low() const { return -beyond * length_; }
+  double high() const { return (1 + beyond) * length_; }
+
+  const std::optional<CurvePoint>& point(double ds) const {
+    auto found = points_.find(ds);
+    if (found == points_.end()) found = points_.emplace(ds, point_at(walker_, from_, ds)).first;
+    return found->second;
+  }
+  std::optional<double> rate(double ds) const {
+    const auto& p = point(ds);
+    return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
+  }
+  std::optional<Matrix> matrix(const CurvePoint& p) const {
+    Linearisation at;
+    if (!linearise(walker_.problem, p.x, p.lambda, p.piece, at)) return std::nullopt;
+    return extended_matrix(at, walker_.weights, from_.tangent);
+  }
+  std::optional<Matrix> sigma(double ds, const Borders& borders) const {
+    const auto& p = point(ds);
+    const auto E = p ? matrix(*p) : std::nullopt;
+    return E ? sigma_of(*E, borders) : std::nullopt;
+  }
+
+ private:
+  const Walker& walker_;
+  const CurvePoint& from_;
+  double length_;
+  mutable std::map<double, std::optional<CurvePoint>> points_{};
+};
+
+/// A special point on the arc before its label is final.
+struct Candidate {
+  double at = 0, before = 0, after = 0;
+  CurvePoint point{};
+  HitKind kind = HitKind::limit_point;
+  int multiplicity = 1;
+  bool odd = false;  ///< an odd number of eigenvalues change sign here
+};
+
+struct Search {
+  std::vector<ZeroOf> zeros{};
+  bool resolved = true;
+  Index order = 1;
+};
+
+/// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
+Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& samples);
+
+/// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
+/// @returns false when a zero could not be told to be a branch point
+bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroOf>& turns,
+                       std::vector<Candidate>& found);
+
+}  // namespace springfold::continuation
