@@ -16,6 +16,7 @@ namespace {
 struct Singularity {
   double at = 0;
   Vector u{};        ///< (x, lambda)
+  Vector along{};    ///< its rate along the arc
   double doubt = 0;  ///< how far the place may be off
 };
 
@@ -67,7 +68,8 @@ std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double leng
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
       return std::abs(other.at - place) < 2 * merged;
     });
-    if (left <= merged && !known) found.push_back({place, (*curve)(place), left});
+    if (left <= merged && !known)
+      found.push_back({place, (*curve)(place), curve->slope(place), left});
   }
   return found;
 }
@@ -136,6 +138,11 @@ std::optional<Candidate> candidate_at(const Arc& arc, const Singularity& place,
   const Index n = arc.from().x.size();
   result.point.x = place.u.head(n);
   result.point.lambda = place.u[n];
+  Direction& tangent = result.point.tangent;
+  tangent = {place.along.head(n), place.along[n]};
+  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
+  tangent.dx /= length;
+  tangent.dlambda /= length;
   result.multiplicity = static_cast<int>(m);
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;
@@ -166,7 +173,7 @@ std::vector<Candidate> branch_points_at(const Arc& arc, const std::vector<ZeroOf
   }
   if (zeros.size() > 1) return {};
   if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
-    add({middle, (*curve)(middle)}, 1, zeros.front().touches);
+    add({middle, (*curve)(middle), curve->slope(middle)}, 1, zeros.front().touches);
   return result;
 }
 

@@ -42,26 +42,4 @@ std::optional<Located> locate(const Walker& walker, const CurvePoint& from, doub
   return Located{std::move(*point), std::min(low, high), std::max(low, high)};
 }
 
-std::optional<Located> locate_count(const Walker& walker, const CurvePoint& from, double a,
-                                    double b, const std::function<long(const CurvePoint&)>& count,
-                                    double tolerance) {
-  const auto first = point_at(walker, from, a);
-  auto last = point_at(walker, from, b);
-  if (!first || !last) return std::nullopt;
-  const long at_a = count(*first);
-  if (count(*last) == at_a) return std::nullopt;
-  while (b - a > tolerance) {
-    const double middle = 0.5 * (a + b);
-    auto point = point_at(walker, from, middle);
-    if (!point) return std::nullopt;
-    if (count(*point) == at_a) {
-      a = middle;
-    } else {
-      b = middle;
-      last = std::move(point);
-    }
-  }
-  return Located{std::move(*last), a, b};
-}
-
 }  // namespace springfold::continuation

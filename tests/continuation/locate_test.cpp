@@ -88,27 +88,49 @@ TEST(BranchPoint, IsNotInventedWhereBranchesOnlyComeClose) {
   EXPECT_FALSE(refine_branch_point(walker, near).has_value());
 }
 
-TEST(BranchPoint, OfTwoModesAtOnceIsRefinedAsADoublePoint) {
+TEST(BranchPoint, OfTwoModesAtOnceIsLocatedOnTheCurveWithItsCorank) {
   const TwoModes modes{1, 1};
-  const Walker walker{modes, Vector::Ones(2), {}};
-  CurvePoint near;
-  near.x = Vector{{1e-6, -2e-6}};
-  near.lambda = 1 + 1e-6;
-  near.tangent = {Vector::Zero(2), 1};
-  const auto refined = refine_multiple_point(walker, near, 2);
-  ASSERT_TRUE(refined.has_value());
-  EXPECT_NEAR(refined->lambda, 1, 1e-10);
+  const Curve curve =
+      follow(modes, {Vector::Zero(2), 0.2, {}, {Vector::Zero(2), 1}}, {lambda_reaches(2)});
+  const auto hits = hits_of(curve, HitKind::branch_point);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].multiplicity, 2);
+  EXPECT_NEAR(hits[0].point.lambda, 1, 1e-12);
 }
 
-TEST(Corank, CountsTheEigenvaluesThatAreZero) {
+TEST(BranchPoint, IsFoundInProblemsThatAreNotSymmetric) {
+  // x (l - x) = 0 and y - x^2 = 0, rows mixed.
+  struct Mixed {
+    static Index size() { return 2; }
+    static bool residual(const Vector& z, double l, Vector& F) {
+      const double f = z[0] * (l - z[0]), g = z[1] - z[0] * z[0];
+      F = Vector{{f + 2 * g, 3 * f - g}};
+      return true;
+    }
+    static bool derivatives(const Vector& z, double l, Matrix& dF_dx, Vector& dF_dlambda) {
+      const double f_x = l - 2 * z[0], g_x = -2 * z[0];
+      dF_dx = Matrix{{f_x + 2 * g_x, 2}, {3 * f_x - g_x, -1}};
+      dF_dlambda = Vector{{z[0], 3 * z[0]}};
+      return true;
+    }
+  };
+  for (const double x : {0.0, -0.7}) {  // along x = 0, and along x = l
+    const Curve curve = follow(Mixed{}, {Vector{{x, x * x}}, -0.7, {}, {Vector::Zero(2), 1}},
+                               {lambda_reaches(0.9)});
+    ASSERT_EQ(curve.hits.size(), 2u) << x;
+    EXPECT_EQ(curve.hits[0].kind, HitKind::branch_point);
+    EXPECT_EQ(curve.hits[0].multiplicity, 1);
+    EXPECT_NEAR(curve.hits[0].point.lambda, 0, 1e-10);
+    EXPECT_LT(curve.hits[0].point.x.norm(), 1e-10);
+  }
+}
+
+TEST(Spectrum, IsThatOfTheMatrixAtThePoint) {
   const TwoModes modes{1, 1.4};
   const Walker walker{modes, Vector::Ones(2), {}};
   CurvePoint p;
   p.x = Vector::Zero(2);
-  for (const auto& [lambda, corank] : {std::pair{0.5, 0}, {1.0, 1}, {1.4, 1}}) {
-    p.lambda = lambda;
-    EXPECT_EQ(corank_at(walker, p), corank) << "lambda = " << lambda;
-  }
+  p.lambda = 1.4;
   EXPECT_EQ(spectrum_at(walker, p)->size(), 2);
   EXPECT_NEAR((*spectrum_at(walker, p))[0], -0.4, 1e-15);
 }

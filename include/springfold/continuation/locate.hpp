@@ -24,9 +24,4 @@ struct Located {
 std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,
                               const std::function<double(const CurvePoint&)>& value);
 
-/// Bisects until a count that differs at a and b changes within `tolerance`.
-std::optional<Located> locate_count(const Walker& walker, const CurvePoint& from, double a,
-                                    double b, const std::function<long(const CurvePoint&)>& count,
-                                    double tolerance);
-
 }  // namespace springfold::continuation

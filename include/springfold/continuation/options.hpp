@@ -31,7 +31,7 @@ struct TraceOptions {
   bool verify = true;  ///< look inside every accepted step (evidence.hpp)
   bool limit_points = true;
   bool branch_points = true;
-  double location_tolerance = 1e-13;  ///< of special points, relative to the step they lie in
+  double location_tolerance = 1e-13;  ///< of kinks, relative to the step they lie in
   double simultaneous = 1e-10;        ///< switches this close to zero at a kink act together
 };
 
