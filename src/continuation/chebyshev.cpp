@@ -54,7 +54,7 @@ std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>
 
 std::pair<double, double> window_around(double t, double length, double a, double b) {
   length = std::min(length, b - a);
-  const double from = std::clamp(t - 0.5 * length, a, b - length);
+  const double from = std::clamp(t - 0.5 * length, a, std::max(a, b - length));
   return {from, from + length};
 }
 
