@@ -165,9 +165,10 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   point.lambda = start.lambda;
   point.piece = start.piece;
   const std::vector<Index> active = active_switches(walker_, start.x, start.lambda);
-  if (active.empty() && corank_of(walker_, point) > 0) {
+  const int corank = active.empty() ? corank_of(walker_, point) : 0;
+  if (corank > 0) {
     Hit hit{.kind = HitKind::branch_point, .point = point};
-    hit.multiplicity = corank_of(walker_, point);
+    hit.multiplicity = corank;
     depth_ = -1;  // its branches have depth 0
     if (junction_at(hit) < 0) queue_ways(add_junction(hit));
     return;

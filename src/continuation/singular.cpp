@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arc.hpp"
+#include "watched_step.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 /// Zeros of lambda's rate.
-Search turns_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
+WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
   std::vector<double> rates;
   double scale = 0;
   for (const CurvePoint* p : samples) rates.push_back(p->tangent.dlambda);
@@ -37,7 +37,7 @@ Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) 
   return cluster;
 }
 
-bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
+bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
                       std::vector<Candidate>& found) {
   for (std::size_t i = 0; i < turns.size();) {
     const ZeroOf& turn = turns[i];
@@ -67,7 +67,7 @@ bool add_limit_points(const Arc& arc, const std::vector<ZeroOf>& turns,
 }
 
 /// Number of negative eigenvalues on the arc, counted away from special points.
-std::optional<Index> negative_at(const Arc& arc, double ds) {
+std::optional<Index> negative_at(const WatchedStep& arc, double ds) {
   const auto& p = arc.point(ds);
   return p ? p->negative : std::nullopt;
 }
@@ -80,7 +80,8 @@ struct Explained {
 
 /// Between any two neighbouring special points the count of negative eigenvalues must not change, and
 /// at each one only as much as it explains.
-std::string accounting(const Arc& arc, const std::vector<Candidate>& found, const CurvePoint& to) {
+std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& found,
+                       const CurvePoint& to) {
   std::optional<Index> before = arc.from().negative;
   Explained since{};
   for (std::size_t i = 0; i <= found.size(); ++i) {
@@ -103,7 +104,7 @@ std::string accounting(const Arc& arc, const std::vector<Candidate>& found, cons
   return {};
 }
 
-Hit hit_of(const Arc& arc, Candidate candidate) {
+Hit hit_of(const WatchedStep& arc, Candidate candidate) {
   const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
                      : candidate.kind == HitKind::branch_point ? "branch point"
                      : candidate.kind == HitKind::touch
@@ -125,9 +126,9 @@ SingularPoints singular_points(const Walker& walker,
                                const std::vector<const CurvePoint*>& samples) {
   SingularPoints result;
   const CurvePoint &from = *samples.front(), &to = *samples.back();
-  const Arc arc(walker, from, to.s - from.s);
-  Search turns = turns_on(arc, samples);
-  const Search singular = singularities_on(arc, samples);
+  const WatchedStep arc(walker, from, to.s - from.s);
+  WatchedZeros turns = turns_on(arc, samples);
+  const WatchedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
     result.doubt = "special points too close together";
     return result;

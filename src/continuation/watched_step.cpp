@@ -1,4 +1,4 @@
-#include "arc.hpp"
+#include "watched_step.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Singularity {
 };
 
 /// The curve's points near t, interpolated.
-std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
+std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
   const auto [a, b] = window_around(t, length, arc.low(), arc.high());
   return interpolate(
       [&](double ds) -> std::optional<Vector> {
@@ -35,7 +35,8 @@ std::optional<Interpolant> curve_near(const Arc& arc, double t, double length) {
 }
 
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
-std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double length, Index m) {
+std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, double length,
+                                           Index m) {
   const auto curve = curve_near(arc, t, length);
   if (!curve) return {};
   const Index n = arc.from().x.size();
@@ -76,7 +77,7 @@ std::vector<Singularity> multiple_zeros_on(const Arc& arc, double t, double leng
 
 /// The best ones of a wide window, on which rounding matters less, and narrower ones; none that
 /// belongs to other zeros of the determinant.
-std::vector<Singularity> multiple_zeros(const Arc& arc, double t, double free, Index m) {
+std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double free, Index m) {
   const auto worst = [](const std::vector<Singularity>& list) {
     double doubt = 0;
     for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
@@ -95,7 +96,7 @@ std::vector<Singularity> multiple_zeros(const Arc& arc, double t, double free, I
 /// Removes what is left of the residual within the directions that dF sees well.
 /// @returns what stays in the others against the rounding of F, or infinity: a true branch point
 ///          leaves rounding only, branches that pass each other closely leave their distance
-double polish(const Arc& arc, CurvePoint& point, Index corank) {
+double polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
   const auto& walker = arc.walker();
   Vector F;
   double left = std::numeric_limits<double>::infinity();
@@ -121,7 +122,7 @@ double polish(const Arc& arc, CurvePoint& point, Index corank) {
 }
 
 /// A simple branch point re-solved by its augmented system, if that agrees.
-std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) {
+std::optional<CurvePoint> refined_point(const WatchedStep& arc, const Candidate& found) {
   if (found.kind != HitKind::branch_point || found.multiplicity != 1) return std::nullopt;
   auto refined = refine_branch_point(arc.walker(), found.point);
   if (!refined) return std::nullopt;
@@ -131,7 +132,7 @@ std::optional<CurvePoint> refined_point(const Arc& arc, const Candidate& found) 
 }
 
 /// A branch point from its place; nothing if the branches do not meet there.
-std::optional<Candidate> candidate_at(const Arc& arc, const Singularity& place,
+std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
                                       const std::vector<ZeroOf>& zeros, Index m, bool touches) {
   Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
   result.point = arc.from();
@@ -154,7 +155,7 @@ std::optional<Candidate> candidate_at(const Arc& arc, const Singularity& place,
 
 /// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
 /// place, otherwise a simple one, where the zero is.
-std::vector<Candidate> branch_points_at(const Arc& arc, const std::vector<ZeroOf>& zeros,
+std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vector<ZeroOf>& zeros,
                                         Index most, double free) {
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
   const auto crossings =
@@ -188,7 +189,8 @@ double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::siz
 
 }  // namespace
 
-Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& samples) {
+WatchedZeros singularities_on(const WatchedStep& arc,
+                              const std::vector<const CurvePoint*>& samples) {
   if (!arc.walker().options.branch_points) return {};
   std::vector<Matrix> E;
   for (const CurvePoint* p : samples) {
@@ -205,28 +207,26 @@ Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& sa
     reach = std::max(reach, (E[i] - E[middle]).norm());
   }
   if (regular) return {};
-  Search result{.order = small_singular_values(E[middle], 2 * reach)};
+  WatchedZeros result{.order = small_singular_values(E[middle], 2 * reach)};
   const Borders borders = borders_of(E[middle], result.order);
-  double scale = 0, entries = 0;
+  double scale = 0;
   const auto determinant = [&](double ds) -> std::optional<double> {
     const auto Sigma = arc.sigma(ds, borders);
     if (!Sigma) return std::nullopt;
     const double value = Sigma->determinant();
     scale = std::max(scale, std::abs(value));
-    entries = std::max(entries, Sigma->norm());
     return value;
   };
   for (const double t : {0.0, 0.5, 1.0})
     if (!determinant(t * arc.length())) return {.resolved = false};
-  const ZeroSearch found =
-      find_zeros(determinant, 0, (1 + beyond) * arc.length(), rounding * scale, resolution);
+  const ZeroSearch found = find_zeros(determinant, 0, arc.high(), rounding * scale, resolution);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   return result;
 }
 
-bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroOf>& turns,
-                       std::vector<Candidate>& found) {
+bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+                       std::vector<ZeroOf>& turns, std::vector<Candidate>& found) {
   const auto& zeros = singular.zeros;
   const auto add = [&](const std::vector<ZeroOf>& group, double free) {
     auto candidates = branch_points_at(arc, group, singular.order, free);

@@ -20,9 +20,9 @@ inline constexpr double apart = 200;  // residual over rounding at which branche
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
 
 /// One step, its points (each computed once), and what is watched on it.
-class Arc {
+class WatchedStep {
  public:
-  Arc(const Walker& walker, const CurvePoint& from, double length)
+  WatchedStep(const Walker& walker, const CurvePoint& from, double length)
       : walker_{walker}, from_{from}, length_{length} {}
 
   const Walker& walker() const { return walker_; }
@@ -67,18 +67,19 @@ struct Candidate {
   bool odd = false;  ///< an odd number of eigenvalues change sign here
 };
 
-struct Search {
+struct WatchedZeros {
   std::vector<ZeroOf> zeros{};
   bool resolved = true;
   Index order = 1;
 };
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
-Search singularities_on(const Arc& arc, const std::vector<const CurvePoint*>& samples);
+WatchedZeros singularities_on(const WatchedStep& arc,
+                              const std::vector<const CurvePoint*>& samples);
 
 /// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
 /// @returns false when a zero could not be told to be a branch point
-bool add_branch_points(const Arc& arc, const Search& singular, std::vector<ZeroOf>& turns,
-                       std::vector<Candidate>& found);
+bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+                       std::vector<ZeroOf>& turns, std::vector<Candidate>& found);
 
 }  // namespace springfold::continuation
