@@ -8,6 +8,7 @@
 #include <random>
 
 #include "kinsol_newton.hpp"
+#include "springfold/statics/kinetostatic_control.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -196,6 +197,24 @@ double polish(Equations& equations, State& state, int& iterations) {
   return best;
 }
 
+/// KINSOL from a guess, then Newton; returns the residual.
+double solve_from(Equations& equations, State& state, int& iterations) {
+  State trial = state;
+  const SquareSystem square{equations.pack(state).size(),
+                            [&](const Vector& y, Vector& r) {
+                              equations.unpack(y, trial);
+                              return equations.residual(trial, r);
+                            },
+                            [&](const Vector& y, Matrix& J) {
+                              equations.unpack(y, trial);
+                              return equations.jacobian(trial, J);
+                            }};
+  const KinsolResult solved = solve_by_kinsol(square, equations.pack(state), 1e-9, 5.0);
+  equations.unpack(solved.y, state);
+  iterations = solved.iterations;
+  return polish(equations, state, iterations);
+}
+
 void perturb(Equations& equations, State& state, int attempt, std::mt19937_64& random) {
   const double size = std::min(1.5, 0.02 * std::pow(1.6, attempt));
   Vector y = equations.pack(state);
@@ -231,20 +250,17 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     const bool assembled = reached || assemble(equations, true, state);
     if (assembled) result.status = StartStatus::no_equilibrium;
     estimate_wrenches(equations, state);
-    State trial = state;
-    const SquareSystem square{equations.pack(state).size(),
-                              [&](const Vector& y, Vector& r) {
-                                equations.unpack(y, trial);
-                                return equations.residual(trial, r);
-                              },
-                              [&](const Vector& y, Matrix& J) {
-                                equations.unpack(y, trial);
-                                return equations.jacobian(trial, J);
-                              }};
-    const KinsolResult solved = solve_by_kinsol(square, equations.pack(state), 1e-9, 5.0);
-    equations.unpack(solved.y, state);
-    result.iterations = solved.iterations;
-    result.residual = polish(equations, state, result.iterations);
+    if (problem.unknowns == StartUnknowns::commands) {
+      ControlSolver solver =
+          control_solver(system, {.body = problem.body}, state.z, state.inputs.rho);
+      solver.inputs.W = state.inputs.W;
+      solve_control_globally(system, solver);
+      state = {solver.z, solver.inputs};
+      result.iterations = solver.iterations;
+      result.residual = solver.residual;
+    } else {
+      result.residual = solve_from(equations, state, result.iterations);
+    }
     result.z = state.z;
     result.inputs = state.inputs;
     if (equations.solved(state, 1e-12)) {

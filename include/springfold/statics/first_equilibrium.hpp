@@ -46,7 +46,7 @@ struct FirstEquilibrium {
 
 /// Closes the chains by damped minimum-norm Newton steps, at the guessed poses if they reach them,
 /// then solves the equilibrium with KINSOL (Newton with line search, exact matrix), then corrects
-/// to full precision. If that fails, again from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
+/// to full precision; commands are found by solve_control_globally (kinetostatic_control.hpp). If that fails, again from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
 /// order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 

@@ -1,0 +1,253 @@
+#include "springfold/statics/kinetostatic_control.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "kinsol_newton.hpp"
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::statics {
+namespace {
+
+constexpr int most_iterations = 12;
+constexpr double tolerance = 1e-12;   // of the residual, scaled as in is_solved
+constexpr double last_step = 1e-8;    // after such a step Newton's error is below rounding
+constexpr double longest_newton = 3;  // of a coordinate: plain Newton is lost, KINSOL takes over
+
+/// Solves M x = b by elimination with row exchanges in place: b becomes x. Allocates nothing.
+bool solve_in_place(Matrix& M, Vector& b) {
+  const Index n = M.rows();
+  for (Index k = 0; k < n; ++k) {
+    Index p = k;
+    M.col(k).tail(n - k).cwiseAbs().maxCoeff(&p);
+    p += k;
+    if (!(std::abs(M(p, k)) > 0)) return false;
+    if (p != k) {
+      for (Index j = k; j < n; ++j) std::swap(M(k, j), M(p, j));
+      std::swap(b[k], b[p]);
+    }
+    for (Index i = k + 1; i < n; ++i) M(i, k) /= M(k, k);
+    for (Index j = k + 1; j < n; ++j) {
+      const double pivot = M(k, j);
+      if (pivot == 0) continue;
+      for (Index i = k + 1; i < n; ++i) M(i, j) -= M(i, k) * pivot;
+    }
+    for (Index i = k + 1; i < n; ++i) b[i] -= M(i, k) * b[k];
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    b[k] /= M(k, k);
+    for (Index i = 0; i < k; ++i) b[i] -= M(i, k) * b[k];
+  }
+  return true;
+}
+
+/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
+bool is_solved(const System& system, const ControlSolver& s) {
+  double gap = 0, force = 0, size = 1, wrench = 1;
+  for (Index i = 0; i < system.size; ++i) {
+    const bool is_wrench = system.is_wrench[static_cast<std::size_t>(i)];
+    double& worst = is_wrench ? gap : force;
+    double& largest = is_wrench ? wrench : size;
+    worst = std::max(worst, std::abs(s.r[i]));
+    largest = std::max(largest, std::abs(s.z[i]));
+  }
+  return gap <= tolerance * size && force <= tolerance * std::max(size, wrench);
+}
+
+void set_piece(const System& system, const Vector& z, Piece& piece) {
+  for (std::size_t j = 0; j < system.switches.size(); ++j) {
+    const Switch& s = system.switches[j];
+    piece[j] = z[s.coordinate] >= s.breakpoint ? std::int8_t{1} : std::int8_t{-1};
+  }
+}
+
+bool evaluate(const System& system, ControlSolver& s) {
+  set_piece(system, s.z, s.piece);
+  return equilibrium_matrix(system, s.piece, s.z, s.inputs, s.work, s.r, s.A, &s.dR_drho);
+}
+
+bool evaluate_residual(const System& system, ControlSolver& s) {
+  set_piece(system, s.z, s.piece);
+  const bool finite = equilibrium_residual(system, s.piece, s.z, s.inputs, s.work, s.r);
+  s.residual = s.r.lpNorm<Eigen::Infinity>();
+  return finite;
+}
+
+void fill_matrix(const System& system, ControlSolver& s) {
+  for (std::size_t k = 0; k < s.unknowns.size(); ++k) {
+    const Index from = s.unknowns[k], column = static_cast<Index>(k);
+    if (from < system.size)
+      s.M.col(column) = s.A.col(from);
+    else
+      s.M.col(column) = s.dR_drho.col(from - system.size);
+  }
+}
+
+double& unknown(const System& system, ControlSolver& s, std::size_t k) {
+  const Index at = s.unknowns[k];
+  return at < system.size ? s.z[at] : s.inputs.rho[at - system.size];
+}
+
+/// Largest change of a coordinate or pose in a step; wrenches and commands may change at will.
+double longest_move(const System& system, const ControlSolver& s) {
+  double longest = 0;
+  for (std::size_t k = 0; k < s.unknowns.size(); ++k) {
+    const Index at = s.unknowns[k];
+    if (at < system.size && !system.is_wrench[static_cast<std::size_t>(at)])
+      longest = std::max(longest, std::abs(s.step[static_cast<Index>(k)]));
+  }
+  return longest;
+}
+
+/// Newton's method from the state of the solver.
+bool newton(const System& system, ControlSolver& s) {
+  for (s.iterations = 0; s.iterations < most_iterations;) {
+    if (!evaluate(system, s)) return false;
+    fill_matrix(system, s);
+    s.step = s.r;
+    if (!solve_in_place(s.M, s.step) || !s.step.allFinite()) return false;
+    const double length = s.step.lpNorm<Eigen::Infinity>();
+    if (longest_move(system, s) > longest_newton) return false;
+    for (std::size_t k = 0; k < s.unknowns.size(); ++k)
+      unknown(system, s, k) -= s.step[static_cast<Index>(k)];
+    ++s.iterations;
+    const double size = std::max(1.0, s.z.lpNorm<Eigen::Infinity>());
+    if (length > last_step * size) continue;
+    if (!evaluate_residual(system, s)) return false;
+    if (is_solved(system, s)) return true;
+  }
+  return evaluate_residual(system, s) && is_solved(system, s);
+}
+
+Index worst_row_of(const System& system, const ControlSolver& s) {
+  Index worst = 0;
+  for (Index i = 0; i < system.size; ++i)
+    if (std::abs(s.r[i]) > std::abs(s.r[worst])) worst = i;
+  return worst;
+}
+
+ControlResult by_paper(const System& system, const ControlProblem& problem, ControlResult result) {
+  StartProblem start{.unknowns = StartUnknowns::commands, .body = problem.task.body};
+  start.z = result.plain.z;
+  start.inputs = {result.plain.rho, problem.W};
+  const FirstEquilibrium found = first_equilibrium_paper(system, start);
+  result.iterations = found.iterations;
+  result.residual = found.residual;
+  if (found.status != StartStatus::found) return result;
+  result.status = ControlStatus::converged;
+  result.z = found.z;
+  result.inputs = found.inputs;
+  result.piece = found.piece;
+  return result;
+}
+
+}  // namespace
+
+ControlSolver control_solver(const System& system, const CommandTask& task, const Vector& z,
+                             const Vector& rho) {
+  assert(counts_match(task, system));
+  ControlSolver s;
+  s.task = completed(task, system);
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(task.body - 1)];
+  for (const Index k : s.task.prescribed) s.held.push_back(body.t + k);
+  for (Index i = 0; i < system.size; ++i)
+    if (std::find(s.held.begin(), s.held.end(), i) == s.held.end()) s.unknowns.push_back(i);
+  for (const Index k : s.task.commands) s.unknowns.push_back(system.size + k);
+  s.z = z;
+  s.inputs = {rho, Vector::Zero(system.load_size)};
+  s.piece.resize(system.switches.size());
+  s.M.resize(system.size, system.size);
+  s.step.resize(system.size);
+  return s;
+}
+
+bool solve_control(const System& system, ControlSolver& solver, const Vector& target,
+                   const Vector& W) {
+  for (std::size_t k = 0; k < solver.held.size(); ++k)
+    solver.z[solver.held[k]] = target[static_cast<Index>(k)];
+  solver.inputs.W = W;
+  return newton(system, solver);
+}
+
+bool solve_control_globally(const System& system, ControlSolver& solver) {
+  const Vector z = solver.z;
+  const Inputs inputs = solver.inputs;
+  solver.globalised = false;
+  if (newton(system, solver)) return true;
+  const int wasted = solver.iterations;
+  solver.globalised = true;
+  solver.z = z;
+  solver.inputs = inputs;
+  const auto n = static_cast<Index>(solver.unknowns.size());
+  const auto put = [&](const Vector& y) {
+    for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
+      unknown(system, solver, k) = y[static_cast<Index>(k)];
+  };
+  Vector y(n);
+  for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
+    y[static_cast<Index>(k)] = unknown(system, solver, k);
+  const SquareSystem square{n,
+                            [&](const Vector& at, Vector& r) {
+                              put(at);
+                              const bool finite = evaluate_residual(system, solver);
+                              r = solver.r;
+                              return finite;
+                            },
+                            [&](const Vector& at, Matrix& J) {
+                              put(at);
+                              const bool finite = evaluate(system, solver);
+                              fill_matrix(system, solver);
+                              J = solver.M;
+                              return finite;
+                            }};
+  const KinsolResult found = solve_by_kinsol(square, y, 1e-9, 5.0);
+  put(found.y);
+  const ControlSolver before = solver;
+  const bool solved = newton(system, solver);
+  const int last = solver.iterations;
+  if (!solved) {  // what KINSOL reached says more than a Newton iteration that went astray
+    solver = before;
+    evaluate_residual(system, solver);
+  }
+  solver.iterations = wasted + found.iterations + last;
+  return solved;
+}
+
+ControlResult kinetostatic_control(const System& system, const ControlProblem& problem) {
+  ControlResult result;
+  if (!counts_match(problem.task, system)) {
+    result.status = ControlStatus::wrong_count;
+    return result;
+  }
+  result.plain = kinematic_inverse(system, problem.task, problem.target, problem.z, problem.rho);
+  result.status = result.plain.closed ? ControlStatus::not_held : ControlStatus::unreachable;
+  ControlSolver solver = control_solver(system, problem.task, result.plain.z, result.plain.rho);
+  if (problem.method == ControlMethod::paper) {
+    if (result.plain.closed) result = by_paper(system, problem, result);
+  } else {
+    solver.inputs.W = problem.W;
+    const bool found = solve_control_globally(system, solver);
+    result.iterations = solver.iterations;
+    result.globalised = solver.globalised;
+    result.residual = solver.residual;
+    if (found) {
+      result.status = ControlStatus::converged;
+      result.z = solver.z;
+      result.inputs = solver.inputs;
+      result.piece = solver.piece;
+    } else {
+      result.worst_row = worst_row_of(system, solver);
+      result.miss = std::abs(solver.r[result.worst_row]);
+    }
+  }
+  if (result.status != ControlStatus::converged) return result;
+  Workspace work;
+  Vector r;
+  Matrix A;
+  if (equilibrium_matrix(system, result.piece, result.z, result.inputs, work, r, A))
+    result.stability = stability(system, A);
+  return result;
+}
+
+}  // namespace springfold::statics
