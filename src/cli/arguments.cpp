@@ -22,6 +22,8 @@ constexpr const char* examples =
     "      for other programs\n"
     "  springfold check case.toml\n"
     "      reads the case, says what it contains or what is wrong with it\n"
+    "  springfold verify cases\n"
+    "      all cases of a folder against their expected values, one table\n"
     "\n"
     "Exit codes: 0 all done, 2 wrong usage, 3 mistakes in the case file, 4 no trustworthy start\n"
     "point, 5 partial (stopped early, unresolved, or a compared value does not hold),\n"
@@ -72,6 +74,16 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   run->add_flag("--json", arguments.prints_json,
                 "Print summary.json instead of tables on standard output");
 
+  CLI::App* verify = app.add_subcommand("verify", "Compare many cases with their expected values");
+  verify
+      ->add_option("PATH", arguments.cases,
+                   "Case files, or folders: then case*.toml in it and in its sub-folders")
+      ->required();
+  verify->add_option("--jobs", arguments.jobs, "Runs at a time (one per processor when not given)")
+      ->check(CLI::Range(1, 1024));
+  const auto json = verify->add_flag("--json", arguments.prints_json, "Print JSON, not a table");
+  verify->add_flag("--csv", arguments.prints_csv, "Print CSV, not a table")->excludes(json);
+
   ParsedArguments parsed;
   try {
     app.parse(argc, argv);
@@ -88,7 +100,9 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   for (const auto& text : settings)
     if (!add_override(text, arguments.overrides, parsed.error)) return parsed;
   arguments.draws_plots = !is_without_plots;
-  arguments.command = run->parsed() ? Command::run : Command::check;
+  arguments.command = run->parsed()      ? Command::run
+                      : verify->parsed() ? Command::verify
+                                         : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;
 }

@@ -9,7 +9,7 @@
 
 namespace springfold::cli {
 
-enum class Command { run, check };
+enum class Command { run, check, verify };
 
 struct Arguments {
   Command command = Command::run;
@@ -19,6 +19,9 @@ struct Arguments {
   std::map<std::string, std::string> overrides{};  ///< --set name=value
   bool draws_plots = true;
   bool prints_json = false;
+  bool prints_csv = false;                     ///< verify only
+  std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them
+  int jobs = 0;                                ///< verify: runs at a time; 0: one per processor
 };
 
 /// Either arguments, or text that is all there is to say (--help, --version), or what is wrong.

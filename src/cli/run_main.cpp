@@ -7,6 +7,7 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "run_command.hpp"
+#include "verify_command.hpp"
 
 namespace springfold::cli {
 
@@ -34,9 +35,15 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
                         .shows_progress = shows_progress,
                         .signal = InterruptGuard::signal,
                         .run_study = run_planned};
-  const bool is_check = parsed.arguments->command == Command::check;
-  return is_check ? check_command(*parsed.arguments, session)
-                  : run_command(*parsed.arguments, session);
+  switch (parsed.arguments->command) {
+    case Command::check:
+      return check_command(*parsed.arguments, session);
+    case Command::verify:
+      return verify_command(*parsed.arguments, session);
+    case Command::run:
+      break;
+  }
+  return run_command(*parsed.arguments, session);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "case_draft.hpp"
+#include "compared_quantity.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -160,6 +161,18 @@ class Builder {
       check_quantity(quantity, names_[study], draft_->studies[study], problems_);
   }
 
+  /// "K.x.y" and "C.x.y"; nothing for all other names.
+  std::optional<MatrixEntry> entry_of(const NamedPlace& quantity, std::size_t study) const {
+    if (!quantity.name.starts_with("K.") && !quantity.name.starts_with("C.")) return std::nullopt;
+    const auto run = std::find_if(
+        result_.runs.begin(), result_.runs.end(),
+        [&](const PlannedRun& planned) { return planned.study == draft_->studies[study].name; });
+    if (run == result_.runs.end()) return std::nullopt;
+    for (const MatrixEntryName& known : matrix_entries(run->mechanism))
+      if (known.name == quantity.name) return known.entry;
+    return std::nullopt;
+  }
+
   void add_plots() {
     const Values parameters = evaluate(draft_->parameters, {}, draft_->book, "", problems_);
     for (const PlotDraft& plot : draft_->plots) {
@@ -188,7 +201,13 @@ class Builder {
       value.expected = numbers[draft.expected];
       value.tolerance = numbers[draft.tolerance];
       value.factor = numbers[draft.factor];
-      check_use(draft.quantity, *draft.study);
+      for (const NearDraft& near : draft.near) {
+        check_use(near.quantity, *draft.study);
+        value.near.push_back({near.quantity.name, numbers[near.value]});
+      }
+      check_use(draft.per, *draft.study);
+      value.entry = entry_of(draft.quantity, *draft.study);
+      if (!value.entry) check_use(draft.quantity, *draft.study);
       result_.expected.values.push_back(std::move(value));
     }
   }

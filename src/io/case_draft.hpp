@@ -22,12 +22,18 @@ struct PlotDraft {
   NamedPlace x{}, y{};
 };
 
+struct NearDraft {
+  NamedPlace quantity{};
+  NumberId value = 0;
+};
+
 struct ExpectedDraft {
   ExpectedValue value{};  ///< without its numbers
   NumberTable numbers{};
   NumberId expected = 0, tolerance = 0, factor = 0;
   std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
-  NamedPlace quantity{};
+  NamedPlace quantity{}, per{};
+  std::vector<NearDraft> near{};
 };
 
 struct CaseDraft {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compared_quantity.hpp"
+#include "comparison_text.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
 #include "text.hpp"
@@ -14,37 +16,18 @@ namespace {
 using analysis::StudyResult;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view count_prefix = "count.";
 
-double count_of(const StudyResult& result, std::string_view code) {
-  const auto counts = event_counts(result);
-  const auto found = counts.find(std::string{code});
-  return found == counts.end() ? 0 : found->second;
-}
-
-/// Value at the event with this label. A point where branches meet is taken on the first of them.
-double value_at_event(const StudyResult& result, std::string_view label,
-                      std::string_view quantity) {
-  for (const auto& branch : result.branches)
-    for (const auto& event : branch.events)
-      if (event.label == label) return value_at(result, branch, event.row, quantity);
-  return nothing;
-}
-
-double found_value(const ExpectedValue& expected, const StudyResult& result) {
-  const std::string_view quantity = expected.quantity;
-  if (quantity.starts_with(count_prefix))
-    return result.start.found ? count_of(result, quantity.substr(count_prefix.size())) : nothing;
-  if (result.branches.empty()) return nothing;
-  const auto& first = result.branches.front();
-  if (expected.at == "start") return value_at(result, first, first.start_row, quantity);
-  if (expected.at != "end") return value_at_event(result, expected.at, quantity);
-  return first.samples.empty() ? nothing
-                               : value_at(result, first, first.samples.size() - 1, quantity);
-}
-
-std::string signed_rounded(double value, int digits) {
-  return (value >= 0 ? "+" : "") + rounded(value, digits);
+/// False for NaN.
+bool agrees(const ExpectedValue& expected, double ours) {
+  switch (expected.agreement) {
+    case Agreement::equal:
+      return std::abs(ours - expected.expected) <= expected.tolerance;
+    case Agreement::at_least:
+      return ours >= expected.expected - expected.tolerance;
+    case Agreement::at_most:
+      return ours <= expected.expected + expected.tolerance;
+  }
+  return false;
 }
 
 /// Headings in order of first appearance.
@@ -56,17 +39,6 @@ std::vector<std::string> groups_of(const std::vector<Comparison>& comparisons) {
   return groups;
 }
 
-std::vector<std::string> row_of(const Comparison& comparison) {
-  const auto& [expected, ours, holds] = comparison;
-  return {expected.name,
-          std::isnan(ours) ? "not found" : rounded(ours, 10),
-          rounded(expected.expected, 12),
-          std::isnan(ours) ? "" : signed_rounded(ours - expected.expected, 2),
-          rounded(expected.tolerance, 12),
-          holds ? "ok" : "NOT OK",
-          expected.source};
-}
-
 }  // namespace
 
 std::vector<Comparison> compare(const Expectations& expected,
@@ -75,8 +47,7 @@ std::vector<Comparison> compare(const Expectations& expected,
   for (const auto& value : expected.values) {
     const StudyResult* result = result_of(results, value.study, value.run);
     const double ours = result == nullptr ? nothing : value.factor * found_value(value, *result);
-    const bool holds = std::abs(ours - value.expected) <= value.tolerance;  // false for NaN
-    comparisons.push_back({.expected = value, .ours = ours, .holds = holds});
+    comparisons.push_back({.expected = value, .ours = ours, .holds = agrees(value, ours)});
   }
   return comparisons;
 }
@@ -92,7 +63,7 @@ std::string comparison_table(const std::vector<Comparison>& comparisons,
   for (const auto& group : groups_of(comparisons)) {
     headings.emplace_back(rows.size(), group);
     for (const auto& comparison : comparisons)
-      if (comparison.expected.group == group) rows.push_back(row_of(comparison));
+      if (comparison.expected.group == group) rows.push_back(comparison_cells(comparison));
   }
 
   std::string text = "Compared with reference values\n\n";

@@ -1,39 +1,70 @@
 #include <algorithm>
+#include <array>
 
+#include "compared_quantity.hpp"
 #include "plot_reader.hpp"
 
 namespace springfold::io {
 namespace {
 
-const std::vector<std::string> event_codes{"LP", "BP", "SA", "CL", "KB", "KS",
-                                           "TP", "FM", "UZ", "EP", "UR"};
+const std::vector<std::string> agreement_words{"equal", "at_least", "at_most"};
+const std::vector<std::string> side_words{"after", "before"};
+
+bool is_event_code(const std::string& text) {
+  const auto& codes = event_codes();
+  return std::find(codes.begin(), codes.end(), text) != codes.end();
+}
 
 /// "LP1": a code and a number from 1.
 bool is_event_label(const std::string& text) {
   if (text.size() < 3 || text[2] == '0') return false;
   const bool digits =
       std::all_of(text.begin() + 2, text.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return digits &&
-         std::find(event_codes.begin(), event_codes.end(), text.substr(0, 2)) != event_codes.end();
+  return digits && is_event_code(text.substr(0, 2));
 }
 
+/// Whether the point is one that there can be, and `near` is there if and only if it is needed.
 void check_point(const TableReader& table, const std::string& at, Reading& reading) {
-  if (at == "start" || at == "end" || is_event_label(at)) return;
+  const bool is_code = is_event_code(at);
+  if (is_code && !table.has("near"))
+    reading.problems.add(table.find("at")->place, table.key_of("at"),
+                         "got \"" + at + "\", which may be several points: need near = { " +
+                             "quantity = value } too, or a number: \"" + at + "1\"");
+  if (table.has("near") && !is_code)
+    reading.problems.add(table.find("near")->place, table.key_of("near"),
+                         "goes with at = \"LP\" and the like, the code of a special point "
+                         "without a number");
+  if (at == "start" || at == "end" || is_code || is_event_label(at)) return;
   reading.problems.add(table.find("at")->place, table.key_of("at"),
-                       "got \"" + at + "\", need \"start\", \"end\" or an event such as \"LP1\"");
+                       "got \"" + at +
+                           "\", need \"start\", \"end\", an event such as \"LP1\", or the code of "
+                           "an event and `near`");
 }
 
-/// "count.LP" is checked here, other quantities when the mechanism is built.
+std::vector<NearDraft> read_near(const TableReader& table, NumberTable& numbers, Reading& reading) {
+  std::vector<NearDraft> near;
+  for (const NamedItem& item :
+       named_items(table, "near", "a table such as { deflection = 0.1 }", reading))
+    near.push_back({item.name, read_number({item.value, item.name.key}, {}, numbers, reading)});
+  if (table.has("near") && near.empty())
+    reading.problems.add(table.find("near")->place, table.key_of("near"),
+                         "need at least one quantity and its value");
+  return near;
+}
+
+/// General ones are checked here, other quantities when the mechanism is built.
 NamedPlace read_quantity(const TableReader& table, Reading& reading) {
   const auto name = table.required_text("quantity", "a quantity such as \"force\" or \"count.LP\"");
   if (!name) return {};
   const Place place = table.find("quantity")->place;
   const std::string prefix = "count.";
+  if (is_general_quantity(*name)) return {};
   if (!name->starts_with(prefix)) return {*name, place, table.key_of("quantity")};
-  const std::string code = name->substr(prefix.size());
-  if (std::find(event_codes.begin(), event_codes.end(), code) == event_codes.end())
-    reading.problems.add(place, table.key_of("quantity"),
-                         "got \"" + *name + "\", need count. and one of " + choices(event_codes));
+  std::vector<std::string> known;
+  for (const std::string& general : general_quantities())
+    if (general.starts_with(prefix)) known.push_back(general.substr(prefix.size()));
+  reading.problems.add(place, table.key_of("quantity"),
+                       "got \"" + *name + "\", need count. and one of " + choices(known));
   return {};
 }
 
@@ -54,9 +85,9 @@ int read_run(const TableReader& table, const StudyDraft& study, Reading& reading
 
 std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies, Reading& reading) {
-  static const std::vector<std::string> keys{"name",   "group",    "study",    "run",
-                                             "at",     "quantity", "expected", "factor",
-                                             "source", "tolerance"};
+  static const std::vector<std::string> keys{
+      "name", "group", "study",    "run",    "at",     "near",      "quantity",
+      "per",  "side",  "expected", "factor", "source", "tolerance", "compare"};
   std::vector<ExpectedDraft> drafts;
   for (const Item& item : tables) {
     const TableReader table{*item.node, item.key, keys, reading};
@@ -66,9 +97,17 @@ std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
     value.group = table.text("group").value_or("");
     value.source = table.text("source").value_or("");
     value.at = table.text("at").value_or("start");
-    if (table.has("at")) check_point(table, value.at, reading);
+    if (table.has("at") || table.has("near")) check_point(table, value.at, reading);
+    draft.near = read_near(table, draft.numbers, reading);
     draft.quantity = read_quantity(table, reading);
     if (const auto quantity = table.text("quantity")) value.quantity = *quantity;
+    if (const auto per = table.text("per")) {
+      value.per = *per;
+      draft.per = {*per, table.find("per")->place, table.key_of("per")};
+    }
+    value.before = table.choice("side", side_words, 0) == 1;
+    value.agreement = std::array{Agreement::equal, Agreement::at_least,
+                                 Agreement::at_most}[table.choice("compare", agreement_words, 0)];
     draft.expected = table.required_number("expected", {}, draft.numbers);
     draft.tolerance = table.required_number("tolerance", {Range::non_negative, ""}, draft.numbers);
     draft.factor = table.number("factor", {}, draft.numbers, 1);

@@ -14,6 +14,13 @@ struct Place {
   int column = 0;
 };
 
+/// A name in the case file that is checked once the mechanism is built.
+struct NamedPlace {
+  std::string name{};
+  Place place{};
+  std::string key{};
+};
+
 class Problems {
  public:
   /// @param key   key path of the value, "chain[2].elements[1].spring.stiffness"; may be empty

@@ -10,13 +10,6 @@
 
 namespace springfold::io {
 
-/// A name in the case file that is checked once the mechanism is built.
-struct NamedPlace {
-  std::string name{};
-  Place place{};
-  std::string key{};
-};
-
 struct LimitDraft {
   NamedPlace quantity{};
   NumberId low = 0, high = 0;

@@ -21,24 +21,6 @@ const std::vector<std::string> study_keys{
     "name", "kind",      "control",   "body", "direction", "load", "start", "until",
     "mark", "actuators", "parameter", "set",  "vary",      "path", "trace", "branches"};
 
-/// `a.b = 1` is a table within a table in TOML; names with dots mean the same with and without
-/// quotes here.
-struct NamedItem {
-  NamedPlace name{};
-  const Node* value = nullptr;
-};
-
-void flatten(const Node& table, const std::string& prefix, const std::string& key,
-             std::vector<NamedItem>& out) {
-  for (const NodeEntry& entry : table.entries) {
-    const std::string name = prefix + entry.key, entry_key = key + "." + entry.key;
-    if (entry.value.kind == Node::Kind::table)
-      flatten(entry.value, name + ".", entry_key, out);
-    else
-      out.push_back({{name, entry.place, entry_key}, &entry.value});
-  }
-}
-
 void add_entries(const Node& table, const std::string& prefix, std::vector<NamedPlace>& entries) {
   for (const NodeEntry& entry : table.entries) {
     const std::string name = prefix + entry.key;
@@ -88,14 +70,6 @@ class StudyReader {
   }
 
  private:
-  std::vector<NamedItem> named_items(const std::string& name, const std::string& need) {
-    std::vector<NamedItem> items;
-    const Node* node = table_.find(name);
-    if (node && is_table({node, table_.key_of(name)}, need, reading_))
-      flatten(*node, "", table_.key_of(name), items);
-    return items;
-  }
-
   bool read_kind() {
     draft_.kind = std::array{StudyKind::force_deflection,
                              StudyKind::equilibrium}[table_.choice("kind", kind_words, 0)];
@@ -170,7 +144,7 @@ class StudyReader {
       reading_.problems.add(node->place, table_.key_of("actuators"),
                             "has no meaning here, need control = \"actuator\" with it");
     const std::vector<std::string> known = actuator_names(mechanism_);
-    for (const NamedItem& item : named_items("actuators", need)) {
+    for (const NamedItem& item : named_items(table_, "actuators", need, reading_)) {
       const auto& [name, place, key] = item.name;
       if (std::find(known.begin(), known.end(), name) == known.end())
         reading_.problems.add(place, key, "no actuator \"" + name + "\"" + suggestion(name, known));
@@ -219,7 +193,8 @@ class StudyReader {
   }
 
   void read_until() {
-    for (const NamedItem& item : named_items("until", "a table such as { deflection = [0, 1] }")) {
+    for (const NamedItem& item :
+         named_items(table_, "until", "a table such as { deflection = [0, 1] }", reading_)) {
       const auto& [name, place, key] = item.name;
       const Node& value = *item.value;
       if (value.kind != Node::Kind::array || value.items.size() != 2) {
@@ -238,7 +213,8 @@ class StudyReader {
   }
 
   void read_marks() {
-    for (const NamedItem& item : named_items("mark", "a table such as { deflection = [0.1] }")) {
+    for (const NamedItem& item :
+         named_items(table_, "mark", "a table such as { deflection = [0.1] }", reading_)) {
       const Item value{item.value, item.name.key};
       std::vector<Item> items{value};
       if (item.value->kind == Node::Kind::array)

@@ -1,6 +1,7 @@
 // summary.json: what was found, run by run. Layout: docs/results.md.
 #include <nlohmann/json.hpp>
 
+#include "comparison_text.hpp"
 #include "json_text.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
@@ -145,22 +146,6 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
   return json;
 }
 
-Json json_of(const Comparison& comparison) {
-  const auto& expected = comparison.expected;
-  return {{"name", expected.name},
-          {"group", expected.group},
-          {"study", expected.study},
-          {"run", expected.run},
-          {"at", expected.at},
-          {"quantity", expected.quantity},
-          {"ours", comparison.ours},
-          {"reference", expected.expected},
-          {"difference", comparison.ours - expected.expected},
-          {"tolerance", expected.tolerance},
-          {"holds", comparison.holds},
-          {"source", expected.source}};
-}
-
 Json missing_runs(const Case& the_case, const std::vector<StudyResult>& results) {
   Json missing = Json::array();
   for (const auto& planned : the_case.runs)
@@ -187,7 +172,7 @@ std::string summary_json(const Case& the_case, const std::vector<StudyResult>& r
         json_of(results[i], plan_of(the_case, results[i]), the_case.units, files[i]));
   summary["comparisons"] = Json::array();
   for (const auto& comparison : compare(the_case.expected, results))
-    summary["comparisons"].push_back(json_of(comparison));
+    summary["comparisons"].push_back(comparison_json(comparison));
   return json_text(summary);
 }
 

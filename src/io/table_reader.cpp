@@ -3,6 +3,20 @@
 #include <algorithm>
 
 namespace springfold::io {
+namespace {
+
+void flatten(const Node& table, const std::string& prefix, const std::string& key,
+             std::vector<NamedItem>& out) {
+  for (const NodeEntry& entry : table.entries) {
+    const std::string name = prefix + entry.key, entry_key = key + "." + entry.key;
+    if (entry.value.kind == Node::Kind::table)
+      flatten(entry.value, name + ".", entry_key, out);
+    else
+      out.push_back({{name, entry.place, entry_key}, &entry.value});
+  }
+}
+
+}  // namespace
 
 TableReader::TableReader(const Node& node, std::string key, const std::vector<std::string>& known,
                          Reading& reading)
@@ -145,6 +159,15 @@ bool is_plain_name(const std::string& name, const Item& at, Reading& reading) {
                            "\", need a name of letters, digits, '_' and '-': it becomes part of "
                            "column names");
   return false;
+}
+
+std::vector<NamedItem> named_items(const TableReader& table, const std::string& name,
+                                   const std::string& need, Reading& reading) {
+  std::vector<NamedItem> items;
+  const Node* node = table.find(name);
+  if (node && is_table({node, table.key_of(name)}, need, reading))
+    flatten(*node, "", table.key_of(name), items);
+  return items;
 }
 
 }  // namespace springfold::io

@@ -85,6 +85,17 @@ std::vector<Item> list_items(const Item& item, const std::string& need, Reading&
 /// Tables of `[[name]]` or `name = [{...}]`, where `list.key` is the name; reports anything else.
 std::vector<Item> list_of_tables(const Item& list, Reading& reading);
 
+/// An entry of a table whose keys are names of the case.
+struct NamedItem {
+  NamedPlace name{};
+  const Node* value = nullptr;
+};
+
+/// Entries of the table `name` of `table`; `a.b = 1`, which is a table within a table in TOML, and
+/// `"a.b" = 1` mean the same. Reports anything that is not a table. @param need  "a table such as"
+std::vector<NamedItem> named_items(const TableReader& table, const std::string& name,
+                                   const std::string& need, Reading& reading);
+
 /// Reports anything that is not a table.
 bool is_table(const Item& item, const std::string& need, Reading& reading);
 

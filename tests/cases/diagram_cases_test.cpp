@@ -1,4 +1,5 @@
-// The case files that ask for whole diagrams: all that they promise holds.
+// The case files that ask for whole diagrams in other units. That they hold as they are is shown by
+// scripts/verify-cases.sh.
 #include <gmock/gmock.h>
 
 #include "springfold/analysis/run.hpp"
@@ -26,14 +27,10 @@ void expect_all_hold(const std::string& folder,
                                   << ", expected " << comparison.expected.expected;
 }
 
-TEST(VonMisesTrussCase, AgreesWithTheClosedForm) { expect_all_hold("von-mises-truss", {}); }
-
 TEST(VonMisesTrussCase, AgreesInOtherUnitsAndForms) {
   expect_all_hold("von-mises-truss", {{"a", "300"}, {"L0", "1000"}, {"k", "70"}});
   expect_all_hold("von-mises-truss", {{"a", "0.2"}});
 }
-
-TEST(LinkColumnCase, AgreesWithTheClosedForm) { expect_all_hold("link-column", {}); }
 
 TEST(LinkColumnCase, AgreesInOtherUnits) {
   expect_all_hold("link-column", {{"L", "0.02"}, {"k", "1e5"}});

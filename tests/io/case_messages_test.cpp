@@ -257,17 +257,17 @@ TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
         "expected = \"1/0\"\ntolerance = 1\n");
   const std::vector<std::string> all = messages(orthoglide_text());
   EXPECT_THAT(
-      all, ElementsAre(
-               "expected.toml:3:9: value[1].study: no study \"Q3\", did you mean \"Q2\"?",
-               "expected.toml:10:12: value[2].quantity: got \"count.XX\", need count. "
-               "and one of \"LP\", \"BP\", \"SA\", \"CL\", \"KB\", \"KS\", \"TP\", \"FM\", \"UZ\", "
-               "\"EP\" or \"UR\"",
-               "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\" "
-               "or an event such as \"LP1\"",
-               "expected.toml:12:7: value[2].run: got 3, need the number of a run of "
-               "\"Q2\", which has 2",
-               "expected.toml:13:12: value[2].expected: got \"1/0\" = inf, need a "
-               "finite number (study \"Q2\", run 1)"));
+      all, ElementsAre("expected.toml:3:9: value[1].study: no study \"Q3\", did you mean \"Q2\"?",
+                       "expected.toml:10:12: value[2].quantity: got \"count.XX\", need count. "
+                       "and one of \"branches\", \"LP\", \"BP\", \"SA\", \"CL\", \"KB\", \"KS\", "
+                       "\"TP\", \"FM\", \"UZ\", "
+                       "\"EP\" or \"UR\"",
+                       "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "
+                       "an event such as \"LP1\", or the code of an event and `near`",
+                       "expected.toml:12:7: value[2].run: got 3, need the number of a run of "
+                       "\"Q2\", which has 2",
+                       "expected.toml:13:12: value[2].expected: got \"1/0\" = inf, need a "
+                       "finite number (study \"Q2\", run 1)"));
   write("expected.toml",
         "[[value]]\nname = \"a\"\nstudy = \"Q2\"\nquantity = \"forse\"\nexpected = 1\n"
         "tolerance = 1\n");

@@ -55,17 +55,42 @@ struct PlotSpec {
   std::vector<PlotCurves> curves{};
 };
 
+/// When a compared value holds.
+enum class Agreement {
+  equal,     ///< |ours - expected| <= tolerance
+  at_least,  ///< ours >= expected - tolerance
+  at_most,   ///< ours <= expected + tolerance
+};
+
+/// A value by which one special point is picked out of several.
+struct NearValue {
+  std::string quantity{};
+  double value = 0;
+};
+
+/// An entry of the platform's stiffness matrix or of its inverse.
+struct MatrixEntry {
+  bool is_compliance = false;
+  Index row = 0, column = 0;
+};
+
 /// A published or closed-form value that a run is compared with.
 struct ExpectedValue {
   std::string name{};   ///< as printed: "rho at Q1, Kv = 0.01"
   std::string group{};  ///< heading under which it is printed
   std::string study{};
   int run = 1;
-  std::string at = "start";  ///< "start", "end", or an event label such as "LP1"
-  std::string quantity{};    ///< a quantity name, or "count.LP" and the like
+  std::string at = "start";  ///< "start", "end", an event label such as "LP1", or a code such as
+                             ///< "UZ": then `near` says which
+  std::vector<NearValue> near{};
+  std::string quantity{};  ///< a quantity name, "count.LP", "K.x.y", "corank", "ways", ...
+  std::optional<MatrixEntry> entry{};  ///< which one "K.x.y" or "C.x.y" means
+  std::string per{};                   ///< not empty: the slope d(quantity)/d(per) along the branch
+  bool before = false;                 ///< slope: on arriving at the point, not on leaving it
   double expected = 0;
   double tolerance = 0;  ///< absolute
-  double factor = 1;     ///< compared value = factor * quantity
+  Agreement agreement = Agreement::equal;
+  double factor = 1;  ///< compared value = factor * quantity
   std::string source{};
 };
 
