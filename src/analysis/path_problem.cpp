@@ -178,6 +178,8 @@ Vector PathProblem::periods() const {
     if (is_angle[static_cast<std::size_t>(i)]) periods[i] = 2 * std::numbers::pi;
   // Joints stand before all poses, at the same place in y and in z.
   for (const statics::CoordinateSpring& spring : system_.springs) periods[spring.coordinate] = 0;
+  for (const statics::CoordinateGroup& group : system_.coupled)
+    for (const Index i : group.coordinates) periods[i] = 0;
   for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
     if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
     const statics::BodySlice& body = system_.body_slices[b];

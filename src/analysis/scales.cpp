@@ -26,6 +26,11 @@ std::vector<double> positions_of(const model::SpringLaw& law) {
   return positions;
 }
 
+/// Is coordinate i of the spring a length?
+bool slides(const model::Chain& chain, const model::CoupledSpring& spring, std::size_t i) {
+  return std::get<Joint>(chain.elements[spring.elements[i]]).kind == JointKind::prismatic;
+}
+
 double largest_length(const model::Mechanism& mechanism) {
   double largest = 0;
   const auto add = [&largest](double length) { largest = std::max(largest, std::abs(length)); };
@@ -44,7 +49,23 @@ double largest_length(const model::Mechanism& mechanism) {
     if (!joint.spring) return;
     for (const double position : positions_of(*joint.spring)) add(position);
   });
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::CoupledSpring& spring : chain.coupled_springs)
+      for (std::size_t i = 0; i < spring.elements.size(); ++i)
+        if (slides(chain, spring, i)) add(spring.free[static_cast<Index>(i)]);
   return largest;
+}
+
+/// Powers of two times the entries: nothing is rounded, symmetry stays.
+void make_dimensionless(const model::Chain& chain, const Scales& scales,
+                        model::CoupledSpring& spring) {
+  Vector coordinate = Vector::Ones(spring.free.size());
+  for (std::size_t i = 0; i < spring.elements.size(); ++i)
+    if (slides(chain, spring, i)) coordinate[static_cast<Index>(i)] = scales.length;
+  // A torque is energy over coordinate: K_ij c_i c_j / energy.
+  spring.stiffness = (coordinate.asDiagonal() * spring.stiffness * coordinate.asDiagonal()).eval();
+  spring.stiffness /= scales.moment();
+  spring.free = spring.free.cwiseQuotient(coordinate).eval();
 }
 
 model::SpringLaw scaled(const model::SpringLaw& law, double coordinate, double torque) {
@@ -80,6 +101,13 @@ Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load
         forces.push_back(joint.kind == JointKind::prismatic ? segment.stiffness * scales.length
                                                             : segment.stiffness / scales.length);
   });
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::CoupledSpring& spring : chain.coupled_springs)
+      for (std::size_t i = 0; i < spring.elements.size(); ++i) {
+        const double k = spring.stiffness.diagonal()[static_cast<Index>(i)];
+        if (k > 0)
+          forces.push_back(slides(chain, spring, i) ? k * scales.length : k / scales.length);
+      }
   if (forces.empty() && constant_load.size() > 0) forces.push_back(constant_load.norm());
   if (forces.empty()) return scales;
   const auto middle = forces.begin() + static_cast<std::ptrdiff_t>((forces.size() - 1) / 2);
@@ -108,6 +136,8 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
       joint.command /= coordinate;
       if (joint.spring) joint.spring = scaled(*joint.spring, coordinate, torque);
     }
+    for (model::CoupledSpring& spring : chain.coupled_springs)
+      make_dimensionless(chain, scales, spring);
   }
   return m;
 }

@@ -89,14 +89,29 @@ std::string text_of(const Joint& joint) {
                      word_of(joint.role), has_drive_spring ? ", with drive spring" : "");
 }
 
+/// "foot (elastic in Tx Ty Tz Rx Ry Rz)".
+std::string text_of(const model::Chain& chain, const model::CoupledSpring& spring) {
+  std::string directions;
+  for (const std::size_t i : spring.elements) {
+    const std::string& name = std::get<Joint>(chain.elements[i]).name;
+    directions += " " + name.substr(name.rfind('.') + 1);
+  }
+  return fmt::format("{} (elastic in{})", spring.name, directions);
+}
+
 std::string text_of(const Mechanism& mechanism, const model::Chain& chain) {
   std::string joints;
   Index links = 0;
-  for (const auto& element : chain.elements) {
-    if (const auto* joint = std::get_if<Joint>(&element))
-      joints += (joints.empty() ? "" : ", ") + text_of(*joint);
-    else
-      ++links;
+  // An elastic link is named once, not by its up to six virtual joints.
+  std::vector<const model::CoupledSpring*> coupled(chain.elements.size(), nullptr);
+  for (const model::CoupledSpring& spring : chain.coupled_springs)
+    for (const std::size_t i : spring.elements) coupled[i] = &spring;
+  for (std::size_t i = 0; i < chain.elements.size(); ++i) {
+    const auto* joint = std::get_if<Joint>(&chain.elements[i]);
+    if (joint == nullptr) ++links;
+    if (joint == nullptr || (coupled[i] && coupled[i]->elements.front() != i)) continue;
+    joints +=
+        (joints.empty() ? "" : ", ") + (coupled[i] ? text_of(chain, *coupled[i]) : text_of(*joint));
   }
   return fmt::format("  chain     {}: {} to {}, {}\n            joints: {}\n", chain.name,
                      body_name(mechanism, chain.from), body_name(mechanism, chain.to),

@@ -34,7 +34,8 @@ std::string rest_of(std::string_view text) {
 /// Gives a sentence of model::problems_in, which numbers the elements of the model, the place and
 /// the key in the file.
 void add_model_problem(const std::string& text, const MechanismDraft& draft,
-                       const StudyDraft& study, int run, Problems& problems) {
+                       const std::vector<double>& numbers, const StudyDraft& study, int run,
+                       Problems& problems) {
   const std::string_view view{text};
   const std::string when = study.when(run);
   const auto body = numbered(view, "body");
@@ -48,9 +49,10 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
   const ChainDraft& at = draft.chains[chain->number - 1];
   const std::string_view behind = view.substr(chain->length);
   const auto element = numbered(behind, ".elements");
-  if (!element || element->number > at.elements.size())
+  const std::vector<std::size_t> origins = origins_of(at, numbers);
+  if (!element || element->number > origins.size())
     return problems.add(at.place, at.key, rest_of(behind), when);
-  const ElementDraft& part = at.elements[element->number - 1];
+  const ElementDraft& part = at.elements[origins[element->number - 1]];
   problems.add(part.place, part.key, rest_of(behind.substr(element->length)), when);
 }
 
@@ -107,16 +109,39 @@ class Builder {
     const std::vector<double> numbers = study.numbers.values(draft_->book, parameters).values;
     PlannedRun planned{.study = study.name, .run = run};
     planned.label = label_of(study, run, parameters);
-    planned.mechanism = build_mechanism(
-        draft_->mechanism, draft_->mechanism.numbers.values(draft_->book, parameters).values);
+    const std::vector<double> of_mechanism =
+        draft_->mechanism.numbers.values(draft_->book, parameters).values;
+    planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);
     const auto body = static_cast<std::size_t>(study.body - 1);
     planned.plan =
         build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);
     for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
       planned.parameters[draft_->parameters[p].name] = parameters.values[p];
     if (study.control == analysis::ControlMode::parameter && study.parameter)
+      check_segments(i, run);
+    if (study.control == analysis::ControlMode::parameter && study.parameter)
       planned.family = family_of(draft_, i, run, parameters);
-    if (check(planned, i)) result_.runs.push_back(std::move(planned));
+    if (check(planned, of_mechanism, i)) result_.runs.push_back(std::move(planned));
+  }
+
+  /// How many links a link is cut into cannot change along a branch.
+  void check_segments(std::size_t i, int run) {
+    const StudyDraft& study = draft_->studies[i];
+    std::vector<bool> moves(draft_->parameters.size(), false);
+    moves[*study.parameter] = true;
+    for (const Update& update :
+         dependents_of(*study.parameter, draft_->parameters, study.changes(run), draft_->book))
+      moves[update.target] = true;
+    for (const Update& update : draft_->mechanism.numbers.updates_for(moves, draft_->book))
+      for (const ChainDraft& chain : draft_->mechanism.chains)
+        for (const ElementDraft& element : chain.elements)
+          if (const auto* link = std::get_if<ElasticDraft>(&element.content);
+              link && link->segments == update.target) {
+            const Definition& at = draft_->mechanism.numbers.definition(link->segments);
+            problems_.add(at.place, at.key,
+                          "the number of segments cannot depend on the parameter of study \"" +
+                              study.name + "\"");
+          }
   }
 
   std::string label_of(const StudyDraft& study, int run, const Values& parameters) const {
@@ -127,13 +152,13 @@ class Builder {
   }
 
   /// Rules of model and analysis; names of quantities once per study.
-  bool check(const PlannedRun& planned, std::size_t i) {
+  bool check(const PlannedRun& planned, const std::vector<double>& numbers, std::size_t i) {
     const StudyDraft& study = draft_->studies[i];
     const std::size_t before = problems_.size();
     for (const std::string& text : model::problems_in(planned.mechanism))
-      add_model_problem(text, draft_->mechanism, study, planned.run, problems_);
+      add_model_problem(text, draft_->mechanism, numbers, study, planned.run, problems_);
     if (problems_.size() != before) return false;
-    if (planned.run == 1) check_names(planned, i);
+    check_names(planned, i);
     for (const std::string& text : analysis::problems_in(planned.plan, planned.mechanism)) {
       const bool has_better_place = text.find(": no quantity ") != std::string::npos;
       if (!has_better_place) add_study_problem(text, study, planned.run, problems_);
@@ -141,24 +166,31 @@ class Builder {
     return problems_.size() == before;
   }
 
+  /// Runs have the same names, unless a parameter sets the number of segments of a link.
   void check_names(const PlannedRun& planned, std::size_t i) {
     const StudyDraft& study = draft_->studies[i];
-    names_[i] = analysis::quantity_names(planned.plan, planned.mechanism);
+    std::vector<std::string> names = analysis::quantity_names(planned.plan, planned.mechanism);
+    const bool seen_before =
+        std::find(names_[i].begin(), names_[i].end(), names) != names_[i].end();
+    names_[i].resize(static_cast<std::size_t>(study.runs()));
+    names_[i][static_cast<std::size_t>(planned.run - 1)] = names;
+    if (seen_before) return;
     std::set<std::string> seen;
-    for (const std::string& name : names_[i])
+    for (const std::string& name : names)
       if (!seen.insert(name).second)
         problems_.add(study.place, study.key,
                       "two quantities are called \"" + name + "\": rename a body, chain or joint");
     for (const LimitDraft& limit : study.until)
-      check_quantity(limit.quantity, names_[i], study, problems_);
+      check_quantity(limit.quantity, names, study, problems_);
     for (const MarkDraft& mark : study.marks)
-      check_quantity(mark.quantity, names_[i], study, problems_);
+      check_quantity(mark.quantity, names, study, problems_);
   }
 
-  /// Names are known only if the study's first run could be built.
-  void check_use(const NamedPlace& quantity, std::size_t study) {
-    if (!names_[study].empty())
-      check_quantity(quantity, names_[study], draft_->studies[study], problems_);
+  /// Names are known only if the run could be built.
+  void check_use(const NamedPlace& quantity, std::size_t study, int run) {
+    const auto r = static_cast<std::size_t>(run - 1);
+    if (r < names_[study].size() && !names_[study][r].empty())
+      check_quantity(quantity, names_[study][r], draft_->studies[study], problems_);
   }
 
   /// "K.x.y" and "C.x.y"; nothing for all other names.
@@ -183,8 +215,8 @@ class Builder {
       for (const PlotCurves& curves : spec.curves)
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
-          check_use(plot.x, i);
-          check_use(plot.y, i);
+          check_use(plot.x, i, 1);
+          check_use(plot.y, i, 1);
         }
       result_.plots.push_back(std::move(spec));
     }
@@ -202,19 +234,19 @@ class Builder {
       value.tolerance = numbers[draft.tolerance];
       value.factor = numbers[draft.factor];
       for (const NearDraft& near : draft.near) {
-        check_use(near.quantity, *draft.study);
+        check_use(near.quantity, *draft.study, value.run);
         value.near.push_back({near.quantity.name, numbers[near.value]});
       }
-      check_use(draft.per, *draft.study);
+      check_use(draft.per, *draft.study, value.run);
       value.entry = entry_of(draft.quantity, *draft.study);
-      if (!value.entry) check_use(draft.quantity, *draft.study);
+      if (!value.entry) check_use(draft.quantity, *draft.study, value.run);
       result_.expected.values.push_back(std::move(value));
     }
   }
 
   std::shared_ptr<const CaseDraft> draft_;
   Problems& problems_;
-  std::vector<std::vector<std::string>> names_{};  ///< quantities of every study
+  std::vector<std::vector<std::vector<std::string>>> names_{};  ///< quantities of every run
   Case result_{};
 };
 

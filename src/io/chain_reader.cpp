@@ -131,7 +131,7 @@ void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading
     for (auto& [name, frame] : {std::pair{"from_at", &chain.from_at}, {"to_at", &chain.to_at}})
       if (const Node* node = table.find(name))
         *frame = read_frame({node, table.key_of(name)}, planar, draft.numbers, reading);
-    const std::string need = "a list of { joint = ... } and { rigid = ... }";
+    const std::string need = "a list of { joint = ... }, { rigid = ... } and { elastic = ... }";
     const Node* elements = table.require("elements", need);
     chain.elements = read_elements(table.list("elements", need), planar, draft.numbers, reading);
     if (elements && elements->kind == Node::Kind::array && elements->items.empty())

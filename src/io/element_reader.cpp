@@ -183,41 +183,55 @@ void read_rigid(const Item& item, bool planar, NumberTable& numbers, Reading& re
   elements.push_back({frame, item.node->place, item.key});
 }
 
+/// Which of the keys that say what an element is stands there; reports none and several.
+std::optional<std::string> kind_of(const Item& item, Reading& reading) {
+  static const std::vector<std::string> kinds{"joint", "rigid", "elastic"};
+  std::vector<std::string> found;
+  std::string hint;
+  for (const std::string& kind : kinds)
+    if (item.node->find(kind)) found.push_back(kind);
+  if (found.size() == 1) return found.front();
+  for (const NodeEntry& entry : item.node->entries)
+    if (const std::string near = nearest(entry.key, kinds); found.empty() && !near.empty())
+      hint = "; did you mean \"" + near + "\" where \"" + entry.key + "\" stands?";
+  std::string got = "got neither joint, rigid nor elastic";
+  for (std::size_t i = 0; i < found.size(); ++i) got = (i == 0 ? "got " : got + " and ") + found[i];
+  reading.problems.add(item.node->place, item.key, got + ", need exactly one of them" + hint);
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<ElementDraft> read_elements(const std::vector<Item>& items, bool planar,
                                         NumberTable& numbers, Reading& reading) {
   std::vector<ElementDraft> elements;
   std::set<std::string> names;
-  int joints = 0;
+  int joints = 0, links = 0;
+  const auto claim = [&](const Item& item, const std::string& own) {
+    if (names.insert(own).second) return;
+    const Node* name = item.node->find("name");
+    reading.problems.add(name ? name->place : item.node->place, item.key + ".name",
+                         "\"" + own +
+                             "\" is already the name of another joint of "
+                             "this chain, need different names");
+  };
   for (const Item& item : items) {
-    if (!is_table(item, "{ joint = ... } or { rigid = ... }", reading)) continue;
-    const bool joint = item.node->find("joint"), rigid = item.node->find("rigid");
-    if (joint == rigid) {
-      std::string hint;
-      for (const NodeEntry& entry : item.node->entries)
-        if (const std::string near = nearest(entry.key, {"joint", "rigid"});
-            !joint && !near.empty())
-          hint = "; did you mean \"" + near + "\" where \"" + entry.key + "\" stands?";
-      reading.problems.add(item.node->place, item.key,
-                           (joint ? "got joint and rigid" : "got neither joint nor rigid") +
-                               std::string{", need exactly one of them"} + hint);
-      continue;
-    }
-    if (rigid) {
+    if (!is_table(item, "{ joint = ... }, { rigid = ... } or { elastic = ... }", reading)) continue;
+    const std::optional<std::string> kind = kind_of(item, reading);
+    if (!kind) continue;
+    if (*kind == "rigid") {
       read_rigid(item, planar, numbers, reading, elements);
-      continue;
+    } else if (*kind == "elastic") {
+      const std::string name = "e" + std::to_string(++links);
+      ElasticDraft link = read_elastic(item, name, planar, numbers, reading);
+      claim(item, link.name);
+      elements.push_back({std::move(link), item.node->place, item.key});
+    } else {
+      JointReader reader{item, "j" + std::to_string(++joints), numbers, reading};
+      claim(item, reader.name());
+      for (JointDraft& draft : reader.joints())
+        elements.push_back({std::move(draft), item.node->place, item.key});
     }
-    JointReader reader{item, "j" + std::to_string(++joints), numbers, reading};
-    if (!names.insert(reader.name()).second) {
-      const Node* name = item.node->find("name");
-      reading.problems.add(name ? name->place : item.node->place, item.key + ".name",
-                           "\"" + reader.name() +
-                               "\" is already the name of another joint of "
-                               "this chain, need different names");
-    }
-    for (JointDraft& draft : reader.joints())
-      elements.push_back({std::move(draft), item.node->place, item.key});
   }
   return elements;
 }

@@ -66,10 +66,52 @@ model::SpringLaw law_of(const SpringDraft& spring, const Numbers& n) {
       spring);
 }
 
-model::Element element_of(const ElementDraft& draft, const Numbers& numbers) {
-  if (const auto* frame = std::get_if<FrameDraft>(&draft.content))
-    return model::RigidLink{pose_of(*frame, numbers)};
-  const auto& from = std::get<JointDraft>(draft.content);
+model::BeamSection section_of(const SectionDraft& s, const Numbers& n) {
+  model::BeamSection section;
+  switch (s.shape) {
+    case SectionDraft::Shape::given:
+      section = {.A = n[s.A], .Iy = n[s.Iy], .Iz = n[s.Iz], .J = n[s.J]};
+      break;
+    case SectionDraft::Shape::round:
+      section = model::round_section(n[s.diameter], n[s.inner]);
+      break;
+    case SectionDraft::Shape::rectangular:
+      section = model::rectangular_section(n[s.width], n[s.height]);
+      break;
+  }
+  if (s.Ay) section.Ay = n[*s.Ay];
+  if (s.Az) section.Az = n[*s.Az];
+  return section;
+}
+
+/// Stiffness of an elastic link's end, or of one of its segments, in its directions.
+Matrix stiffness_of(const ElasticDraft& draft, double length, const Numbers& n) {
+  const auto m = static_cast<Index>(draft.directions.size());
+  Matrix matrix(m, m);
+  if (draft.kind == ElasticDraft::Kind::beam) {
+    const Matrix C =
+        model::cantilever_compliance(length, n[draft.E], n[draft.G], section_of(draft.section, n));
+    std::vector<Index> rows;
+    for (const model::ElasticDirection d : draft.directions) rows.push_back(static_cast<Index>(d));
+    return model::inverse_of(C(rows, rows));
+  }
+  for (Index i = 0; i < m * m; ++i)
+    matrix(i / m, i % m) = n[draft.matrix[static_cast<std::size_t>(i)]];
+  return draft.kind == ElasticDraft::Kind::compliance ? model::inverse_of(matrix)
+                                                      : Matrix(0.5 * (matrix + matrix.transpose()));
+}
+
+void add_elastic(const ElasticDraft& draft, const Numbers& n, model::Chain& chain) {
+  const auto segments = static_cast<int>(n[draft.segments]);
+  const double length = n[draft.length] / segments;
+  const Matrix stiffness = stiffness_of(draft, length, n);
+  for (int i = 1; i <= segments; ++i)
+    add_elastic_link(chain, segments == 1 ? draft.name : draft.name + "." + std::to_string(i),
+                     length, draft.directions, stiffness, vector_of(draft.initial, n),
+                     vector_of(draft.free, n));
+}
+
+model::Joint joint_of(const JointDraft& from, const Numbers& numbers) {
   model::Joint joint{.name = from.name, .kind = from.kind, .role = from.role};
   joint.axis = direction_of(from.axis, numbers);
   if (from.spring) joint.spring = law_of(*from.spring, numbers);
@@ -78,7 +120,28 @@ model::Element element_of(const ElementDraft& draft, const Numbers& numbers) {
   return joint;
 }
 
+void add_element(const ElementDraft& draft, const Numbers& numbers, model::Chain& chain) {
+  std::visit(Overloaded{[&](const FrameDraft& frame) {
+                          chain.elements.push_back(model::RigidLink{pose_of(frame, numbers)});
+                        },
+                        [&](const JointDraft& joint) {
+                          chain.elements.push_back(joint_of(joint, numbers));
+                        },
+                        [&](const ElasticDraft& link) { add_elastic(link, numbers, chain); }},
+             draft.content);
+}
+
 }  // namespace
+
+std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers) {
+  model::Chain chain;
+  std::vector<std::size_t> origins;
+  for (std::size_t i = 0; i < draft.elements.size(); ++i) {
+    add_element(draft.elements[i], numbers, chain);
+    origins.resize(chain.elements.size(), i);
+  }
+  return origins;
+}
 
 Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers) {
   Vector v(static_cast<Index>(ids.size()));
@@ -97,8 +160,7 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
     chain.from_attachment = pose_of(from.from_at, numbers);
     chain.to_attachment = pose_of(from.to_at, numbers);
     chain.elements.reserve(from.elements.size());
-    for (const ElementDraft& element : from.elements)
-      chain.elements.push_back(element_of(element, numbers));
+    for (const ElementDraft& element : from.elements) add_element(element, numbers, chain);
     mechanism.chains.push_back(std::move(chain));
   }
   return mechanism;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "numbers.hpp"
+#include "springfold/model/elastic_link.hpp"
 #include "springfold/model/mechanism.hpp"
 
 namespace springfold::io {
@@ -56,9 +57,34 @@ struct JointDraft {
   std::optional<NumberId> command{};
 };
 
-/// One element of the model. Universal and spherical joints are already two and three of them.
+/// The cross-section of a beam.
+struct SectionDraft {
+  enum class Shape { given, round, rectangular };
+  Shape shape = Shape::given;
+  NumberId A = 0, Iy = 0, Iz = 0, J = 0;  ///< given: those that the directions need
+  std::optional<NumberId> Ay{}, Az{};     ///< shear areas; none: no shear
+  NumberId diameter = 0, inner = 0;       ///< round
+  NumberId width = 0, height = 0;         ///< rectangular
+};
+
+/// An elastic link: a rigid link and 6x6 virtual springs at its end, or a part of them.
+struct ElasticDraft {
+  enum class Kind { beam, stiffness, compliance };
+  Kind kind = Kind::beam;
+  std::string name{};
+  std::vector<model::ElasticDirection> directions{};  ///< increasing
+  NumberId length = 0;
+  NumberId E = 0, G = 0;                    ///< beam
+  SectionDraft section{};                   ///< beam
+  NumberId segments = 0;                    ///< beam: cut into so many links
+  std::vector<NumberId> matrix{};           ///< otherwise: row by row
+  std::vector<NumberId> initial{}, free{};  ///< one per direction
+};
+
+/// One element of the case file. Universal and spherical joints are already two and three joints;
+/// an elastic link becomes several elements of the model.
 struct ElementDraft {
-  std::variant<FrameDraft, JointDraft> content{};
+  std::variant<FrameDraft, JointDraft, ElasticDraft> content{};
   Place place{};
   std::string key{};
 };
@@ -88,6 +114,9 @@ struct MechanismDraft {
 
 /// @param numbers  values of draft.numbers, as many as these
 model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<double>& numbers);
+
+/// For every element of the chain's model, the place of the element of the draft that it comes from.
+std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers);
 
 /// The numbers with these ids.
 Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers);

@@ -25,6 +25,10 @@ void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading
 std::vector<ElementDraft> read_elements(const std::vector<Item>& elements, bool planar,
                                         NumberTable& numbers, Reading& reading);
 
+/// One `{ elastic = ... }`. @param plane  the body moves in the plane: directions Tx, Ty, Rz
+ElasticDraft read_elastic(const Item& item, const std::string& default_name, bool plane,
+                          NumberTable& numbers, Reading& reading);
+
 /// `[x, y, z]` or `{ at = [...], rotate = { axis = ..., angle = ... } }`.
 FrameDraft read_frame(const Item& item, bool planar, NumberTable& numbers, Reading& reading);
 

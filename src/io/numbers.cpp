@@ -72,12 +72,18 @@ NumberId NumberTable::add(const Definition& definition, const Rule& rule) {
 
 void NumberTable::require_less(NumberId lower, NumberId upper, const std::string& what) {
   const Definition& at = entries_[upper].definition;
-  relations_.push_back({{lower, upper}, false, at.place, at.key, what});
+  relations_.push_back({{lower, upper}, false, at.place, at.key, what, {}});
 }
 
 void NumberTable::require_nonzero(const std::vector<NumberId>& ids, const Place& place,
                                   const std::string& key, const std::string& what) {
-  relations_.push_back({ids, true, place, key, what});
+  relations_.push_back({ids, true, place, key, what, {}});
+}
+
+void NumberTable::require(const std::vector<NumberId>& ids, const Place& place,
+                          const std::string& key,
+                          std::function<std::string(const std::vector<double>&)> problem_in) {
+  relations_.push_back({ids, false, place, key, "", std::move(problem_in)});
 }
 
 Values NumberTable::values(const FormulaBook& book, const Values& parameters) const {
@@ -100,6 +106,13 @@ Values NumberTable::values(const FormulaBook& book, const Values& parameters) co
 std::string NumberTable::broken(const Relation& relation, const Values& values) const {
   const auto unusable = [&values](NumberId id) { return !values.usable[id]; };
   if (std::any_of(relation.ids.begin(), relation.ids.end(), unusable)) return {};
+  if (relation.problem_in) {
+    std::vector<double> numbers;
+    for (const NumberId id : relation.ids) numbers.push_back(values.values[id]);
+    const bool finite = std::all_of(numbers.begin(), numbers.end(),
+                                    [](double number) { return std::isfinite(number); });
+    return finite ? relation.problem_in(numbers) : "";
+  }
   const auto zero = [&values](NumberId id) { return values.values[id] == 0; };
   if (relation.nonzero) {
     const bool all_zero = std::all_of(relation.ids.begin(), relation.ids.end(), zero);

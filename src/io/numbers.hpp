@@ -1,6 +1,7 @@
 // The numbers of one part of a case: what each is, what it must be, its value for given parameters.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ class NumberTable {
   void require_nonzero(const std::vector<NumberId>& ids, const Place& place, const std::string& key,
                        const std::string& what);
 
+  /// @param problem_in  of these values, all finite: what is wrong with them; empty when usable
+  void require(const std::vector<NumberId>& ids, const Place& place, const std::string& key,
+               std::function<std::string(const std::vector<double>&)> problem_in);
+
   std::size_t size() const { return entries_.size(); }
   const Definition& definition(NumberId id) const { return entries_[id].definition; }
 
@@ -65,6 +70,7 @@ class NumberTable {
     Place place{};
     std::string key{};
     std::string what{};
+    std::function<std::string(const std::vector<double>&)> problem_in{};  ///< instead of these
   };
   std::string broken(const Relation& relation, const Values& values) const;
 

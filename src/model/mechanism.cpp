@@ -14,18 +14,49 @@ bool is_rotation(const Mat3<double>& R) {
          R.determinant() > 0;
 }
 
-void check_joint(const Joint& joint, const std::string& where, std::vector<std::string>& problems) {
+void check_joint(const Joint& joint, bool coupled, const std::string& where,
+                 std::vector<std::string>& problems) {
   const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
   if (!(std::abs(joint.axis.norm() - 1) < 1e-9)) say("axis: need a unit vector");
   if (!std::isfinite(joint.initial)) say("initial: need a finite number");
   if (!std::isfinite(joint.command)) say("value: need a finite number");
   const bool needs_spring =
-      joint.role == JointRole::preloaded || joint.role == JointRole::compliant;
+      joint.role == JointRole::preloaded || (joint.role == JointRole::compliant && !coupled);
   if (needs_spring && !joint.spring) say("spring: a joint with this role needs a spring");
   if (joint.role == JointRole::passive && joint.spring)
     say("spring: a passive joint has none; give it the role preloaded");
   if (!joint.spring) return;
   for (const std::string& problem : problems_in(*joint.spring)) say("spring." + problem);
+}
+
+/// Coupled springs; says of each element whether one acts on it.
+std::vector<bool> check_coupled(const Chain& chain, const std::string& where,
+                                std::vector<std::string>& problems) {
+  std::vector<bool> coupled(chain.elements.size(), false);
+  for (const CoupledSpring& spring : chain.coupled_springs) {
+    const auto say = [&](const std::string& what) {
+      const std::size_t first = spring.elements.empty() ? 0 : spring.elements.front();
+      problems.push_back(where + ".elements[" + std::to_string(first + 1) + "]: " + what);
+    };
+    const auto m = static_cast<Index>(spring.elements.size());
+    if (spring.stiffness.rows() != m || spring.stiffness.cols() != m || spring.free.size() != m) {
+      say("stiffness: need one row, column and free value for every joint");
+      continue;
+    }
+    const std::string problem = problem_in(spring.stiffness, Definiteness::semidefinite);
+    if (!problem.empty()) say("stiffness: " + problem);
+    if (problem.empty() && spring.stiffness != spring.stiffness.transpose())
+      say("stiffness: need an exactly symmetric matrix");
+    if (!spring.free.allFinite()) say("free: need finite numbers");
+    for (const std::size_t i : spring.elements) {
+      const auto* joint =
+          i < chain.elements.size() ? std::get_if<Joint>(&chain.elements[i]) : nullptr;
+      if (joint == nullptr || joint->role != JointRole::compliant || joint->spring || coupled[i])
+        say("stiffness: a coupled spring acts on virtual joints that have no other spring");
+      if (i < chain.elements.size()) coupled[i] = true;
+    }
+  }
+  return coupled;
 }
 
 void check_chain(const Mechanism& mechanism, const Chain& chain, const std::string& where,
@@ -47,11 +78,12 @@ void check_chain(const Mechanism& mechanism, const Chain& chain, const std::stri
   for (const Pose<double>* pose : {&chain.from_attachment, &chain.to_attachment})
     if (!pose->p.allFinite() || !is_rotation(pose->R)) say("attachment: need a rigid motion");
 
+  const std::vector<bool> coupled = check_coupled(chain, where, problems);
   std::set<std::string> names;
   for (std::size_t i = 0; i < chain.elements.size(); ++i) {
     const std::string element = where + ".elements[" + std::to_string(i + 1) + "]";
     if (const auto* joint = std::get_if<Joint>(&chain.elements[i])) {
-      check_joint(*joint, element, problems);
+      check_joint(*joint, coupled[i], element, problems);
       if (!names.insert(joint->name).second)
         problems.push_back(element + ": name: \"" + joint->name + "\" is used twice");
       continue;

@@ -68,6 +68,11 @@ void add_springs(const System& system, const Piece& piece, const Vector& z, Vect
     if (A != nullptr)
       (*A)(spring.coordinate, spring.coordinate) += spring.law.segments[segment].stiffness;
   }
+  for (const CoordinateGroup& group : system.coupled) {
+    const auto& at = group.coordinates;
+    residual(at) += group.stiffness * (z(at) - group.free);
+    if (A != nullptr) (*A)(at, at) += group.stiffness;
+  }
 }
 
 void scatter_residual(const System& system, std::size_t i, Workspace& work, Vector& residual) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "springfold/statics/first_equilibrium.hpp"
 
@@ -12,24 +13,43 @@ namespace {
 /// Coordinates of one chain split as the paper does, in the segments of the present state.
 struct Split {
   std::vector<Index> theta{}, q{};  ///< with and without stiffness, numbers within the chain
-  Vector stiffness{};               ///< of theta
+  Matrix compliance{};              ///< of theta, K_theta^-1
   Vector rest{};                    ///< theta_0: where the torque of the segment vanishes
   Vector constant_torque{};         ///< of q: segments of zero stiffness may carry a constant one
 };
 
-Split split_of(const System& system, const ChainSlice& slice, const Piece& piece) {
-  Vector k = Vector::Zero(slice.x_count), torque_at_zero = Vector::Zero(slice.x_count);
+/// @returns nothing when coupled springs have a direction without stiffness, so that theta has no
+///          compliance
+std::optional<Split> split_of(const System& system, const ChainSlice& slice, const Piece& piece) {
+  Matrix K = Matrix::Zero(slice.x_count, slice.x_count);
+  Vector torque_at_zero = Vector::Zero(slice.x_count);
   for (const CoordinateSpring& spring : system.springs) {
     const Index i = spring.coordinate - slice.x;
     if (i < 0 || i >= slice.x_count) continue;
     const std::size_t segment = segment_of(spring, piece);
-    k[i] = spring.law.segments[segment].stiffness;
+    K(i, i) = spring.law.segments[segment].stiffness;
     torque_at_zero[i] = spring.law.torque(segment, 0.0);
   }
+  for (const CoordinateGroup& group : system.coupled) {
+    if (group.coordinates.front() < slice.x || group.coordinates.front() >= slice.x + slice.x_count)
+      continue;
+    std::vector<Index> at = group.coordinates;
+    for (Index& i : at) i -= slice.x;
+    K(at, at) += group.stiffness;
+    torque_at_zero(at) -= group.stiffness * group.free;
+  }
   Split split;
-  for (Index i = 0; i < slice.x_count; ++i) (k[i] > 0 ? split.theta : split.q).push_back(i);
-  split.stiffness = k(split.theta);
-  split.rest = -(torque_at_zero(split.theta).array() / split.stiffness.array()).matrix();
+  for (Index i = 0; i < slice.x_count; ++i) (K(i, i) > 0 ? split.theta : split.q).push_back(i);
+  if (!split.theta.empty()) {
+    const Matrix K_theta = K(split.theta, split.theta);
+    const Vector size = K_theta.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::FullPivLU<Matrix> lu(size.asDiagonal() * K_theta * size.asDiagonal());
+    if (!lu.isInvertible()) return std::nullopt;
+    split.compliance = size.asDiagonal() * lu.inverse() * size.asDiagonal();
+  } else {
+    split.compliance.resize(0, 0);
+  }
+  split.rest = -split.compliance * torque_at_zero(split.theta);
   split.constant_torque = torque_at_zero(split.q);
   return split;
 }
@@ -70,11 +90,13 @@ ChainIteration iterate_chain(const System& system, std::size_t chain, const Vect
     ++result.iterations;
     const Piece piece = piece_at(system, z);
     if (!equilibrium_matrix(system, piece, z, inputs, work, residual, A)) return result;
-    const Split split = split_of(system, s, piece);
+    const std::optional<Split> parts = split_of(system, s, piece);
+    if (!parts) return result;
+    const Split& split = *parts;
     const Matrix J = -A.block(s.F, s.x, s.F_count, s.x_count);
     const Matrix J_theta = J(Eigen::all, split.theta), J_q = J(Eigen::all, split.q);
     const Vector x = z.segment(s.x, s.x_count), theta = x(split.theta), q = x(split.q);
-    const Matrix compliance = split.stiffness.cwiseInverse().asDiagonal();
+    const Matrix& compliance = split.compliance;
 
     // | J_th K^-1 J_th^T   J_q | | F |   | eps          |
     // |                        | |   | = |              |,  theta = theta_0 + K^-1 J_th^T F

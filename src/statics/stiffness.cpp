@@ -109,13 +109,16 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
   const Matrix J = -A.block(s.F, s.x, s.F_count, s.x_count);
 
   // Split the coordinates into theta (active spring) and q (no stiffness in this segment).
-  Vector stiffness = Vector::Zero(system.size);
+  Matrix stiffness = Matrix::Zero(system.first_pose, system.first_pose);
   for (const CoordinateSpring& spring : system.springs)
-    stiffness[spring.coordinate] += spring.law.segments[segment_of(spring, piece)].stiffness;
+    stiffness(spring.coordinate, spring.coordinate) +=
+        spring.law.segments[segment_of(spring, piece)].stiffness;
+  for (const CoordinateGroup& group : system.coupled)
+    stiffness(group.coordinates, group.coordinates) += group.stiffness;
+  const Matrix K = stiffness.block(s.x, s.x, s.x_count, s.x_count);
   std::vector<Index> theta, q;
-  for (Index i = 0; i < s.x_count; ++i) (stiffness[s.x + i] > 0 ? theta : q).push_back(i);
+  for (Index i = 0; i < s.x_count; ++i) (K(i, i) > 0 ? theta : q).push_back(i);
 
-  const Matrix K = stiffness.segment(s.x, s.x_count).asDiagonal();
   const Matrix H = K - A.block(s.x, s.x, s.x_count, s.x_count);
   Eigen::FullPivLU<Matrix> k_inverse;
   if (!theta.empty() && !k_inverse.compute((K - H)(theta, theta)).isInvertible())

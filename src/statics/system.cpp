@@ -52,11 +52,23 @@ void add_spring(System& system, const model::SpringLaw& law, Index coordinate,
   system.springs.push_back(std::move(spring));
 }
 
+/// @param coordinates  per element of the chain: its unknown in z, or -1
+void add_coupled(System& system, const model::Chain& chain, const std::vector<Index>& coordinates) {
+  for (const model::CoupledSpring& spring : chain.coupled_springs) {
+    CoordinateGroup group{.stiffness = spring.stiffness, .free = spring.free};
+    for (const std::size_t element : spring.elements)
+      group.coordinates.push_back(coordinates[element]);
+    system.coupled.push_back(std::move(group));
+  }
+}
+
 void add_chain(System& system, const model::Chain& chain) {
   ChainSlice slice;
   slice.x = system.size;
   std::vector<double> commands(system.commands.begin(), system.commands.end());
+  std::vector<Index> coordinates;
   for (const model::Element& element : chain.elements) {
+    coordinates.push_back(-1);
     const auto* joint = std::get_if<model::Joint>(&element);
     if (joint == nullptr) continue;
     const bool length = joint->kind == model::JointKind::prismatic;
@@ -69,11 +81,13 @@ void add_chain(System& system, const model::Chain& chain) {
       system.command_is_length.push_back(length);
     }
     if (!has_coordinate(*joint)) continue;
+    coordinates.back() = system.size;
     const std::string name = chain.name + "." + coordinate_name(*joint);
     if (joint->spring) add_spring(system, *joint->spring, system.size, name);
     add_unknown(system, name, length, false);
   }
   slice.x_count = system.size - slice.x;
+  add_coupled(system, chain, coordinates);
   system.commands = Eigen::Map<const Vector>(commands.data(), static_cast<Index>(commands.size()));
 
   slice.F = system.size;
@@ -154,6 +168,10 @@ double spring_energy(const System& system, const Vector& z) {
   for (const CoordinateSpring& spring : system.springs) {
     const double c = z[spring.coordinate];
     energy += spring.law.energy(spring.law.segment_at(c), c);
+  }
+  for (const CoordinateGroup& group : system.coupled) {
+    const Vector q = z(group.coordinates) - group.free;
+    energy += 0.5 * q.dot(group.stiffness * q);
   }
   return energy;
 }

@@ -36,5 +36,40 @@ TEST(LinkColumnCase, AgreesInOtherUnits) {
   expect_all_hold("link-column", {{"L", "0.02"}, {"k", "1e5"}});
 }
 
+TEST(Bend45Case, AgreesWithASecondSolution) { expect_all_hold("bend-45", {}); }
+
+TEST(SegmentedColumnCase, HasDoubleCriticalPointsAsTheClosedFormSays) {
+  expect_all_hold("segmented-column", {});
+}
+
+TEST(SegmentedColumnCase, AgreesInOtherUnits) {
+  expect_all_hold("segmented-column", {{"L", "250"}, {"EI", "3e4"}});
+}
+
+/// Values of lambda at the branch points of the two-link column.
+std::vector<double> critical_loads(const std::map<std::string, std::string>& overrides) {
+  const Case c = load_case(
+      std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/segmented-column/case.toml", overrides);
+  PlannedRun run = c.runs.at(1);
+  run.plan.until[0].high = 7;
+  std::vector<double> loads;
+  const analysis::StudyResult result = analysis::run_study(run.mechanism, run.plan);
+  for (const analysis::Branch& branch : result.branches)
+    for (const analysis::Event& event : branch.events)
+      if (event.kind == analysis::EventKind::branch_point)
+        loads.push_back(branch.samples[event.row].values[1]);
+  return loads;
+}
+
+// EA -> infinity: 2 (sqrt 21 - 3); twice that about the axis that is twice as stiff.
+TEST(SegmentedColumnCase, TendsToTheClosedFormOfTheColumnThatIsNotShortened) {
+  const double P = 2 * (std::sqrt(21.0) - 3);
+  EXPECT_THAT(critical_loads({{"EA", "1e9"}}), testing::ElementsAre(testing::DoubleNear(P, 2e-8)));
+  EXPECT_THAT(critical_loads({{"EA", "1e9"}, {"weak", "2"}}),
+              testing::ElementsAre(testing::DoubleNear(P, 2e-8), testing::DoubleNear(2 * P, 6e-8)));
+}
+
+TEST(PuuFlexibleCase, HasTheStiffnessOfTheClosedForm) { expect_all_hold("puu-flexible", {}); }
+
 }  // namespace
 }  // namespace springfold::io

@@ -33,9 +33,10 @@ TEST_F(CaseMessages, TakeAMisspeltKeyForTheMissingOne) {
   EXPECT_THAT(after("spring = {", "sprnig = {"),
               ElementsAre("case.toml:17:73: chain[1].elements[2].sprnig: unknown key, did you mean "
                           "\"spring\"?"));
-  EXPECT_THAT(after("joint = \"revolute\"", "jiont = \"revolute\""),
-              ElementsAre("case.toml:17:3: chain[1].elements[2]: got neither joint nor rigid, need "
-                          "exactly one of them; did you mean \"joint\" where \"jiont\" stands?"));
+  EXPECT_THAT(
+      after("joint = \"revolute\"", "jiont = \"revolute\""),
+      ElementsAre("case.toml:17:3: chain[1].elements[2]: got neither joint, rigid nor elastic, "
+                  "need exactly one of them; did you mean \"joint\" where \"jiont\" stands?"));
 }
 
 TEST_F(CaseMessages, NameMissingKeysAtTheirTable) {

@@ -116,8 +116,10 @@ inline Complex lagrangian(const model::Mechanism& m, const ComplexVector& z, con
     load += d;
   }
   for (const model::Chain& chain : m.chains) {
+    std::vector<Index> rows;  // per element: its coordinate in z
     Frame end = frames[static_cast<std::size_t>(chain.from)] * frame_of(chain.from_attachment);
     for (const model::Element& element : chain.elements) {
+      rows.push_back(row);
       if (const auto* link = std::get_if<model::RigidLink>(&element)) {
         end = (end * frame_of(link->transform)).eval();
         continue;
@@ -130,6 +132,13 @@ inline Complex lagrangian(const model::Mechanism& m, const ComplexVector& z, con
       }
       end = (end * frame_of_joint(joint, c)).eval();
     }
+    for (const model::CoupledSpring& spring : chain.coupled_springs)
+      for (std::size_t i = 0; i < spring.elements.size(); ++i)
+        for (std::size_t j = 0; j < spring.elements.size(); ++j) {
+          const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+          L += 0.5 * spring.stiffness(a, b) * (z[rows[spring.elements[i]]] - spring.free[a]) *
+               (z[rows[spring.elements[j]]] - spring.free[b]);
+        }
     const Frame body = frames[static_cast<std::size_t>(chain.to)] * frame_of(chain.to_attachment);
     const Rotation E = end.topLeftCorner<3, 3>() * body.topLeftCorner<3, 3>().transpose();
     const Point gap = end.topRightCorner<3, 1>() - body.topRightCorner<3, 1>();

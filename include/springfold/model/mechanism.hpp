@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "springfold/core/types.hpp"
+#include "springfold/model/coupled_spring.hpp"
 #include "springfold/model/se3.hpp"
 #include "springfold/model/spring_law.hpp"
 
@@ -62,9 +63,10 @@ struct Joint {
   JointKind kind = JointKind::revolute;
   Vec3<double> axis = Vec3<double>::UnitZ();  ///< unit vector in the frame before the joint
   JointRole role = JointRole::passive;
-  std::optional<SpringLaw> spring{};  ///< preloaded, compliant: needed; actuated: drive stiffness
-  double initial = 0;                 ///< guess of the free coordinate (theta for a drive spring)
-  double command = 0;                 ///< actuated joints: rho
+  /// preloaded: needed; compliant: needed unless a coupled spring acts on it; actuated: drive stiffness
+  std::optional<SpringLaw> spring{};
+  double initial = 0;  ///< guess of the free coordinate (theta for a drive spring)
+  double command = 0;  ///< actuated joints: rho
 };
 
 using Element = std::variant<RigidLink, Joint>;
@@ -78,6 +80,7 @@ struct Chain {
   Pose<double> from_attachment{};  ///< start of the chain in the frame of `from`
   Pose<double> to_attachment{};    ///< end of the chain in the frame of `to`
   std::vector<Element> elements{};
+  std::vector<CoupledSpring> coupled_springs{};  ///< of its compliant joints
 };
 
 /// A moving body. `pose` is where it is to be looked for first.

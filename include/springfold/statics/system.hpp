@@ -33,6 +33,13 @@ struct CoordinateSpring {
   Index first_switch = 0;  ///< its breakpoints' place in the piece, in increasing order
 };
 
+/// A spring that couples several coordinates: torques stiffness (c - free).
+struct CoordinateGroup {
+  std::vector<Index> coordinates{};  ///< in z
+  Matrix stiffness{};                ///< symmetric
+  Vector free{};
+};
+
 /// A breakpoint of a spring: the piece's entry is +1 above, -1 below.
 struct Switch {
   Index coordinate = 0;  ///< in z
@@ -47,6 +54,7 @@ struct System {
   std::vector<ChainSlice> chain_slices{};
   std::vector<BodySlice> body_slices{};
   std::vector<CoordinateSpring> springs{};
+  std::vector<CoordinateGroup> coupled{};
   std::vector<Switch> switches{};
   std::vector<std::string>
       coordinate_names{};                    ///< per entry of z; wrenches "leg.Fx", poses "tool.x"
