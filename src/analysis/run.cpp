@@ -7,10 +7,10 @@
 
 #include "branch_rows.hpp"
 #include "branches.hpp"
+#include "equilibria.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
-#include "springfold/core/inertia.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -114,15 +114,6 @@ void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, 
       setup.rule.N * (setup.rule.N.transpose() * extra);
 }
 
-void count_negative(const PathProblem& problem, CurvePoint& start) {
-  Matrix A;
-  Vector b;
-  if (!problem.symmetric() || !problem.derivatives(start.x, start.lambda, start.piece, A, b))
-    return;
-  const auto inertia = inertia_of(A);
-  if (inertia && inertia->zero == 0) start.negative = inertia->negative;
-}
-
 }  // namespace
 
 StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
@@ -138,7 +129,12 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   for (const QuantityDefinition& q : quantities) result.quantities.push_back({q.name, q.unit});
 
   const statics::FirstEquilibrium first = find_start(setup, study, result.start);
-  if (result.start.found) {
+  if (study.kind == StudyKind::equilibria) {
+    setup.rule.t_start = Vector::Zero(setup.rule.t_rate.size());
+    setup.rule.rho_start = first.inputs.rho;
+    hold_free_part(study, first, setup);
+    find_equilibria(setup, study, first, result);
+  } else if (result.start.found) {
     const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
     setup.rule.t_start = first.z.segment(body.t, body.count);
     setup.rule.rho_start = first.inputs.rho;

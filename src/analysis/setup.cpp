@@ -113,7 +113,8 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
     setup.rule.rho_rate = Vector::Zero(setup.system.commands.size());
     setup.rule.W_rate = Vector::Zero(setup.system.load_size);
   }
-  const ControlMode free = study.kind == StudyKind::equilibrium ? ControlMode::load : study.control;
+  const bool traces = study.kind == StudyKind::force_deflection;
+  const ControlMode free = traces ? study.control : ControlMode::load;
   setup.rule.N = free_directions(free, study.direction, dimension(space));
   if (space == model::TaskSpace::spatial)
     for (const Vector* load : {&setup.rule.W_start, &setup.rule.W_rate})

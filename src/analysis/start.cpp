@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "number_text.hpp"
+#include "springfold/core/inertia.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -111,6 +112,17 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
 }
 
 }  // namespace
+
+Vector start_guess(const Setup& setup, const Study& study) { return problem_of(setup, study).z; }
+
+void count_negative(const PathProblem& problem, continuation::CurvePoint& point) {
+  Matrix A;
+  Vector b;
+  if (!problem.symmetric() || !problem.derivatives(point.x, point.lambda, point.piece, A, b))
+    return;
+  const auto inertia = inertia_of(A);
+  if (inertia && inertia->zero == 0) point.negative = inertia->negative;
+}
 
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report) {
   const statics::StartProblem problem = problem_of(setup, study);

@@ -3,6 +3,7 @@
 
 #include "setup.hpp"
 #include "springfold/analysis/result.hpp"
+#include "springfold/continuation/curve.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::analysis {
@@ -10,5 +11,11 @@ namespace springfold::analysis {
 /// Finds the first equilibrium as the study says and reports how it went. One that lies farther from
 /// its guess than the study allows counts as not found.
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report);
+
+/// The state from which the search for the start begins.
+Vector start_guess(const Setup& setup, const Study& study);
+
+/// Number of negative eigenvalues at a point, where the problem is symmetric and none is zero.
+void count_negative(const PathProblem& problem, continuation::CurvePoint& point);
 
 }  // namespace springfold::analysis

@@ -79,7 +79,7 @@ void check_quantities(const Study& study, const model::Mechanism& mechanism,
 
 void check_control(const Study& study, const model::Mechanism& mechanism,
                    std::vector<std::string>& problems) {
-  if (study.kind == StudyKind::equilibrium) return;
+  if (study.kind != StudyKind::force_deflection) return;
   if (study.control == ControlMode::parameter && study.parameter.empty())
     problems.push_back("parameter: control \"parameter\" needs the name of one");
   if (study.control != ControlMode::actuator) return;
@@ -104,13 +104,37 @@ void check_branches(const Study& study, std::vector<std::string>& problems) {
     problems.push_back(
         "branches: path = \"davidenko\" follows the branch of the start alone: it finds no branch "
         "points");
-  if (study.kind == StudyKind::equilibrium && (b.depth > 0 || !b.search_at.empty()))
-    problems.push_back("branches: kind = \"equilibrium\" has no branches");
+  if (study.kind != StudyKind::force_deflection && (b.depth > 0 || !b.search_at.empty()))
+    problems.push_back("branches: only kind = \"force_deflection\" has branches");
   for (const double lambda : b.search_at) {
     if (!std::isfinite(lambda)) problems.push_back("branches.search_at: need finite numbers");
     for (const Limit& limit : study.until)
       if (limit.quantity == "lambda" && !(limit.low <= lambda && lambda <= limit.high))
         problems.push_back("branches.search_at: a value lies outside the limits of lambda");
+  }
+}
+
+void check_search(const Study& study, const model::Mechanism& mechanism,
+                  std::vector<std::string>& problems) {
+  const SearchSettings& s = study.search;
+  if (s.starts < 1) problems.push_back("search.starts: need at least 1");
+  if (s.maximum < 1) problems.push_back("search.maximum: need at least 1");
+  if (study.kind == StudyKind::equilibria && study.start.solve == StartSolve::wrench)
+    problems.push_back(
+        "start.solve: \"wrench\" holds the body, so that there is one equilibrium; use \"pose\"");
+  const auto list = quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none);
+  for (const Limit& limit : s.box) {
+    const auto q = std::find_if(list.begin(), list.end(), [&](const QuantityDefinition& d) {
+      return d.name == limit.quantity;
+    });
+    const std::string key = "search.box." + limit.quantity;
+    if (q == list.end())
+      problems.push_back(key + ": no quantity \"" + limit.quantity + "\" in this study");
+    else if (q->kind != QuantityDefinition::Kind::unknown || q->unit == Unit::force ||
+             q->unit == Unit::moment)
+      problems.push_back(key + ": need a coordinate of a body or of a joint");
+    if (!(limit.low < limit.high) || !std::isfinite(limit.low) || !std::isfinite(limit.high))
+      problems.push_back(key + ": need finite numbers low < high");
   }
 }
 
@@ -134,6 +158,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   check_branches(study, problems);
   if (t.maximum_points < 2) problems.push_back("trace.maximum_points: need at least 2");
   if (problems.empty()) check_quantities(study, mechanism, problems);
+  if (problems.empty()) check_search(study, mechanism, problems);
   return problems;
 }
 

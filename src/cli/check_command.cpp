@@ -69,6 +69,8 @@ std::string word_of(StudyKind kind) {
       return "equilibrium";
     case StudyKind::force_deflection:
       return "force_deflection";
+    case StudyKind::equilibria:
+      return "equilibria";
   }
   return "";
 }

@@ -8,6 +8,7 @@
 
 #include "result_access.hpp"
 #include "springfold/statics/system.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -18,15 +19,45 @@ using analysis::StudyResult;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view count_prefix = "count.";
+constexpr std::string_view equilibrium_code = "EQ";
 
-/// A row of a branch, with the special point that is there.
+/// A row of a branch with the special point that is there, or one of several equilibria.
 struct Point {
-  const Branch* branch = nullptr;
-  std::size_t row = 0;
+  const analysis::Sample* sample = nullptr;
   const Event* event = nullptr;
+  const Matrix* stiffness = nullptr;
+  double potential = nothing;
 };
 
+double value_at(const StudyResult& result, const Point& point, const std::string& quantity) {
+  if (quantity == "potential") return point.potential;
+  const auto column = column_of(result, quantity);
+  return column && *column < point.sample->values.size() ? point.sample->values[*column] : nothing;
+}
+
+Point point_of(const Branch& branch, const Event& event) {
+  return {&branch.samples[event.row], &event, &event.stiffness};
+}
+
+Point point_of(const analysis::Equilibrium& e) {
+  return {&e.sample, nullptr, &e.stiffness, e.potential};
+}
+
+/// "equilibria", or "equilibria.1" for those with one unstable mode.
+double count_of(const analysis::EquilibriaReport& report, const StudyResult& result,
+                std::string_view what) {
+  const std::size_t dot = what.find('.');
+  if (dot == std::string_view::npos) return static_cast<double>(report.list.size());
+  const std::string wanted{what.substr(dot + 1)};
+  return static_cast<double>(
+      std::count_if(report.list.begin(), report.list.end(), [&](const analysis::Equilibrium& e) {
+        return rounded(value_at(result, point_of(e), "index"), 3) == wanted;
+      }));
+}
+
 double count_of(const StudyResult& result, std::string_view what) {
+  if (what.starts_with("equilibria"))
+    return result.equilibria ? count_of(*result.equilibria, result, what) : nothing;
   if (what == "branches") return static_cast<double>(result.branches.size());
   const auto counts = event_counts(result);
   const auto found = counts.find(std::string{what});
@@ -39,24 +70,31 @@ const Event* event_in(const Branch& branch, std::size_t row) {
   return nullptr;
 }
 
-/// Of all special points of this code the one whose quantities are nearest to `near`, each
-/// difference divided by how far that quantity spreads over these points.
-std::optional<Point> nearest_point(const StudyResult& result, const std::string& code,
-                                   const std::vector<NearValue>& near) {
+/// All special points of this code, on all branches; for "EQ" all equilibria.
+std::vector<Point> points_with(const StudyResult& result, const std::string& code) {
   std::vector<Point> points;
   for (const Branch& branch : result.branches)
     for (const Event& event : branch.events)
-      if (analysis::code_of(event.kind) == code) points.push_back({&branch, event.row, &event});
+      if (analysis::code_of(event.kind) == code) points.push_back(point_of(branch, event));
+  if (code == equilibrium_code && result.equilibria)
+    for (const auto& e : result.equilibria->list) points.push_back(point_of(e));
+  return points;
+}
+
+/// The one whose quantities are nearest to `near`, each difference divided by how far that quantity
+/// spreads over these points.
+std::optional<Point> nearest_point(const StudyResult& result, const std::vector<Point>& points,
+                                   const std::vector<NearValue>& near) {
   std::vector<double> distance(points.size(), 0);
   for (const NearValue& wanted : near) {
     double low = wanted.value, high = wanted.value;
     for (const Point& point : points) {
-      const double v = value_at(result, *point.branch, point.row, wanted.quantity);
+      const double v = value_at(result, point, wanted.quantity);
       low = std::fmin(low, v);
       high = std::fmax(high, v);
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double v = value_at(result, *points[i].branch, points[i].row, wanted.quantity);
+      const double v = value_at(result, points[i], wanted.quantity);
       const double d = std::isnan(v) ? std::numeric_limits<double>::infinity()
                                      : std::abs(v - wanted.value) / std::fmax(high - low, 1e-300);
       distance[i] = std::max(distance[i], d);
@@ -67,20 +105,33 @@ std::optional<Point> nearest_point(const StudyResult& result, const std::string&
   return points[static_cast<std::size_t>(best - distance.begin())];
 }
 
+/// The equilibrium with this label; for "start" the one that was found from the guess.
+std::optional<Point> equilibrium_at(const StudyResult& result, const std::string& at) {
+  for (const auto& e : result.equilibria->list)
+    if (e.label == at || (at == "start" && e.is_start)) return point_of(e);
+  return std::nullopt;
+}
+
 /// A point where branches meet is taken on the first of them.
 std::optional<Point> point_of(const ExpectedValue& expected, const StudyResult& result) {
+  if (!expected.near.empty())
+    return nearest_point(result, points_with(result, expected.at), expected.near);
+  if (result.equilibria) return equilibrium_at(result, expected.at);
   if (result.branches.empty() || result.branches.front().samples.empty()) return std::nullopt;
   const Branch& first = result.branches.front();
-  if (expected.at == "start")
-    return Point{&first, first.start_row, event_in(first, first.start_row)};
+  if (expected.at == "start") {
+    Point point{&first.samples[first.start_row], event_in(first, first.start_row)};
+    point.stiffness = &result.start.stiffness;
+    return point;
+  }
   if (expected.at == "end") {
     const std::size_t last = first.samples.size() - 1;
-    return Point{&first, last, event_in(first, last)};
+    const Event* event = event_in(first, last);
+    return Point{&first.samples[last], event, event ? &event->stiffness : nullptr};
   }
-  if (!expected.near.empty()) return nearest_point(result, expected.at, expected.near);
   for (const Branch& branch : result.branches)
     for (const Event& event : branch.events)
-      if (event.label == expected.at) return Point{&branch, event.row, &event};
+      if (event.label == expected.at) return point_of(branch, event);
   return std::nullopt;
 }
 
@@ -129,18 +180,25 @@ std::vector<MatrixEntryName> matrix_entries(const model::Mechanism& mechanism) {
 
 const std::vector<std::string>& event_codes() {
   static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS",
-                                              "TP", "FM", "UZ", "EP", "UR"};
+                                              "TP", "FM", "UZ", "EP", "UR", "EQ"};
   return codes;
 }
 
 std::vector<std::string> general_quantities() {
-  std::vector<std::string> names{"corank", "ways", "count.branches"};
-  for (const std::string& code : event_codes()) names.push_back("count." + code);
+  std::vector<std::string> names{"corank", "ways", "potential", "count.branches",
+                                 "count.equilibria"};
+  for (const std::string& code : event_codes())
+    if (code != equilibrium_code) names.push_back("count." + code);
   return names;
 }
 
 bool is_general_quantity(const std::string& name) {
   const auto names = general_quantities();
+  const std::string by_index = "count.equilibria.";
+  if (name.starts_with(by_index) && name.size() > by_index.size() &&
+      std::all_of(name.begin() + static_cast<std::ptrdiff_t>(by_index.size()), name.end(),
+                  [](char c) { return c >= '0' && c <= '9'; }))
+    return true;
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -152,9 +210,8 @@ double found_value(const ExpectedValue& expected, const StudyResult& result) {
   if (!point) return nothing;
   if (quantity == "corank" || quantity == "ways") return of_junction(result, *point, quantity);
   if (!expected.per.empty()) return slope(expected, result, *point);
-  if (!expected.entry) return value_at(result, *point->branch, point->row, quantity);
-  if (expected.at == "start") return matrix_entry(result.start.stiffness, *expected.entry);
-  return point->event ? matrix_entry(point->event->stiffness, *expected.entry) : nothing;
+  if (!expected.entry) return value_at(result, *point, quantity);
+  return point->stiffness ? matrix_entry(*point->stiffness, *expected.entry) : nothing;
 }
 
 }  // namespace springfold::io

@@ -25,7 +25,7 @@ bool is_general_quantity(const std::string& name);
 /// "count.branches", "count.LP", "corank", ...
 std::vector<std::string> general_quantities();
 
-/// Codes of special points, "LP", "BP", ...
+/// Codes of special points, "LP", "BP", ..., and "EQ" for one of several equilibria
 const std::vector<std::string>& event_codes();
 
 /// The value that the run has; NaN if the point or the quantity does not exist.

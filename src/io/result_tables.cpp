@@ -41,6 +41,33 @@ std::string branch_csv(const StudyResult& result, const Branch& branch) {
   return csv;
 }
 
+std::string equilibria_csv(const StudyResult& result) {
+  const auto is_shown = [](const analysis::Quantity& q) {
+    return q.name != "s" && q.name != "lambda" && q.name != "force" && q.name != "deflection";
+  };
+  std::string csv = "equilibrium,start,potential,";
+  for (const auto& quantity : result.quantities)
+    if (is_shown(quantity)) csv += csv_text(quantity.name) + ",";
+  csv += "piece,note\n";
+  for (const auto& e : result.equilibria->list) {
+    csv += e.label + "," + (e.is_start ? "true" : "false") + "," + csv_number(e.potential) + ",";
+    for (std::size_t q = 0; q < result.quantities.size(); ++q)
+      if (is_shown(result.quantities[q])) csv += csv_number(e.sample.values[q]) + ",";
+    csv += csv_text(e.sample.piece) + "," + csv_text(e.note) + "\n";
+  }
+  return csv;
+}
+
+std::vector<std::string> equilibria_files(const std::vector<StudyResult>& results) {
+  std::vector<std::string> files;
+  UniqueNames names;
+  for (const auto& result : results) {
+    const std::string stem = safe_file_name(result.study) + "-" + std::to_string(result.run);
+    files.push_back(result.equilibria ? "equilibria/" + names.make(stem) + ".csv" : "");
+  }
+  return files;
+}
+
 std::string events_csv(const std::vector<StudyResult>& results) {
   const auto names = all_quantities(results);
   std::string csv = "study,run,label,branch,event,code,detail,row";

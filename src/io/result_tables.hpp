@@ -11,6 +11,12 @@ namespace springfold::io {
 /// One row per point of the branch: all quantities, then piece and event.
 std::string branch_csv(const analysis::StudyResult& result, const analysis::Branch& branch);
 
+/// One row per equilibrium of a study of kind `equilibria`.
+std::string equilibria_csv(const analysis::StudyResult& result);
+
+/// Per result the file of its equilibria; empty if it has none.
+std::vector<std::string> equilibria_files(const std::vector<analysis::StudyResult>& results);
+
 /// One row per special point of all runs, with every quantity that any run has.
 std::string events_csv(const std::vector<analysis::StudyResult>& results);
 

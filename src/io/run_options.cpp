@@ -16,6 +16,8 @@ std::string text_of(StudyKind kind) {
       return "equilibrium";
     case StudyKind::force_deflection:
       return "force_deflection";
+    case StudyKind::equilibria:
+      return "equilibria";
   }
   return "";
 }
@@ -109,7 +111,11 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"branches.maximum", study.branches.maximum},
           {"branches.search_at", study.branches.search_at},
           {"branches.starts", study.branches.starts},
-          {"branches.seed", study.branches.seed}};
+          {"branches.seed", study.branches.seed},
+          {"search.starts", study.search.starts},
+          {"search.seed", study.search.seed},
+          {"search.maximum", study.search.maximum},
+          {"search.box", json_of(study.search.box)}};
 }
 
 std::string body_name(const model::Mechanism& mechanism, Index body) {

@@ -75,6 +75,11 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
                     .starts = static_cast<int>(numbers[draft.search_starts]),
                     .seed = static_cast<std::uint64_t>(numbers[draft.search_seed])};
   for (const NumberId lambda : draft.search_at) study.branches.search_at.push_back(numbers[lambda]);
+  study.search.starts = static_cast<int>(numbers[draft.equilibria_starts]);
+  study.search.seed = static_cast<std::uint64_t>(numbers[draft.equilibria_seed]);
+  study.search.maximum = static_cast<int>(numbers[draft.equilibria_maximum]);
+  for (const LimitDraft& limit : draft.box)
+    study.search.box.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
   return study;
 }
 

@@ -48,6 +48,8 @@ struct StudyDraft {
   NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0;
   NumberId depth = 0, maximum_branches = 0, search_starts = 0, search_seed = 0;
   std::vector<NumberId> search_at{};
+  NumberId equilibria_starts = 0, equilibria_seed = 0, equilibria_maximum = 0;
+  std::vector<LimitDraft> box{};
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};
   Redefinitions set{};

@@ -12,14 +12,14 @@ using analysis::ControlMode;
 using analysis::StartSolve;
 using analysis::StudyKind;
 
-const std::vector<std::string> kind_words{"force_deflection", "equilibrium"};
+const std::vector<std::string> kind_words{"force_deflection", "equilibrium", "equilibria"};
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
 const std::vector<std::string> study_keys{
-    "name", "kind",      "control",   "body", "direction", "load", "start", "until",
-    "mark", "actuators", "parameter", "set",  "vary",      "path", "trace", "branches"};
+    "name",      "kind",      "control", "body", "direction", "load",  "start",    "until", "mark",
+    "actuators", "parameter", "set",     "vary", "path",      "trace", "branches", "search"};
 
 void add_entries(const Node& table, const std::string& prefix, std::vector<NamedPlace>& entries) {
   for (const NodeEntry& entry : table.entries) {
@@ -66,13 +66,14 @@ class StudyReader {
     draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
     read_trace();
     read_branches();
+    read_search();
     return std::move(draft_);
   }
 
  private:
   bool read_kind() {
-    draft_.kind = std::array{StudyKind::force_deflection,
-                             StudyKind::equilibrium}[table_.choice("kind", kind_words, 0)];
+    draft_.kind = std::array{StudyKind::force_deflection, StudyKind::equilibrium,
+                             StudyKind::equilibria}[table_.choice("kind", kind_words, 0)];
     const bool traces = draft_.kind == StudyKind::force_deflection;
     if (traces) table_.require("control", choices(control_words));
     draft_.control =
@@ -192,24 +193,30 @@ class StudyReader {
                                        defaults.maximum_move);
   }
 
-  void read_until() {
-    for (const NamedItem& item :
-         named_items(table_, "until", "a table such as { deflection = [0, 1] }", reading_)) {
-      const auto& [name, place, key] = item.name;
+  /// Named ranges, "[low, high]".
+  std::vector<LimitDraft> read_ranges(const TableReader& table, const std::string& key,
+                                      const std::string& example, Range range) {
+    std::vector<LimitDraft> limits;
+    const std::string more = range == Range::finite ? "" : "; inf and -inf stand for no limit";
+    for (const NamedItem& item : named_items(table, key, example, reading_)) {
       const Node& value = *item.value;
       if (value.kind != Node::Kind::array || value.items.size() != 2) {
-        reading_.problems.add(value.place, key,
-                              "got " + described(value) +
-                                  ", need [low, high]; inf and -inf stand "
-                                  "for no limit");
+        reading_.problems.add(value.place, item.name.key,
+                              "got " + described(value) + ", need [low, high]" + more);
         continue;
       }
       const std::vector<NumberId> ids =
-          read_numbers(list_items({&value, key}, "[low, high]", reading_),
-                       {Range::maybe_infinite, ""}, draft_.numbers, reading_);
+          read_numbers(list_items({&value, item.name.key}, "[low, high]", reading_), {range, ""},
+                       draft_.numbers, reading_);
       draft_.numbers.require_less(ids[0], ids[1], "low < high");
-      draft_.until.push_back({item.name, ids[0], ids[1]});
+      limits.push_back({item.name, ids[0], ids[1]});
     }
+    return limits;
+  }
+
+  void read_until() {
+    draft_.until = read_ranges(table_, "until", "a table such as { deflection = [0, 1] }",
+                               Range::maybe_infinite);
   }
 
   void read_marks() {
@@ -265,6 +272,28 @@ class StudyReader {
     draft_.search_seed = count("seed", Range::whole, static_cast<double>(defaults.seed));
     draft_.search_at = read_numbers(branches.list("search_at", "a list of values of lambda"), {},
                                     numbers, reading_);
+  }
+
+  void read_search() {
+    const analysis::SearchSettings defaults;
+    const Node* node = table_.find("search");
+    static const Node nothing;
+    const Item item{node ? node : &nothing, table_.key_of("search")};
+    const bool usable = is_table(item, "a table such as { starts = 500 }", reading_);
+    const TableReader search{
+        usable ? *item.node : nothing, item.key, {"starts", "seed", "maximum", "box"}, reading_};
+    if (node && draft_.kind != StudyKind::equilibria)
+      reading_.problems.add(node->place, item.key,
+                            "goes with kind = \"equilibria\"; branches = { search_at = [...] } "
+                            "searches beside curves");
+    NumberTable& numbers = draft_.numbers;
+    draft_.equilibria_starts =
+        search.number("starts", {Range::small_count, ""}, numbers, defaults.starts);
+    draft_.equilibria_seed =
+        search.number("seed", {Range::whole, ""}, numbers, static_cast<double>(defaults.seed));
+    draft_.equilibria_maximum =
+        search.number("maximum", {Range::small_count, ""}, numbers, defaults.maximum);
+    draft_.box = read_ranges(search, "box", "a table such as { tool.x = [-1, 1] }", Range::finite);
   }
 
   TableReader table_;

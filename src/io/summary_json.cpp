@@ -92,6 +92,31 @@ Json json_of(const std::vector<T>& items) {
   return list;
 }
 
+/// null for studies of another kind.
+Json equilibria_json(const StudyResult& result, const std::string& file) {
+  if (!result.equilibria) return nullptr;
+  const analysis::EquilibriaReport& report = *result.equilibria;
+  Json list = Json::array();
+  for (const auto& e : report.list)
+    list.push_back({{"label", e.label},
+                    {"start", e.is_start},
+                    {"potential", e.potential},
+                    {"note", e.note},
+                    {"values", by_quantity(result, e.sample.values)},
+                    {"stiffness", json_of(e.stiffness)}});
+  return {{"file", file},
+          {"at_least", report.list.size()},
+          {"starts", report.starts},
+          {"out_of_range", report.out_of_range},
+          {"limit_reached", report.limit_reached},
+          {"morse",
+           {{"applies", report.morse.applies},
+            {"expected", report.morse.applies ? Json(report.morse.expected) : Json()},
+            {"found", report.morse.applies ? Json(report.morse.found) : Json()},
+            {"why", report.morse.why}}},
+          {"list", list}};
+}
+
 /// Chain stiffnesses by the chains' names.
 Json chain_stiffnesses(const std::vector<Matrix>& matrices, const PlannedRun* planned) {
   Json json = Json::object();
@@ -125,7 +150,7 @@ Json json_of(const StudyResult& result, const PlannedRun* planned) {
 }
 
 Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLabels& units,
-             const std::vector<std::string>& files) {
+             const std::vector<std::string>& files, const std::string& equilibria_file) {
   Json json = {{"study", result.study}, {"run", result.run}, {"label", result.label}};
   json["complete"] = analysis::complete(result);
   json["parameters"] = planned != nullptr ? Json(planned->parameters) : Json::object();
@@ -141,6 +166,7 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
     json["branches"].push_back(json_of(result, result.branches[b], files[b]));
   json["junctions"] = json_of(result.junctions);
   json["searches"] = json_of(result.searches);
+  json["equilibria"] = equilibria_json(result, equilibria_file);
   json["ways_not_followed"] = analysis::ways_not_followed(result);
   json["doubts"] = result.doubts;
   return json;
@@ -167,9 +193,10 @@ std::string summary_json(const Case& the_case, const std::vector<StudyResult>& r
   summary["missing_runs"] = missing_runs(the_case, results);
   summary["runs"] = Json::array();
   const auto files = branch_files(results);
+  const auto equilibria = equilibria_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)
-    summary["runs"].push_back(
-        json_of(results[i], plan_of(the_case, results[i]), the_case.units, files[i]));
+    summary["runs"].push_back(json_of(results[i], plan_of(the_case, results[i]), the_case.units,
+                                      files[i], equilibria[i]));
   summary["comparisons"] = Json::array();
   for (const auto& comparison : compare(the_case.expected, results))
     summary["comparisons"].push_back(comparison_json(comparison));

@@ -265,8 +265,54 @@ std::string branch_lines(const StudyResult& result, std::size_t b) {
   return text + stop_line("last row", branch.forward);
 }
 
+/// "stable" columns of all equilibria that a search found, the lowest potential first.
+std::string equilibria_table(const Case& the_case, const StudyResult& result) {
+  std::vector<std::string> columns{"index", "potential", "energy"};
+  if (const PlannedRun* planned = plan_of(the_case, result))
+    for (const auto& name : pose_names(planned->mechanism, result)) columns.push_back(name);
+  std::vector<std::vector<std::string>> rows = {{"equilibria"}};
+  rows.front().front().resize(blank_label.size() - 2, ' ');
+  rows.front().insert(rows.front().end(), columns.begin(), columns.end());
+  for (const auto& e : result.equilibria->list) {
+    auto& row = rows.emplace_back();
+    row.push_back(e.label);
+    for (const auto& name : columns) {
+      const auto column = column_of(result, name);
+      const double value = name == "potential" ? e.potential : e.sample.values[column.value()];
+      row.push_back(std::isnan(value) ? "undefined" : rounded(value, digits));
+    }
+    row.push_back(e.note.empty() ? (e.is_start ? "the start" : "") : e.note);
+  }
+  std::vector<Align> align(1 + columns.size(), Align::right);
+  align.front() = Align::left;
+  align.push_back(Align::left);
+  return aligned(rows, align, indent);
+}
+
+std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
+  const analysis::EquilibriaReport& report = *result.equilibria;
+  const auto count = static_cast<int>(report.list.size());
+  std::string text = equilibria_table(the_case, result);
+  std::string found = "at least " + std::to_string(count) +
+                      (count == 1 ? " equilibrium" : " equilibria") + " found, " +
+                      counted(report.starts, "start") + "; nothing is proved about others";
+  if (report.out_of_range > 0)
+    found += "; " + std::to_string(report.out_of_range) + " further out of range";
+  text += line("found", found);
+  if (report.limit_reached)
+    text += line("", "the search ended because so many were found: there may well be more");
+  const analysis::MorseCount& morse = report.morse;
+  if (!morse.applies) return text + line("Morse count", "does not apply: " + morse.why);
+  const std::string sum = "the sum of (-1)^index is " + std::to_string(morse.found);
+  return text + line("Morse count", morse.found == morse.expected
+                                        ? sum + ", as it must be"
+                                        : sum + ", it must be " + std::to_string(morse.expected) +
+                                              ": there are others");
+}
+
 std::string run_block(const Case& the_case, const StudyResult& result) {
   std::string text = heading_of(result) + "\n" + start_lines(result.start);
+  if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
   if (!result.start.found || result.branches.empty()) return text;
   if (const PlannedRun* planned = plan_of(the_case, result))
     text += named_values("pose", pose_names(planned->mechanism, result), result, the_case.units);

@@ -43,6 +43,9 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   for (std::size_t i = 0; i < results.size(); ++i)
     for (std::size_t b = 0; b < results[i].branches.size(); ++b)
       files.push_back({names[i][b], branch_csv(results[i], results[i].branches[b])});
+  const auto equilibria = equilibria_files(results);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (results[i].equilibria) files.push_back({equilibria[i], equilibria_csv(results[i])});
   files.push_back({"events.csv", events_csv(results)});
   files.push_back({"steps.csv", steps_csv(results)});
   files.push_back({"summary.json", summary_json(the_case, results)});
@@ -70,6 +73,9 @@ void remove_file(const fs::path& path) {
 std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case,
                                     const std::vector<StudyResult>& results) {
   make_folder(folder / "branches");
+  if (std::any_of(results.begin(), results.end(),
+                  [](const StudyResult& result) { return result.equilibria.has_value(); }))
+    make_folder(folder / "equilibria");
   const auto files = planned_files(the_case, results);
   std::vector<ListedFile> list;
   for (const auto& file : files) list.push_back(listed(file));

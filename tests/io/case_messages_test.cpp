@@ -260,7 +260,8 @@ TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
   EXPECT_THAT(
       all, ElementsAre("expected.toml:3:9: value[1].study: no study \"Q3\", did you mean \"Q2\"?",
                        "expected.toml:10:12: value[2].quantity: got \"count.XX\", need count. "
-                       "and one of \"branches\", \"LP\", \"BP\", \"SA\", \"CL\", \"KB\", \"KS\", "
+                       "and one of \"branches\", \"equilibria\", \"LP\", \"BP\", \"SA\", \"CL\", "
+                       "\"KB\", \"KS\", "
                        "\"TP\", \"FM\", \"UZ\", "
                        "\"EP\" or \"UR\"",
                        "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "

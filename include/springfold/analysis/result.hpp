@@ -1,6 +1,8 @@
 // Results as plain data, in the units of the case.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -138,6 +140,34 @@ struct StartReport {
   std::vector<WayOut> ways{};  ///< all ways that leave it, where it is not an ordinary point
 };
 
+/// One of several equilibria at the same load.
+struct Equilibrium {
+  std::string label{};  ///< "EQ1": the one with the lowest potential
+  Sample sample{};
+  double potential = std::numeric_limits<double>::quiet_NaN();  ///< energy of the springs less the
+                                                                ///< work of the dead load
+  Matrix stiffness{};                                           ///< as Event::stiffness
+  bool is_start = false;  ///< the one that is found from the study's guess
+  std::string note{};     ///< what is special about it, or empty
+};
+
+/// Morse's count of equilibria, where it applies.
+struct MorseCount {
+  bool applies = false;
+  int expected = 0;   ///< Euler characteristic of the set of all configurations
+  int found = 0;      ///< sum of (-1)^index over the equilibria found
+  std::string why{};  ///< why it does not apply
+};
+
+/// AT LEAST these equilibria exist: a search proves nothing about others.
+struct EquilibriaReport {
+  std::vector<Equilibrium> list{};
+  int starts = 0;              ///< first states used
+  int out_of_range = 0;        ///< further ones, outside of the study's limits
+  bool limit_reached = false;  ///< ended because so many were found
+  MorseCount morse{};          ///< counts those out of range too
+};
+
 struct StudyResult {
   std::string study{};  ///< name of the study
   int run = 1;          ///< number among the study's varied values
@@ -149,7 +179,8 @@ struct StudyResult {
   std::vector<Junction> junctions{};  ///< where branches meet, if more than one was asked for
   std::vector<Search> searches{};     ///< one per lambda that was searched
   std::vector<std::string> doubts{};  ///< what may be missing in the diagram, in words
-  double seconds = 0;                 ///< CPU time used; never part of reproducible output
+  std::optional<EquilibriaReport> equilibria{};  ///< kind equilibria; it has no branches
+  double seconds = 0;  ///< CPU time used; never part of reproducible output
 };
 
 /// Ways at junctions that were left out because of the bounds of depth and number.

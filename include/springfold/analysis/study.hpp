@@ -17,6 +17,7 @@ namespace springfold::analysis {
 enum class StudyKind {
   equilibrium,       ///< the start point only: position, stiffness, indices
   force_deflection,  ///< the whole branch through the start point
+  equilibria,        ///< all equilibria under the constant load that a search finds
 };
 
 /// What lambda is.
@@ -94,6 +95,14 @@ struct BranchSettings {
   std::uint64_t seed = 1;           ///< of the searches' random starts
 };
 
+/// Search of a study of kind `equilibria`.
+struct SearchSettings {
+  int starts = 200;          ///< first states: the start, then random ones
+  std::uint64_t seed = 1;    ///< of the random ones
+  int maximum = 200;         ///< the search ends when it has found as many
+  std::vector<Limit> box{};  ///< where random states are drawn; others: docs/case-file.md
+};
+
 struct Study {
   std::string name{};
   StudyKind kind = StudyKind::force_deflection;
@@ -109,6 +118,7 @@ struct Study {
   Path path = Path::arc_length;
   TraceSettings trace{};
   BranchSettings branches{};
+  SearchSettings search{};
 };
 
 /// What a named parameter changes, for control mode `parameter`.

@@ -1,0 +1,171 @@
+#include "morse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace springfold::analysis {
+namespace {
+
+using model::TaskSpace;
+
+MorseCount does_not_apply(const std::string& why) { return {.why = why}; }
+
+/// (-1)^index over the equilibria; nothing if one is degenerate.
+std::optional<int> signed_count(const std::vector<CountedEquilibrium>& equilibria) {
+  int sum = 0;
+  for (const CountedEquilibrium& e : equilibria) {
+    if (!e.index) return std::nullopt;
+    sum += *e.index % 2 == 0 ? 1 : -1;
+  }
+  return sum;
+}
+
+const statics::CoordinateSpring* spring_of(const statics::System& system, Index coordinate) {
+  for (const statics::CoordinateSpring& spring : system.springs)
+    if (spring.coordinate == coordinate) return &spring;
+  return nullptr;
+}
+
+bool pulls_back(const statics::CoordinateSpring& spring) {
+  return spring.law.segments.front().stiffness > 0 && spring.law.segments.back().stiffness > 0;
+}
+
+/// One chain to one body: the configurations are all values of its coordinates.
+MorseCount of_open_chain(const PathProblem& problem, const std::vector<CountedEquilibrium>& raw) {
+  const statics::System& system = problem.system(0);
+  const TaskSpace space = system.mechanism.bodies.front().task_space;
+  const Vector W = problem.inputs(0).W;
+  const bool has_moment = !W.tail(W.size() - translations(space)).isZero(0);
+  bool turns_freely = false;
+  for (Index i = 0; i < system.first_pose; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (system.is_wrench[k]) continue;
+    const auto* spring = spring_of(system, i);
+    if (spring && pulls_back(*spring)) continue;
+    const std::string& name = system.coordinate_names[k];
+    if (spring || system.is_length[k])
+      return does_not_apply(name +
+                            " has no spring that holds it on both sides: the energy need "
+                            "not grow without bound");
+    if (has_moment)
+      return does_not_apply("a moment turns " + name +
+                            ", which has no spring: the energy has no "
+                            "unique value");
+    turns_freely = true;
+  }
+  const auto sum = signed_count(raw);
+  if (!sum) return does_not_apply("an equilibrium is degenerate");
+  return {.applies = true, .expected = turns_freely ? 0 : 1, .found = *sum};
+}
+
+/// A bar of the kind that the second rule knows: joints that turn freely about one foot, then one
+/// spring along the line from the foot to the point.
+struct Bar {
+  model::Vec3<double> foot = model::Vec3<double>::Zero();
+  Index coordinate = 0;
+  double offset = 0;  ///< length = offset + sign * coordinate
+  double sign = 1;
+  const statics::CoordinateSpring* spring = nullptr;
+  double length(const Vector& z) const { return offset + sign * z[coordinate]; }
+  /// Pull of the spring at this length.
+  double pull(double at) const {
+    return sign * spring->law.segments.front().torque +
+           spring->law.segments.front().stiffness *
+               (at - offset - sign * spring->law.segments.front().anchor);
+  }
+};
+
+std::optional<Bar> bar_of(const statics::System& system, std::size_t number) {
+  const model::CompiledChain& chain = system.chains[number];
+  const statics::ChainSlice& slice = system.chain_slices[number];
+  const auto turning = static_cast<std::size_t>(std::max<Index>(0, chain.joint_count() - 1));
+  const std::size_t least = chain.space == TaskSpace::xy ? 1 : 2;
+  if (chain.from_moves || slice.x_count != chain.joint_count() || turning < least ||
+      turning > (least == 1 ? 1u : 3u) || chain.joints.back().revolute ||
+      !chain.to_attachment.p.isZero(0))
+    return std::nullopt;
+  const auto& joints = chain.joints;
+  for (std::size_t j = 0; j < turning; ++j)
+    if (!joints[j].revolute || (j > 0 && !joints[j].before.p.isZero(0)) ||
+        spring_of(system, slice.x + static_cast<Index>(j)))
+      return std::nullopt;
+  const auto& slide = joints.back();
+  Bar bar;
+  bar.foot = joints.front().before.p;
+  bar.coordinate = slice.x + static_cast<Index>(turning);
+  bar.spring = spring_of(system, bar.coordinate);
+  // The point lies at before + (slide + last) of the sliding frame: all along the sliding axis.
+  const model::Vec3<double> rest = slide.before.R.transpose() * slide.before.p + chain.last.p;
+  bar.offset = rest.dot(slide.axis);
+  const bool is_straight = (rest - bar.offset * slide.axis).norm() < 1e-12;
+  if (!is_straight || !bar.spring || bar.spring->law.segments.size() != 1 ||
+      !pulls_back(*bar.spring))
+    return std::nullopt;
+  return bar;
+}
+
+/// Force on a point at `p` of all bars but one, and of the load: minus the gradient of the energy.
+model::Vec3<double> force_of_others(const std::vector<Bar>& bars, std::size_t without,
+                                    const model::Vec3<double>& p, const Vector& W) {
+  model::Vec3<double> force = model::Vec3<double>::Zero();
+  force.head(W.size()) = W;
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    if (i == without) continue;
+    const model::Vec3<double> line = p - bars[i].foot;
+    force -= bars[i].pull(line.norm()) * line.normalized();
+  }
+  return force;
+}
+
+MorseCount of_bars(const PathProblem& problem, const std::vector<Bar>& bars,
+                   const std::vector<CountedEquilibrium>& distinct) {
+  const bool in_space = problem.system(0).mechanism.bodies.front().task_space == TaskSpace::xyz;
+  const Vector W = problem.inputs(0).W;
+  int expected = 1;
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if ((bars[i].foot - bars[k].foot).norm() < 1e-9)
+        return does_not_apply("two bars have the same foot");
+    const double pull = bars[i].pull(0);
+    const double others = force_of_others(bars, i, bars[i].foot, W).norm();
+    if (std::abs(std::abs(pull) - others) < 1e-9)
+      return does_not_apply("the forces at a foot are balanced");
+    if (others > std::abs(pull)) continue;  // no stationary point of the energy
+    // A peak of the energy where the bar is pressed there, a pit where it pulls.
+    expected -= in_space && pull < 0 ? -1 : 1;
+  }
+  std::vector<CountedEquilibrium> positive;
+  std::copy_if(distinct.begin(), distinct.end(), std::back_inserter(positive),
+               [&](const CountedEquilibrium& e) {
+                 return !e.is_locked && std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
+                   return bar.length(e.z) > 1e-9;
+                 });
+               });
+  const auto sum = signed_count(positive);
+  if (!sum) return does_not_apply("an equilibrium is degenerate");
+  return {.applies = true, .expected = expected, .found = *sum};
+}
+
+}  // namespace
+
+MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEquilibrium>& raw,
+                       const std::vector<CountedEquilibrium>& distinct) {
+  const statics::System& system = problem.system(0);
+  if (!problem.symmetric()) return does_not_apply("the load has no potential");
+  if (system.mechanism.bodies.size() != 1)
+    return does_not_apply(
+        "there are several bodies: the Euler characteristic of their "
+        "configurations is not known here");
+  if (system.chains.size() == 1) return of_open_chain(problem, raw);
+  const TaskSpace space = system.mechanism.bodies.front().task_space;
+  std::vector<Bar> bars;
+  if (space == TaskSpace::xy || space == TaskSpace::xyz)
+    for (std::size_t i = 0; i < system.chains.size(); ++i)
+      if (const auto bar = bar_of(system, i)) bars.push_back(*bar);
+  if (bars.size() == system.chains.size()) return of_bars(problem, bars, distinct);
+  return does_not_apply(
+      "the chains close: the Euler characteristic of their configurations is not "
+      "known here");
+}
+
+}  // namespace springfold::analysis

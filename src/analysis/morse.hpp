@@ -1,0 +1,33 @@
+// How many equilibria there must be, from the shape of the set of all configurations. Private to
+// analysis.
+#pragma once
+
+#include <vector>
+
+#include "path_problem.hpp"
+#include "springfold/analysis/result.hpp"
+
+namespace springfold::analysis {
+
+/// An equilibrium as the count needs it.
+struct CountedEquilibrium {
+  Vector z{};
+  std::optional<Index> index{};  ///< number of unstable modes under dead load
+  bool is_locked = false;        ///< a chain loses rank: its coordinates do not feel every force
+};
+
+/// Where the potential energy grows without bound on a set of configurations of known Euler
+/// characteristic, the sum of (-1)^index over all equilibria is that number (Morse). It is known for
+///
+///   - one open chain: 1 if every joint has a spring, 0 if some turn freely;
+///   - a point held by bars, each a spring from a foot to the point: in the plane 1 - m, in space
+///     1 + m, where m feet are peaks of the energy (the pressed bar there outweighs all other
+///     forces). Bars of negative length do not count, nor states in which a foot's joint is
+///     locked.
+///
+/// Otherwise `why` says what is missing. Docs: theory.md, "Counting equilibria".
+/// @param raw  equilibria in joint coordinates, modulo turns @param distinct  each pose once
+MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEquilibrium>& raw,
+                       const std::vector<CountedEquilibrium>& distinct);
+
+}  // namespace springfold::analysis
