@@ -184,8 +184,7 @@ class Builder {
       check_quantity(limit.quantity, names, study, problems_);
     for (const MarkDraft& mark : study.marks)
       check_quantity(mark.quantity, names, study, problems_);
-    for (const LimitDraft& side : study.box)
-      check_quantity(side.quantity, names, study, problems_);
+    for (const LimitDraft& side : study.box) check_quantity(side.quantity, names, study, problems_);
   }
 
   /// Names are known only if the run could be built.
