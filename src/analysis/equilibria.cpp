@@ -1,5 +1,6 @@
 #include "equilibria.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -58,16 +59,16 @@ Box box_of(const PathProblem& problem, const Study& study,
 
 /// Rows and columns of A by what they belong to.
 struct Parts {
-  std::vector<Index> coordinates{}, wrenches{}, poses{};
+  std::vector<Index> coordinates{}, wrenches{};
+  std::vector<Index> moving{};  ///< coordinates and poses
 };
 
 Parts parts_of(const statics::System& system) {
   Parts parts;
   for (Index i = 0; i < system.size; ++i) {
-    auto& part = i >= system.first_pose                          ? parts.poses
-                 : system.is_wrench[static_cast<std::size_t>(i)] ? parts.wrenches
-                                                                 : parts.coordinates;
-    part.push_back(i);
+    const bool is_wrench = system.is_wrench[static_cast<std::size_t>(i)];
+    (is_wrench ? parts.wrenches : parts.moving).push_back(i);
+    if (!is_wrench && i < system.first_pose) parts.coordinates.push_back(i);
   }
   return parts;
 }
@@ -141,7 +142,11 @@ class Searcher {
     constexpr int draws = 20;
     Vector z = suited(drawn(report_.starts, random));
     for (int i = 1; i < draws && !in_range_(z); ++i) z = suited(drawn(report_.starts, random));
-    return z;
+    // Random states in turn from downhill, from a saddle, and as they are; even ones lie beside an
+    // equilibrium that is known.
+    const int kind = report_.starts % 6;
+    if (!problem_.symmetric() || kind == 0) return z;
+    return kind == 3 ? followed(z, 1) : kind == 1 ? followed(z, 0) : z;
   }
 
   /// In turn a random state of the box, and one beside an equilibrium that is known.
@@ -157,33 +162,76 @@ class Searcher {
   }
 
   /// The same bodies with chains that lead to them, as far as they reach, and the wrenches that
-  /// suit best: in the least-squares sense
-  ///
-  ///     [A_Fx] dx = -r_F    a few times,     [A_xF; A_tF] F = -(r_x, r_t) at F = 0.
+  /// suit best.
   Vector suited(Vector z) const {
+    close_chains(z);
+    choose_wrenches(z);
+    return z;
+  }
+
+  bool linearised(const Vector& z, Matrix& A, Vector& r) const {
+    Vector b;
+    const Piece piece = statics::piece_at(problem_.system(0), z);
+    return problem_.residual(z, 0, piece, r) && problem_.derivatives(z, 0, piece, A, b);
+  }
+
+  /// A few steps of least squares: [A_Fx] dx = -r_F.
+  void close_chains(Vector& z) const {
     constexpr int rounds = 12;
     Matrix A;
-    Vector b, r;
-    z(parts_.wrenches).setZero();
-    const auto linearised = [&] {
-      const Piece piece = statics::piece_at(problem_.system(0), z);
-      return problem_.residual(z, 0, piece, r) && problem_.derivatives(z, 0, piece, A, b);
-    };
-    for (int k = 0; k < rounds && linearised(); ++k) {
+    Vector r;
+    for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
       const Matrix J = A(parts_.wrenches, parts_.coordinates);
       const Vector gap = r(parts_.wrenches);
-      if (J.size() == 0 || gap.lpNorm<Eigen::Infinity>() < 1e-6) break;
+      if (J.size() == 0 || gap.lpNorm<Eigen::Infinity>() < 1e-6) return;
       Vector step = -J.completeOrthogonalDecomposition().solve(gap);
       const double size = step.lpNorm<Eigen::Infinity>();
       if (size > 1) step /= size;
       z(parts_.coordinates) += step;
     }
-    if (parts_.wrenches.empty() || !linearised()) return z;
-    std::vector<Index> rows = parts_.coordinates;
-    rows.insert(rows.end(), parts_.poses.begin(), parts_.poses.end());
-    const Matrix G = A(rows, parts_.wrenches);
-    z(parts_.wrenches) = -G.completeOrthogonalDecomposition().solve(Vector(r(rows)));
+  }
+
+  /// [A_xF; A_tF] F = -(r_x, r_t) at F = 0 in the least-squares sense.
+  void choose_wrenches(Vector& z) const {
+    Matrix A;
+    Vector r;
+    z(parts_.wrenches).setZero();
+    if (parts_.wrenches.empty() || !linearised(z, A, r)) return;
+    const Matrix G = A(parts_.moving, parts_.wrenches);
+    z(parts_.wrenches) = -G.completeOrthogonalDecomposition().solve(Vector(r(parts_.moving)));
+  }
+
+  /// Follows the energy downhill, but uphill along the `uphill` lowest modes: to an equilibrium with
+  /// that many unstable modes. With the kernel Z of the closure, g = Z^T r, Z^T H Z = V diag(k) V^T,
+  /// a step is Z V y with y_i = -+ (V^T g)_i/|k_i|, of bounded length.
+  Vector followed(Vector z, Index uphill) const {
+    constexpr int rounds = 40;
+    constexpr double longest = 0.3, softest = 1e-3, arrived = 1e-3;
+    Matrix A;
+    Vector r;
+    for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
+      const Matrix Z = kernel(A(parts_.wrenches, parts_.moving));
+      if (Z.cols() == 0) break;
+      const Matrix H = A(parts_.moving, parts_.moving);
+      const Eigen::SelfAdjointEigenSolver<Matrix> modes(Z.transpose() * H * Z);
+      Vector y = modes.eigenvectors().transpose() * (Z.transpose() * Vector(r(parts_.moving)));
+      for (Index i = 0; i < y.size(); ++i)
+        y[i] *= (i < uphill ? 1 : -1) / std::max(softest, std::abs(modes.eigenvalues()[i]));
+      const double size = y.norm();
+      if (size > longest) y *= longest / size;
+      z(parts_.moving) += Z * (modes.eigenvectors() * y);
+      z = suited(std::move(z));
+      if (size < arrived) break;
+    }
     return z;
+  }
+
+  /// Orthonormal basis of the directions in which J is zero; all directions where J has no rows.
+  static Matrix kernel(const Matrix& J) {
+    if (J.rows() == 0) return Matrix::Identity(J.cols(), J.cols());
+    const Eigen::ColPivHouseholderQR<Matrix> qr(J.transpose());
+    const Matrix Q = qr.householderQ();
+    return Q.rightCols(J.cols() - qr.rank());
   }
 
   const PathProblem& problem_;
