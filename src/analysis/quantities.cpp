@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "resting.hpp"
+#include "start.hpp"
+
 namespace springfold::analysis {
 namespace {
 
@@ -231,7 +234,26 @@ std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& qua
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
     values.push_back(at ? from_matrix(q, point, *at) : undefined);
+  raise_indices(quantities, point, values);
   return values;
+}
+
+void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
+                              const continuation::CurvePoint& point,
+                              std::vector<double>& values) const {
+  for (Piece& piece : pieces_around(problem_, point)) {
+    if (piece == point.piece) continue;
+    continuation::CurvePoint beside = point;
+    beside.piece = std::move(piece);
+    beside.negative.reset();
+    count_negative(problem_, beside);
+    const auto at = assemble(beside);
+    for (std::size_t i = 0; at && i < quantities.size(); ++i) {
+      const Kind kind = quantities[i].kind;
+      if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
+        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at));
+    }
+  }
 }
 
 std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quantities,

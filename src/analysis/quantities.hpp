@@ -86,6 +86,9 @@ class Evaluator {
   };
   std::optional<Assembled> assemble(const continuation::CurvePoint& point) const;
   double force(const continuation::CurvePoint& point) const;
+  /// Where springs rest at their threshold: the largest numbers of unstable modes of all sides.
+  void raise_indices(const std::vector<QuantityDefinition>& quantities,
+                     const continuation::CurvePoint& point, std::vector<double>& values) const;
   double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                      const Assembled& at) const;
 

@@ -81,22 +81,32 @@ std::vector<Point> points_with(const StudyResult& result, const std::string& cod
   return points;
 }
 
+/// How far a quantity runs over all rows of all branches, or over all equilibria.
+double spread_of(const StudyResult& result, const std::string& quantity) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto add = [&](const Point& point) {
+    const double v = value_at(result, point, quantity);
+    low = std::fmin(low, v);
+    high = std::fmax(high, v);
+  };
+  for (const Branch& branch : result.branches)
+    for (const auto& sample : branch.samples) add({&sample});
+  if (result.equilibria)
+    for (const auto& e : result.equilibria->list) add(point_of(e));
+  return high > low ? high - low : 1;
+}
+
 /// The one whose quantities are nearest to `near`, each difference divided by how far that quantity
-/// spreads over these points.
+/// spreads; of several that are equally near the first.
 std::optional<Point> nearest_point(const StudyResult& result, const std::vector<Point>& points,
                                    const std::vector<NearValue>& near) {
   std::vector<double> distance(points.size(), 0);
   for (const NearValue& wanted : near) {
-    double low = wanted.value, high = wanted.value;
-    for (const Point& point : points) {
-      const double v = value_at(result, point, wanted.quantity);
-      low = std::fmin(low, v);
-      high = std::fmax(high, v);
-    }
+    const double spread = spread_of(result, wanted.quantity);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double v = value_at(result, points[i], wanted.quantity);
       const double d = std::isnan(v) ? std::numeric_limits<double>::infinity()
-                                     : std::abs(v - wanted.value) / std::fmax(high - low, 1e-300);
+                                     : std::abs(v - wanted.value) / spread;
       distance[i] = std::max(distance[i], d);
     }
   }

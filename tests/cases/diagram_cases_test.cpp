@@ -71,5 +71,24 @@ TEST(SegmentedColumnCase, TendsToTheClosedFormOfTheColumnThatIsNotShortened) {
 
 TEST(PuuFlexibleCase, HasTheStiffnessOfTheClosedForm) { expect_all_hold("puu-flexible", {}); }
 
+TEST(BarCases, AgreeInOtherUnits) {
+  expect_all_hold("bar-torsion-spring", {{"L", "300"}, {"c", "7e4"}});
+  expect_all_hold("guyed-bar", {{"L", "0.02"}, {"k", "5e3"}});
+  expect_all_hold("quasi-zero-stiffness", {{"a", "40"}, {"k", "0.3"}});
+}
+
+TEST(ThreeLinkChainCase, AgreesInOtherUnits) {
+  expect_all_hold("three-link-chain", {{"l", "250"}, {"c", "1e5"}});
+}
+
+/// Also that the straight column counts as unstable where it is so to one side only.
+TEST(ColumnWithStopCase, AgreesInOtherUnits) {
+  expect_all_hold("column-with-stop", {{"l", "50"}, {"c", "2e4"}});
+}
+
+TEST(UniversalJointCase, AgreesInOtherUnits) {
+  expect_all_hold("universal-joint-bar", {{"L", "0.1"}, {"c1", "300"}});
+}
+
 }  // namespace
 }  // namespace springfold::io
