@@ -18,21 +18,31 @@ struct Entry {
   CurvePoint point{};
   const Hit* hit = nullptr;
   bool leaving = false;  ///< second row of a kink
+  Turns turns{};         ///< rotation vectors that continue those of the row before
 };
+
+/// Rotations go on from row to row, both ways from the start, also beyond whole turns.
+void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProblem& problem) {
+  entries[start].turns = problem.turns(entries[start].point.x);
+  for (std::size_t i = start + 1; i < entries.size(); ++i)
+    entries[i].turns = problem.turns(entries[i].point.x, &entries[i - 1].turns);
+  for (std::size_t i = start; i-- > 0;)
+    entries[i].turns = problem.turns(entries[i].point.x, &entries[i + 1].turns);
+}
 
 /// Points and special points of one direction in the order of s, without the start.
 std::vector<Entry> entries_of(const Curve& curve) {
   std::vector<Entry> entries;
   std::size_t h = 0;
   const auto add_hit = [&entries](const Hit& hit) {
-    entries.push_back({hit.point, &hit, false});
+    entries.push_back({hit.point, &hit, false, {}});
     // Where there are several ways out the trace ended and none of them belongs to this branch.
-    if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true});
+    if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true, {}});
   };
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     while (h < curve.hits.size() && curve.hits[h].point.s <= curve.points[i].s)
       add_hit(curve.hits[h++]);
-    entries.push_back({curve.points[i], nullptr, false});
+    entries.push_back({curve.points[i], nullptr, false, {}});
   }
   while (h < curve.hits.size()) add_hit(curve.hits[h++]);
   return entries;
@@ -151,7 +161,7 @@ Event end_event(const Entry& entry, std::size_t row, const Stop& stop, const Eva
               .detail = stop.reason,
               .row = row};
   event.stiffness = evaluator.platform_stiffness(entry.point);
-  event.rates_before = evaluator.rates(quantities, entry.point);
+  event.rates_before = evaluator.rates(quantities, entry.point, &entry.turns);
   event.rates_after = event.rates_before;
   return event;
 }
@@ -163,10 +173,10 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   Event event{.kind = kind_of(hit), .detail = hit.name, .row = row};
   if (hit.multiplicity > 1) event.detail += ", " + std::to_string(hit.multiplicity) + "-fold";
   event.stiffness = evaluator.platform_stiffness(entry.point);
-  event.rates_before = evaluator.rates(quantities, entry.point);
+  event.rates_before = evaluator.rates(quantities, entry.point, &entry.turns);
   event.rates_after = event.rates_before;
   if (next == nullptr || next->hit != entry.hit) return event;
-  event.rates_after = evaluator.rates(quantities, next->point);
+  event.rates_after = evaluator.rates(quantities, next->point, &next->turns);
   event.detail = switching_detail(problem.system(entry.point.lambda), hit, entry.point.piece,
                                   next->point.piece);
   if (turns_back(event, quantities)) {
@@ -226,8 +236,9 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
   BranchRows rows;
   Branch& branch = rows.branch;
   branch.start_row = entries.size();
-  entries.push_back({forward.points.front(), nullptr, false});
+  entries.push_back({forward.points.front(), nullptr, false, {}});
   for (Entry& e : entries_of(forward)) entries.push_back(std::move(e));
+  count_turns(entries, branch.start_row, problem);
   branch.backward = source.backward_stop;
   branch.forward = source.forward_stop;
   const auto add = [&rows](Event event, int junction) {
@@ -256,7 +267,7 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
   }
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& e = entries[i];
-    branch.samples.push_back({evaluator.values(quantities, e.point),
+    branch.samples.push_back({evaluator.values(quantities, e.point, &e.turns),
                               piece_text(problem.system(e.point.lambda), e.point.piece), ""});
     if (e.hit == nullptr || e.leaving || is_end(backward, e.hit) || is_end(forward, e.hit))
       continue;
@@ -340,7 +351,8 @@ Stop stop_of(const Curve& curve) {
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
   if (!curve.stop_detail.empty()) stop.reason += ": " + curve.stop_detail;
-  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
+  stop.complete = (curve.stop == StopReason::event && !curve.stop_detail.starts_with(whole_turn)) ||
+                  curve.stop == StopReason::closed;
   return stop;
 }
 

@@ -9,6 +9,9 @@
 
 namespace springfold::analysis {
 
+/// How the events begin that end a branch because a rotation comes near a whole turn.
+inline constexpr const char* whole_turn = "not followed further: body ";
+
 /// Name of the engine's event for an extremum of the force under displacement control.
 inline constexpr const char* force_limit = "limit point of the force";
 

@@ -20,7 +20,7 @@ using continuation::HitKind;
 using continuation::StopReason;
 
 double distance(const PathProblem& problem, const CurvePoint& a, const CurvePoint& b) {
-  Vector d = b.x - a.x;
+  Vector d = b.x.cwiseProduct(continuation::nearest_signs(problem.double_covers(), b.x, a.x)) - a.x;
   const Vector periods = problem.periods(), weights = problem.metric();
   for (Index i = 0; i < d.size(); ++i)
     if (periods[i] > 0) d[i] = std::remainder(d[i], periods[i]);
@@ -28,7 +28,9 @@ double distance(const PathProblem& problem, const CurvePoint& a, const CurvePoin
 }
 
 /// Cosine of the angle between two directions.
-double cosine(const PathProblem& problem, const CurvePoint& a, const CurvePoint& b) {
+double cosine(const PathProblem& problem, const CurvePoint& a, CurvePoint b) {
+  b.tangent.dx =
+      b.tangent.dx.cwiseProduct(continuation::nearest_signs(problem.double_covers(), b.x, a.x));
   const auto product = [&](const CurvePoint& p, const CurvePoint& q) {
     return p.tangent.dx.cwiseProduct(problem.metric()).dot(q.tangent.dx) +
            p.tangent.dlambda * q.tangent.dlambda;

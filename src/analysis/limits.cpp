@@ -3,11 +3,68 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "branch_rows.hpp"
 
 namespace springfold::analysis {
+
+namespace {
+
+/// Rotation vectors are followed up to this length: at a whole turn they are singular.
+constexpr double nearly_whole_turn = 2 * std::numbers::pi - 0.25;
+
+/// Does a limit or mark name one of the three rotation vector entries that begin at z[first]?
+bool is_watched(const Study& study, const std::vector<QuantityDefinition>& quantities,
+                bool of_study_body, Index first) {
+  const auto rotates = [&](const std::string& name) {
+    for (const QuantityDefinition& q : quantities) {
+      if (q.name != name) continue;
+      if (q.kind == QuantityDefinition::Kind::unknown)
+        return q.entry >= first && q.entry < first + 3;
+      return of_study_body && q.kind == QuantityDefinition::Kind::deflection &&
+             q.unit == Unit::angle;
+    }
+    return false;
+  };
+  return std::any_of(study.until.begin(), study.until.end(),
+                     [&](const Limit& limit) { return rotates(limit.quantity); }) ||
+         std::any_of(study.marks.begin(), study.marks.end(),
+                     [&](const Mark& mark) { return rotates(mark.quantity); });
+}
+
+/// Bodies whose rotation is prescribed in part are described by rotation vectors; and limits on a
+/// rotation vector have no meaning beyond a whole turn. The branch ends before, and says so.
+void add_whole_turns(const Study& study, const Evaluator& evaluator,
+                     const std::vector<QuantityDefinition>& quantities,
+                     std::vector<continuation::Event>& events) {
+  const PathProblem& problem = evaluator.problem();
+  const statics::System& system = problem.layout();
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+    if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    const Index first = system.body_slices[b].t + 3;
+    const bool own = static_cast<Index>(b + 1) == study.body;
+    const auto& free = problem.free_rotations();
+    const bool is_free =
+        std::any_of(free.begin(), free.end(), [b](const auto& r) { return r.body == b; });
+    const bool held = own && problem.rule().N.cols() == 0;
+    const bool vector = !is_free && !held;
+    if (!vector && !is_watched(study, quantities, own, first)) continue;
+    events.push_back(
+        {whole_turn + system.mechanism.bodies[b].name +
+             (vector ? ", whose rotation is prescribed in part, comes near a whole turn"
+                     : " comes near a whole turn, beyond which limits and marks on its "
+                       "rotation have no meaning"),
+         [&problem, first](const continuation::CurvePoint& point) {
+           const Vector z = problem.expand(point.x, point.lambda);
+           return z.segment<3>(first).norm() - nearly_whole_turn;
+         },
+         continuation::EventAction::stop});
+  }
+}
+
+}  // namespace
 
 std::vector<continuation::Event> events_of(const Study& study, const Evaluator& evaluator,
                                            const std::vector<QuantityDefinition>& quantities) {
@@ -29,6 +86,7 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
                         return evaluator.force_rate(point);
                       },
                       continuation::EventAction::record});
+  add_whole_turns(study, evaluator, quantities, events);
   for (const Limit& limit : study.until) {
     if (std::isfinite(limit.low))
       add(limit.quantity, limit.low, continuation::EventAction::stop,

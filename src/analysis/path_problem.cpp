@@ -1,10 +1,12 @@
 #include "path_problem.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "number_text.hpp"
+#include "quaternion.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -17,8 +19,73 @@ PathProblem::PathProblem(statics::System system, PathRule rule)
   const auto& body = system_.body_slices[static_cast<std::size_t>(rule_.body - 1)];
   t_ = body.t;
   d_ = body.count;
-  size_ = system_.size - d_ + rule_.N.cols();
+  plain_size_ = system_.size - d_ + rule_.N.cols();
   assert(rule_.N.rows() == d_);
+  find_free_rotations();
+  if (!rotations_.empty()) turned_ = system_;
+}
+
+/// All rotations of the other spatial bodies, and of the study's body if it turns as it likes: the
+/// last columns of N are then its rotation vector.
+void PathProblem::find_free_rotations() {
+  const Index free = rule_.N.cols(), shift = free - d_;
+  place_.assign(static_cast<std::size_t>(plain_size_), 0);
+  for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
+    const statics::BodySlice& body = system_.body_slices[b];
+    if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    if (body.t == t_) {
+      const bool turns_freely = free >= 3 && rule_.N.bottomRightCorner(3, 3).isIdentity(0) &&
+                                rule_.N.bottomLeftCorner(3, free - 3).isZero(0) &&
+                                rule_.N.topRightCorner(3, 3).isZero(0) &&
+                                rule_.t_rate.tail(3).isZero(0);
+      if (turns_freely) rotations_.push_back({t_ + 3, t_ + free - 3, 0, b});
+    } else {
+      rotations_.push_back({body.t + 3, body.t + 3 + (body.t > t_ ? shift : 0), 0, b});
+    }
+  }
+  size_ = 0;
+  for (Index v = 0; v < plain_size_; ++v) {
+    const auto rotation = std::find_if(rotations_.begin(), rotations_.end(),
+                                       [v](const auto& r) { return r.v <= v && v < r.v + 3; });
+    const bool turns = rotation != rotations_.end();
+    place_[static_cast<std::size_t>(v)] = turns ? -1 : size_;
+    if (turns && v == rotation->v) rotation->y = size_;
+    size_ += !turns ? 1 : v == rotation->v ? 4 : 0;
+  }
+}
+
+/// v with four entries instead of three for every free rotation: those of `q_of` (in y), or zeros.
+Vector PathProblem::with_quaternions(const Vector& v, const Vector* q_of) const {
+  Vector y = Vector::Zero(size_);
+  for (Index i = 0; i < plain_size_; ++i)
+    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) y[p] = v[i];
+  if (q_of != nullptr)
+    for (const FreeRotation& r : rotations_) y.segment<4>(r.y) = q_of->segment<4>(r.y);
+  return y;
+}
+
+/// y with rotation vectors zero instead of quaternions.
+Vector PathProblem::without_quaternions(const Vector& y) const {
+  Vector v = Vector::Zero(plain_size_);
+  for (Index i = 0; i < plain_size_; ++i)
+    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) v[i] = y[p];
+  return v;
+}
+
+std::vector<model::Mat3<double>> PathProblem::frames(const Vector& y) const {
+  std::vector<model::Mat3<double>> list(system_.body_slices.size(),
+                                        model::Mat3<double>::Identity());
+  for (const FreeRotation& r : rotations_) list[r.body] = rotation_of(y.segment<4>(r.y));
+  return list;
+}
+
+/// dv/dy at y, v being rotation vectors against the present rotation.
+Matrix PathProblem::quaternion_rows(const Vector& y) const {
+  Matrix rows = Matrix::Zero(plain_size_, size_);
+  for (Index i = 0; i < plain_size_; ++i)
+    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) rows(i, p) = 1;
+  for (const FreeRotation& r : rotations_) rows.block<3, 4>(r.v, r.y) = rate_of(y.segment<4>(r.y));
+  return rows;
 }
 
 const statics::System& PathProblem::system(double lambda) const {
@@ -26,8 +93,16 @@ const statics::System& PathProblem::system(double lambda) const {
   if (!family_ || family_lambda_ != lambda) {
     family_ = rule_.family(lambda);
     family_lambda_ = lambda;
+    if (!rotations_.empty()) turned_ = family_->first;
   }
   return family_->first;
+}
+
+const statics::System& PathProblem::turned(const Vector& y, double lambda) const {
+  const statics::System& plain = system(lambda);
+  if (rotations_.empty()) return plain;
+  turn_frames(plain, frames(y), turned_);
+  return turned_;
 }
 
 statics::Inputs PathProblem::inputs(double lambda) const {
@@ -40,33 +115,68 @@ statics::Inputs PathProblem::inputs(double lambda) const {
   return in;
 }
 
-Vector PathProblem::expand(const Vector& y, double lambda) const {
+Vector PathProblem::local(const Vector& y, double lambda) const {
+  const Vector v = without_quaternions(y);
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
   Vector z(system_.size);
-  z.head(t_) = y.head(t_);
-  z.segment(t_, d_) = rule_.t_start + lambda * rule_.t_rate + rule_.N * y.segment(t_, free);
-  z.tail(tail) = y.tail(tail);
+  z.head(t_) = v.head(t_);
+  z.segment(t_, d_) = rule_.t_start + lambda * rule_.t_rate + rule_.N * v.segment(t_, free);
+  z.tail(tail) = v.tail(tail);
+  for (const FreeRotation& r : rotations_) z.segment<3>(r.z).setZero();
   return z;
 }
 
-Vector PathProblem::expand_rate(const Vector& dy, double dlambda) const {
+Turns PathProblem::turns(const Vector& y, const Turns* near) const {
+  Turns list;
+  for (std::size_t k = 0; k < rotations_.size(); ++k) {
+    const RotationVector phi = rotation_vector_of(y.segment<4>(rotations_[k].y));
+    list.push_back(near != nullptr ? nearest_turn(phi, (*near)[k]) : phi);
+  }
+  return list;
+}
+
+Vector PathProblem::expand(const Vector& y, double lambda, const Turns* turns_of_y) const {
+  Vector z = local(y, lambda);
+  const Turns phi = turns_of_y != nullptr ? *turns_of_y : turns(y);
+  for (std::size_t k = 0; k < rotations_.size(); ++k) z.segment<3>(rotations_[k].z) = phi[k];
+  return z;
+}
+
+Vector PathProblem::expand_rate(const Vector& y, const Vector& dy, double dlambda,
+                                const Turns* turns_of_y) const {
+  Vector dz = local_rate(y, dy, dlambda);
+  const Turns phi = turns_of_y != nullptr ? *turns_of_y : turns(y);
+  for (std::size_t k = 0; k < rotations_.size(); ++k) {
+    const Index z = rotations_[k].z;
+    dz.segment<3>(z) = model::inverse_left_jacobian(phi[k]) * model::Vec3<double>(dz.segment<3>(z));
+  }
+  return dz;
+}
+
+Vector PathProblem::local_rate(const Vector& y, const Vector& dy, double dlambda) const {
+  Vector dv = without_quaternions(dy);
+  for (const FreeRotation& r : rotations_)
+    dv.segment<3>(r.v) = rate_of(y.segment<4>(r.y)) * dy.segment<4>(r.y);
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
   Vector dz(system_.size);
-  dz.head(t_) = dy.head(t_);
-  dz.segment(t_, d_) = dlambda * rule_.t_rate + rule_.N * dy.segment(t_, free);
-  dz.tail(tail) = dy.tail(tail);
+  dz.head(t_) = dv.head(t_);
+  dz.segment(t_, d_) = dlambda * rule_.t_rate + rule_.N * dv.segment(t_, free);
+  dz.tail(tail) = dv.tail(tail);
   return dz;
 }
 
 Vector PathProblem::reduce(const Vector& z) const {
   Vector from_start = z;
   from_start.segment(t_, d_) -= rule_.t_start;
-  return reduce_rows(from_start);
+  Vector y = with_quaternions(reduce_rows(from_start), nullptr);
+  for (const FreeRotation& r : rotations_) y.segment<4>(r.y) = quaternion_of(z.segment<3>(r.z));
+  return y;
 }
 
+/// Rows of the residual that belong to v.
 Vector PathProblem::reduce_rows(const Vector& r) const {
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Vector reduced(size_);
+  Vector reduced(plain_size_);
   reduced.head(t_) = r.head(t_);
   reduced.segment(t_, free) = rule_.N.transpose() * r.segment(t_, d_);
   reduced.tail(tail) = r.tail(tail);
@@ -74,43 +184,70 @@ Vector PathProblem::reduce_rows(const Vector& r) const {
 }
 
 bool PathProblem::residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const {
+  for (const FreeRotation& r : rotations_)
+    if (!(y.segment<4>(r.y).norm() > 0.1)) return false;
   const bool finite =
-      equilibrium_residual(system(lambda), piece, expand(y, lambda), inputs(lambda), work_, r_);
-  F = reduce_rows(r_);
+      equilibrium_residual(turned(y, lambda), piece, local(y, lambda), inputs(lambda), work_, r_);
+  const Vector plain = reduce_rows(r_);
+  F = with_quaternions(plain, nullptr);
+  for (const FreeRotation& r : rotations_) {
+    const Quaternion q = y.segment<4>(r.y);
+    F.segment<4>(r.y) = rate_of(q).transpose() * plain.segment<3>(r.v) + (q.squaredNorm() - 1) * q;
+  }
   return finite;
 }
 
 bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dF_dy,
                               Vector& dF_dlambda) const {
-  const Vector z = expand(y, lambda);
-  if (!equilibrium_matrix(system(lambda), piece, z, inputs(lambda), work_, r_, A_, &dR_drho_))
+  for (const FreeRotation& r : rotations_)
+    if (!(y.segment<4>(r.y).norm() > 0.1)) return false;
+  const Vector z = local(y, lambda);
+  const statics::System& present = turned(y, lambda);
+  if (!equilibrium_matrix(present, piece, z, inputs(lambda), work_, r_, A_, &dR_drho_))
     return false;
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Matrix columns(system_.size, size_);
+  Matrix columns(system_.size, plain_size_);
   columns.leftCols(t_) = A_.leftCols(t_);
   columns.middleCols(t_, free) = A_.middleCols(t_, d_) * rule_.N;
   columns.rightCols(tail) = A_.rightCols(tail);
-  dF_dy.resize(size_, size_);
-  dF_dy.topRows(t_) = columns.topRows(t_);
-  dF_dy.middleRows(t_, free) = rule_.N.transpose() * columns.middleRows(t_, d_);
-  dF_dy.bottomRows(tail) = columns.bottomRows(tail);
+  Matrix plain(plain_size_, plain_size_);
+  plain.topRows(t_) = columns.topRows(t_);
+  plain.middleRows(t_, free) = rule_.N.transpose() * columns.middleRows(t_, d_);
+  plain.bottomRows(tail) = columns.bottomRows(tail);
 
+  Vector rate;
   if (rule_.family) {
     const auto at = [&](double l) -> std::optional<Vector> {
-      const auto [system, W] = rule_.family(l);
+      auto [system, W] = rule_.family(l);
+      if (!rotations_.empty()) turn_frames(statics::System{system}, frames(y), system);
       Vector r;
       if (!equilibrium_residual(system, piece, z, {system.commands, W}, work_, r))
         return std::nullopt;
       return r;
     };
-    const auto rate = six_point_derivative(at, lambda, rule_.family_step);
-    if (!rate) return false;
-    dF_dlambda = reduce_rows(*rate);
+    const auto by_parameter = six_point_derivative(at, lambda, rule_.family_step);
+    if (!by_parameter) return false;
+    rate = *by_parameter;
+  } else {
+    rate = A_.middleCols(t_, d_) * rule_.t_rate + dR_drho_ * rule_.rho_rate;
+    if (!rule_.W_rate.isZero(0)) rate += load_columns(present, z) * rule_.W_rate;
+  }
+  if (rotations_.empty()) {
+    dF_dy = plain;
+    dF_dlambda = reduce_rows(rate);
     return true;
   }
-  Vector rate = A_.middleCols(t_, d_) * rule_.t_rate + dR_drho_ * rule_.rho_rate;
-  if (!rule_.W_rate.isZero(0)) rate += load_columns(system_, z) * rule_.W_rate;
-  dF_dlambda = reduce_rows(rate);
+  // dF/dy = T^T (dr/dv) T + second derivatives of T + the equation for the length of q.
+  const Matrix T = quaternion_rows(y);
+  dF_dy = T.transpose() * plain * T;
+  dF_dlambda = T.transpose() * reduce_rows(rate);
+  const Vector r_plain = reduce_rows(r_);
+  for (const FreeRotation& r : rotations_) {
+    const Quaternion q = y.segment<4>(r.y);
+    dF_dy.block<4, 4>(r.y, r.y) += curvature_of(q, r_plain.segment<3>(r.v)) +
+                                   (q.squaredNorm() - 1) * Eigen::Matrix4d::Identity() +
+                                   2 * q * q.transpose();
+  }
   return true;
 }
 
@@ -148,46 +285,54 @@ bool PathProblem::switch_gradients(const Vector& y, double lambda, Matrix& dg_dy
 }
 
 Vector PathProblem::metric() const {
-  Vector weights = Vector::Ones(size_);
+  Vector weights = Vector::Ones(plain_size_);
   for (Index i = 0; i < t_; ++i)
     if (system_.is_wrench[static_cast<std::size_t>(i)]) weights[i] = 0;
-  return weights;
+  Vector metric = with_quaternions(weights, nullptr);
+  for (const FreeRotation& r : rotations_) metric.segment<4>(r.y).setConstant(4);  // |dq| = angle/2
+  return metric;
 }
 
 std::vector<bool> PathProblem::angles() const {
   const Index free = rule_.N.cols(), shift = free - d_;
-  std::vector<bool> angles(static_cast<std::size_t>(size_), false);
+  Vector angles = Vector::Zero(plain_size_);
   for (Index i = 0; i < system_.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (system_.is_wrench[k] || system_.is_length[k] || (i >= t_ && i < t_ + d_)) continue;
-    angles[static_cast<std::size_t>(i < t_ ? i : i + shift)] = true;
+    angles[i < t_ ? i : i + shift] = 1;
   }
   // A free pose coordinate is an angle only if no other one takes part in it.
   for (Index c = 0; c < free; ++c)
     for (Index r = 0; r < d_; ++r)
       if (!system_.is_length[static_cast<std::size_t>(t_ + r)] &&
           std::abs(std::abs(rule_.N(r, c)) - 1) < 1e-14)
-        angles[static_cast<std::size_t>(t_ + c)] = true;
-  return angles;
+        angles[t_ + c] = 1;
+  std::vector<bool> list;
+  for (const double angle : with_quaternions(angles, nullptr)) list.push_back(angle > 0);
+  return list;
 }
 
 Vector PathProblem::periods() const {
+  Vector periods = Vector::Zero(plain_size_);
   const std::vector<bool> is_angle = angles();
-  Vector periods = Vector::Zero(size_);
-  for (Index i = 0; i < size_; ++i)
-    if (is_angle[static_cast<std::size_t>(i)]) periods[i] = 2 * std::numbers::pi;
+  for (Index i = 0; i < plain_size_; ++i)
+    if (const Index p = place_[static_cast<std::size_t>(i)];
+        p >= 0 && is_angle[static_cast<std::size_t>(p)])
+      periods[i] = 2 * std::numbers::pi;
   // Joints stand before all poses, at the same place in y and in z.
   for (const statics::CoordinateSpring& spring : system_.springs) periods[spring.coordinate] = 0;
   for (const statics::CoordinateGroup& group : system_.coupled)
     for (const Index i : group.coordinates) periods[i] = 0;
-  for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
-    if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
-    const statics::BodySlice& body = system_.body_slices[b];
-    const Index shift = body.t > t_ ? rule_.N.cols() - d_ : 0;
-    const Index count = body.t == t_ ? rule_.N.cols() : body.count;
-    periods.segment(body.t + shift, count).setZero();  // rotation vectors
-  }
-  return periods;
+  if (system_.mechanism.bodies[static_cast<std::size_t>(rule_.body - 1)].task_space ==
+      model::TaskSpace::spatial)
+    periods.segment(t_, rule_.N.cols()).setZero();  // rotation vectors
+  return with_quaternions(periods, nullptr);
+}
+
+std::vector<Index> PathProblem::double_covers() const {
+  std::vector<Index> list;
+  for (const FreeRotation& r : rotations_) list.push_back(r.y);
+  return list;
 }
 
 std::string PathProblem::switch_name(Index j) const {

@@ -29,7 +29,18 @@ struct PathRule {
   double length = 1;            ///< unit of lengths, for the names of switches
 };
 
+/// Rotation vectors of bodies, of any length.
+using Turns = std::vector<model::Vec3<double>>;
+
 /// A PiecewiseSmoothProblem for the engine. One object serves one thread: evaluations reuse storage.
+///
+/// The unknowns y are those of z, but
+///   - of the study's body the free pose coordinates only, N y_t;
+///   - rotations of spatial bodies that are wholly free stand in y as quaternions q of four entries
+///     instead of a rotation vector. What is evaluated is the system with its frames turned to the
+///     present rotation, z with rotation vectors zero; one more equation, the gradient of
+///     (|q|^2 - 1)^2 / 4, holds the length of q. So no rotation of a body is singular, the matrix
+///     stays symmetric, and no negative eigenvalue is added.
 class PathProblem {
  public:
   PathProblem(statics::System system, PathRule rule);
@@ -49,23 +60,51 @@ class PathProblem {
   std::vector<bool> angles() const;        ///< per unknown: an angle, of a joint or a planar body
   std::string switch_name(Index j) const;  ///< "spring leg.knee (acts above 0.2618)"
 
-  /// All unknowns of the statics at a point of the path, and back.
-  Vector expand(const Vector& y, double lambda) const;
+  std::vector<Index> double_covers() const;  ///< quaternions: first entries in y
+
+  /// Rotation vectors of the free rotations: those nearest to `near`, without it those of the
+  /// quaternions, shorter than a whole turn.
+  Turns turns(const Vector& y, const Turns* near = nullptr) const;
+  /// All unknowns of the statics at a point of the path, and back. @param turns  of this point
+  Vector expand(const Vector& y, double lambda, const Turns* turns = nullptr) const;
   Vector reduce(const Vector& z) const;
-  /// Rate of z along a direction of the path.
-  Vector expand_rate(const Vector& dy, double dlambda) const;
+  /// The same point as it is evaluated: by `turned(y, lambda)`, with free rotations at zero.
+  Vector local(const Vector& y, double lambda) const;
+  const statics::System& turned(const Vector& y, double lambda) const;
+  /// Rate of `local` along a direction of the path: free rotations turn about world axes.
+  Vector local_rate(const Vector& y, const Vector& dy, double dlambda) const;
+  /// Rate of `expand` with these turns.
+  Vector expand_rate(const Vector& y, const Vector& dy, double dlambda, const Turns* turns) const;
+  /// A body whose rotation vector stands at z[first] ... z[first + 2] and in y as a quaternion.
+  struct FreeRotation {
+    Index z = 0;  ///< of the rotation vector
+    Index v = 0;  ///< where it would stand among the unknowns if it were one
+    Index y = 0;  ///< of the quaternion
+    std::size_t body = 0;
+  };
+  const std::vector<FreeRotation>& free_rotations() const { return rotations_; }
   statics::Inputs inputs(double lambda) const;
   const statics::System& system(double lambda) const;
+  const statics::System& layout() const { return system_; }  ///< who stands where, at the start
   const PathRule& rule() const { return rule_; }
   Index closures() const { return system_.closure_count(); }
 
  private:
+  void find_free_rotations();
   Vector reduce_rows(const Vector& r) const;
+  Vector with_quaternions(const Vector& v, const Vector* q_of) const;
+  Vector without_quaternions(const Vector& y) const;
+  std::vector<model::Mat3<double>> frames(const Vector& y) const;
+  Matrix quaternion_rows(const Vector& y) const;
   std::optional<Vector> breakpoints(double lambda) const;
 
   statics::System system_;
   PathRule rule_;
-  Index t_ = 0, d_ = 0, size_ = 0;
+  Index t_ = 0, d_ = 0, size_ = 0;  ///< size_: of y
+  Index plain_size_ = 0;            ///< of v, the unknowns with rotation vectors
+  std::vector<FreeRotation> rotations_{};
+  std::vector<Index> place_{};  ///< of the entries of v in y; -1 for free rotations
+  mutable statics::System turned_{};
   mutable statics::Workspace work_{};
   mutable Vector r_{};
   mutable Matrix A_{}, dR_drho_{};

@@ -127,7 +127,8 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
 Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scales& scales)
     : problem_{problem}, control_{study.control}, scales_{scales} {
   const auto body = static_cast<std::size_t>(study.body - 1);
-  const statics::System& system = problem.system(0);
+  const statics::System& system = problem.layout();
+  first_pose_ = system.first_pose;
   t_ = system.body_slices[body].t;
   d_ = system.body_slices[body].count;
   measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
@@ -146,26 +147,27 @@ double Evaluator::force(const continuation::CurvePoint& point) const {
   }
   statics::Workspace work;
   Vector r;
-  equilibrium_residual(problem_.system(point.lambda), point.piece,
-                       problem_.expand(point.x, point.lambda), problem_.inputs(point.lambda), work,
+  equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
+                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
                        r);
   return conjugate_.dot(r.segment(t_, d_));
 }
 
-double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point) const {
+double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
+                        const Turns* turns) const {
   switch (q.kind) {
     case Kind::arc_length:
       return point.s;
     case Kind::lambda:
       return q.scale * point.lambda;
     case Kind::deflection:
-      return q.scale * measured_.dot(problem_.expand(point.x, point.lambda).segment(t_, d_) -
+      return q.scale * measured_.dot(problem_.expand(point.x, point.lambda, turns).segment(t_, d_) -
                                      problem_.rule().t_start);
     case Kind::force:
       return q.scale * force(point);
     case Kind::unknown:
-      if (q.entry < t_) return q.scale * point.x[q.entry];
-      return q.scale * problem_.expand(point.x, point.lambda)[q.entry];
+      if (q.entry < first_pose_) return q.scale * point.x[q.entry];
+      return q.scale * problem_.expand(point.x, point.lambda, turns)[q.entry];
     case Kind::command:
       return q.scale * problem_.inputs(point.lambda).rho[q.entry];
     case Kind::energy:
@@ -179,7 +181,7 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
     case Kind::index_pose:
     case Kind::index_force: {
       const auto at = assemble(point);
-      return at ? from_matrix(q, point, *at) : undefined;
+      return at ? from_matrix(q, point, *at, turns) : undefined;
     }
   }
   return undefined;
@@ -188,8 +190,8 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
 std::optional<Evaluator::Assembled> Evaluator::assemble(
     const continuation::CurvePoint& point) const {
   Assembled at;
-  at.z = problem_.expand(point.x, point.lambda);
-  const statics::System& system = problem_.system(point.lambda);
+  at.z = problem_.local(point.x, point.lambda);
+  const statics::System& system = problem_.turned(point.x, point.lambda);
   Vector r;
   if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, r,
                           at.A))
@@ -203,7 +205,7 @@ std::optional<Evaluator::Assembled> Evaluator::assemble(
 }
 
 double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::CurvePoint& point,
-                              const Assembled& at) const {
+                              const Assembled& at, const Turns* turns) const {
   const auto count = [](const std::optional<Index>& n) {
     return n ? static_cast<double>(*n) : undefined;
   };
@@ -223,17 +225,18 @@ double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::C
     case Kind::index_force:
       return count(at.stability.force_controlled);
     default:
-      return value(q, point);
+      return value(q, point, turns);
   }
 }
 
 std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
-                                      const continuation::CurvePoint& point) const {
+                                      const continuation::CurvePoint& point,
+                                      const Turns* turns) const {
   const auto at = assemble(point);
   std::vector<double> values;
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
-    values.push_back(at ? from_matrix(q, point, *at) : undefined);
+    values.push_back(at ? from_matrix(q, point, *at, turns) : undefined);
   raise_indices(quantities, point, values);
   return values;
 }
@@ -251,15 +254,16 @@ void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
     for (std::size_t i = 0; at && i < quantities.size(); ++i) {
       const Kind kind = quantities[i].kind;
       if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
-        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at));
+        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, nullptr));
     }
   }
 }
 
 std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quantities,
-                                     const continuation::CurvePoint& point) const {
+                                     const continuation::CurvePoint& point,
+                                     const Turns* turns) const {
   const double dlambda = point.tangent.dlambda;
-  const Vector dz = problem_.expand_rate(point.tangent.dx, dlambda);
+  const Vector dz = problem_.expand_rate(point.x, point.tangent.dx, dlambda, turns);
   std::vector<double> rates;
   for (const QuantityDefinition& q : quantities) {
     double rate = undefined;
@@ -282,12 +286,12 @@ double Evaluator::force_rate(const continuation::CurvePoint& point) const {
   statics::Workspace work;
   Vector r;
   Matrix A;
-  if (!equilibrium_matrix(problem_.system(point.lambda), point.piece,
-                          problem_.expand(point.x, point.lambda), problem_.inputs(point.lambda),
+  if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
+                          problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
                           work, r, A))
     return undefined;
   const Matrix rows = A.middleRows(t_, d_);
-  const Vector dz = problem_.expand_rate(point.tangent.dx, dlambda);
+  const Vector dz = problem_.local_rate(point.x, point.tangent.dx, dlambda);
   const double rate = conjugate_.dot(rows * dz);
   return std::abs(rate) > 1e-14 * rows.norm() ? rate : 0;
 }

@@ -55,16 +55,22 @@ class Evaluator {
  public:
   Evaluator(const PathProblem& problem, const Study& study, const Scales& scales);
 
+  const PathProblem& problem() const { return problem_; }
+
   /// One quantity; cheap ones do not assemble the matrix.
-  double value(const QuantityDefinition& quantity, const continuation::CurvePoint& point) const;
+  /// @param turns  rotation vectors of this point, for rotations beyond a whole turn
+  double value(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
+               const Turns* turns = nullptr) const;
 
   /// All quantities; assembles the matrix once.
   std::vector<double> values(const std::vector<QuantityDefinition>& quantities,
-                             const continuation::CurvePoint& point) const;
+                             const continuation::CurvePoint& point,
+                             const Turns* turns = nullptr) const;
 
   /// d(value)/ds along the tangent for linear quantities, NaN for the others.
   std::vector<double> rates(const std::vector<QuantityDefinition>& quantities,
-                            const continuation::CurvePoint& point) const;
+                            const continuation::CurvePoint& point,
+                            const Turns* turns = nullptr) const;
 
   /// d(force)/ds along the branch, dimensionless; zero if it is below rounding.
   double force_rate(const continuation::CurvePoint& point) const;
@@ -90,11 +96,12 @@ class Evaluator {
   void raise_indices(const std::vector<QuantityDefinition>& quantities,
                      const continuation::CurvePoint& point, std::vector<double>& values) const;
   double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
-                     const Assembled& at) const;
+                     const Assembled& at, const Turns* turns) const;
 
   const PathProblem& problem_;
   ControlMode control_;
   Scales scales_;
+  Index first_pose_ = 0;
   Index t_ = 0, d_ = 0;  ///< pose of the study's body in z
   Vector measured_{};    ///< d entries
   Vector conjugate_{};   ///< d entries: direction with which the force is conjugate

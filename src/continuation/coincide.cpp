@@ -7,8 +7,26 @@
 
 namespace springfold::continuation {
 
+Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near) {
+  Vector signs = Vector::Ones(x.size());
+  for (const Index i : double_covers)
+    if (x.segment<4>(i).dot(near.segment<4>(i)) < 0) signs.segment<4>(i).setConstant(-1);
+  return signs;
+}
+
+Direction direction_seen_from(const Walker& walker, const Vector& near, const CurvePoint& point) {
+  Direction direction = point.tangent;
+  const auto covers = walker.problem.double_covers();
+  if (!covers.empty())
+    direction.dx = direction.dx.cwiseProduct(nearest_signs(covers, point.x, near)).eval();
+  return direction;
+}
+
 Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
-  Direction d{b.x - a.x, b.lambda - a.lambda};
+  Direction d{b.x, b.lambda - a.lambda};
+  const auto covers = walker.problem.double_covers();
+  if (!covers.empty()) d.dx = d.dx.cwiseProduct(nearest_signs(covers, b.x, a.x)).eval();
+  d.dx -= a.x;
   const Vector periods = walker.problem.periods();
   for (Index i = 0; i < d.dx.size(); ++i)
     if (periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], periods[i]);
@@ -27,7 +45,7 @@ double cosine(const Walker& walker, const Direction& a, const Direction& b) {
 bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
   const double scale = std::max({1.0, a.x.norm(), std::abs(a.lambda)});
   return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= 1e-7 * scale &&
-         std::abs(cosine(walker, a.tangent, b.tangent)) >= 0.999;
+         std::abs(cosine(walker, a.tangent, direction_seen_from(walker, a.x, b))) >= 0.999;
 }
 
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
@@ -48,7 +66,8 @@ std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& st
                                       const CurvePoint& from, const CurvePoint& to) {
   if (!(from.s > 0)) return std::nullopt;
   auto point = passes(walker, start, from, to);
-  if (!point || cosine(walker, point->tangent, start.tangent) < 0) return std::nullopt;
+  if (!point || cosine(walker, point->tangent, direction_seen_from(walker, point->x, start)) < 0)
+    return std::nullopt;
   return point;
 }
 

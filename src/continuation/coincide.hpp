@@ -6,7 +6,10 @@
 
 namespace springfold::continuation {
 
-/// b - a, with every periodic unknown taken the short way round.
+/// The tangent at a point as it is at the copy of the point that is nearest to `near`.
+Direction direction_seen_from(const Walker& walker, const Vector& near, const CurvePoint& point);
+
+/// b - a, with every periodic unknown taken the short way round and b as its copy nearest to a.
 Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
 
 double length_of(const Walker& walker, const Direction& d);

@@ -142,9 +142,11 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   int number = junction_at(hit);
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
-  const Direction back{-hit.point.tangent.dx, -hit.point.tangent.dlambda};
+  const Direction along = direction_seen_from(
+      walker_, diagram_.junctions[static_cast<std::size_t>(number)].point.x, hit.point);
+  const Direction back{-along.dx, -along.dlambda};
   Way* arrived = way_along(number, back, &hit.point.piece);
-  Way* ahead = ends ? nullptr : way_along(number, hit.point.tangent, &hit.point.piece);
+  Way* ahead = ends ? nullptr : way_along(number, along, &hit.point.piece);
   if (arrived == nullptr || (ahead == nullptr && !ends))
     doubt("a branch passes a special point in a direction that is none of its ways", hit.point);
   if (arrived != nullptr && arrived->branch < 0) arrived->branch = current_;

@@ -17,11 +17,13 @@ struct Task {
   double lambda = 0;
   const SearchOptions& options;
   Vector middle{}, side{}, periods{};  ///< of the box, and of the problem
+  std::vector<Index> double_covers{};
 };
 
-/// x - y, taken the short way round where there is a period.
+/// x - y, taken the short way round where there is a period, with the copy of y nearest to x.
 Vector difference(const Task& task, const Vector& x, const Vector& y) {
   Vector d = x - y;
+  if (!task.double_covers.empty()) d = x - y.cwiseProduct(nearest_signs(task.double_covers, y, x));
   for (Index i = 0; i < d.size(); ++i)
     if (task.periods[i] > 0) d[i] -= task.periods[i] * std::round(d[i] / task.periods[i]);
   return d;
@@ -215,7 +217,8 @@ std::optional<Solution> solution_near(const Task& task, const Vector& near, Sear
     x = polished.x;
     const Sides sides = compare_sides(task, x, piece);
     if (sides.match) {
-      Solution solution{task.middle + difference(task, x, task.middle), piece, "",
+      const Vector here = x.cwiseProduct(nearest_signs(task.double_covers, x, task.middle));
+      Solution solution{task.middle + difference(task, here, task.middle), piece, "",
                         polished.uncertain};
       if (!sides.zero.empty()) solution.note = "at a switching surface: " + sides.zero;
       if (polished.uncertain > 1e-9)
@@ -313,7 +316,8 @@ SearchResult search_at(ProblemView problem, double lambda, const std::vector<Vec
             options,
             0.5 * (options.low + options.high),
             options.high - options.low,
-            problem.periods()};
+            problem.periods(),
+            problem.double_covers()};
   for (double& side : task.side)
     if (!(side > 0)) side = 1;
   SearchResult result;

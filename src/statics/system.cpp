@@ -130,6 +130,27 @@ System prepare(const model::Mechanism& mechanism) {
   return system;
 }
 
+void turn_frames(const System& system, const std::vector<model::Mat3<double>>& rotations,
+                 System& turned) {
+  const auto turn = [&](Index body, model::Pose<double>& frame,
+                        const model::Pose<double>& original) {
+    const auto b = static_cast<std::size_t>(body - 1);
+    if (body == 0 || system.mechanism.bodies[b].task_space != TaskSpace::spatial) return;
+    frame.R = rotations[b] * original.R;
+    frame.p = rotations[b] * original.p;
+  };
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    const model::Chain& ends = system.mechanism.chains[i];
+    const model::CompiledChain& from = system.chains[i];
+    model::CompiledChain& to = turned.chains[i];
+    turn(ends.to, to.to_attachment, from.to_attachment);
+    if (from.joints.empty())
+      turn(ends.from, to.last, from.last);
+    else
+      turn(ends.from, to.joints.front().before, from.joints.front().before);
+  }
+}
+
 Vector guess(const System& system) {
   Vector z = Vector::Zero(system.size);
   for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {

@@ -35,12 +35,19 @@ concept PiecewiseSmoothProblem = requires(const P& problem, const Vector& x, dou
     } -> std::same_as<bool>;  // M = dg/dx (m x n), v = dg/dlambda
 };
 
+/// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
+/// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
+Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near);
+
 /// Non-owning view of any problem: lets the engine live in .cpp files. The problem must outlive it.
 ///
 /// Optional members of a problem are used where they exist:
 ///     bool symmetric() const          dF/dx is symmetric; inertia is then counted
 ///     Vector metric() const           n weights >= 0 of the arc length (0: does not enter)
 ///     Vector periods() const          n periods: x and x + period are the same point (0: none)
+///     std::vector<Index> double_covers() const
+///                                     first of four unknowns that are the same point with all their
+///                                     signs changed, for every such group: rotations as quaternions
 ///     std::string switch_name(Index) const
 class ProblemView {
  public:
@@ -67,6 +74,7 @@ class ProblemView {
   bool symmetric() const { return calls_->symmetric(problem_); }
   Vector metric() const { return calls_->metric(problem_); }
   Vector periods() const { return calls_->periods(problem_); }
+  std::vector<Index> double_covers() const { return calls_->double_covers(problem_); }
   std::string switch_name(Index j) const { return calls_->switch_name(problem_, j); }
 
  private:
@@ -80,6 +88,7 @@ class ProblemView {
     bool (*symmetric)(const void*);
     Vector (*metric)(const void*);
     Vector (*periods)(const void*);
+    std::vector<Index> (*double_covers)(const void*);
     std::string (*switch_name)(const void*, Index);
   };
 
@@ -139,6 +148,12 @@ class ProblemView {
           return as<P>(p).periods();
         else
           return Vector::Zero(static_cast<Index>(as<P>(p).size()));
+      },
+      [](const void* p) -> std::vector<Index> {
+        if constexpr (requires { as<P>(p).double_covers(); })
+          return as<P>(p).double_covers();
+        else
+          return {};
       },
       [](const void* p, Index j) -> std::string {
         if constexpr (requires { as<P>(p).switch_name(j); })

@@ -55,7 +55,8 @@ struct SearchResult {
 /// exact; a note says so.
 ///
 /// Unknowns with a period (problem.periods()) are given within half a period from the middle of the
-/// box, and are the same when they differ by periods.
+/// box, and are the same when they differ by periods. Double covers are given on the side of the
+/// middle, and are the same with changed signs.
 /// @pre problems_in(options, problem.size()).empty(); `known` satisfy F = 0
 SearchResult search_at(ProblemView problem, double lambda, const std::vector<Vector>& known,
                        const SearchOptions& options);

@@ -83,6 +83,16 @@ Piece piece_at(const System& system, const Vector& z);
 /// Segment of a spring in a piece.
 std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece);
 
+/// The same system with the frames of spatial bodies turned against the bodies: the rotation vector of
+/// body b, from zero, is then measured against `rotations[b]` instead of the world,
+///
+///     R_b = Exp(phi_b) rotations[b],
+///
+/// so that there is no rotation at which it is singular. Other bodies' entries are not used.
+/// @param turned  a copy of `system`; only what is fixed in the bodies is written
+void turn_frames(const System& system, const std::vector<model::Mat3<double>>& rotations,
+                 System& turned);
+
 /// Everything that the equilibrium depends on besides z.
 struct Inputs {
   Vector rho{};  ///< commands of the actuated joints
