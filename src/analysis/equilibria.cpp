@@ -42,6 +42,9 @@ bool same_equilibrium(const statics::System& system, const Vector& a, const Vect
   constexpr double near = 1e-7;
   for (const statics::CoordinateSpring& spring : system.springs)
     if (std::abs(a[spring.coordinate] - b[spring.coordinate]) > near) return false;
+  for (const statics::CoordinateGroup& group : system.coupled)
+    for (const Index i : group.coordinates)
+      if (std::abs(a[i] - b[i]) > near) return false;
   for (Index i = 0; i < system.size; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)] &&
         std::abs(a[i] - b[i]) > near * std::max(1.0, std::abs(a[i])))
@@ -114,7 +117,9 @@ CountedEquilibrium counted(const PathProblem& problem, const Evaluator& evaluato
 
 void find_equilibria(const Setup& setup, const Study& study, const statics::FirstEquilibrium& first,
                      StudyResult& result) {
-  const PathProblem problem(setup.system, setup.rule);
+  PathRule rule = setup.rule;
+  rule.quaternions = false;  // states are drawn and compared as the statics has them
+  const PathProblem problem(setup.system, rule);
   const Evaluator evaluator(problem, study, setup.scales);
   const auto quantities =
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);

@@ -26,6 +26,15 @@ const statics::CoordinateSpring* spring_of(const statics::System& system, Index 
   return nullptr;
 }
 
+/// Does a coupled spring act on the coordinate, and does it pull back in all its directions?
+std::optional<bool> coupled_pull(const statics::System& system, Index coordinate) {
+  for (const statics::CoordinateGroup& group : system.coupled)
+    if (std::find(group.coordinates.begin(), group.coordinates.end(), coordinate) !=
+        group.coordinates.end())
+      return model::problem_in(group.stiffness, model::Definiteness::definite).empty();
+  return std::nullopt;
+}
+
 bool pulls_back(const statics::CoordinateSpring& spring) {
   return spring.law.segments.front().stiffness > 0 && spring.law.segments.back().stiffness > 0;
 }
@@ -41,9 +50,10 @@ MorseCount of_open_chain(const PathProblem& problem, const std::vector<CountedEq
     const auto k = static_cast<std::size_t>(i);
     if (system.is_wrench[k]) continue;
     const auto* spring = spring_of(system, i);
-    if (spring && pulls_back(*spring)) continue;
+    const auto coupled = coupled_pull(system, i);
+    if ((spring && pulls_back(*spring)) || coupled.value_or(false)) continue;
     const std::string& name = system.coordinate_names[k];
-    if (spring || system.is_length[k])
+    if (spring || coupled || system.is_length[k])
       return does_not_apply(name +
                             " has no spring that holds it on both sides: the energy need "
                             "not grow without bound");

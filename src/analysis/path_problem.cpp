@@ -32,7 +32,8 @@ void PathProblem::find_free_rotations() {
   place_.assign(static_cast<std::size_t>(plain_size_), 0);
   for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
     const statics::BodySlice& body = system_.body_slices[b];
-    if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    if (system_.mechanism.bodies[b].task_space != model::TaskSpace::spatial || !rule_.quaternions)
+      continue;
     if (body.t == t_) {
       const bool turns_freely = free >= 3 && rule_.N.bottomRightCorner(3, 3).isIdentity(0) &&
                                 rule_.N.bottomLeftCorner(3, free - 3).isZero(0) &&
@@ -102,6 +103,25 @@ const statics::System& PathProblem::turned(const Vector& y, double lambda) const
   const statics::System& plain = system(lambda);
   if (rotations_.empty()) return plain;
   turn_frames(plain, frames(y), turned_);
+  return turned_;
+}
+
+const statics::System& PathProblem::turned_to_pose(const Vector& y, double lambda,
+                                                   Vector& z) const {
+  const statics::System& plain = system(lambda);
+  z = expand(y, lambda);
+  std::vector<model::Mat3<double>> list(plain.body_slices.size(), model::Mat3<double>::Identity());
+  bool any = false;
+  for (std::size_t b = 0; b < list.size(); ++b) {
+    if (plain.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    auto phi = z.segment<3>(plain.body_slices[b].t + 3);
+    list[b] = model::exp_rotation<double>(model::Vec3<double>(phi));
+    phi.setZero();
+    any = true;
+  }
+  if (!any) return plain;
+  if (rotations_.empty()) turned_ = plain;
+  turn_frames(plain, list, turned_);
   return turned_;
 }
 

@@ -25,8 +25,9 @@ struct PathRule {
   /// Control mode parameter: system and load as functions of lambda; otherwise empty.
   std::function<std::pair<statics::System, Vector>(double)> family{};
   double family_step = 0x1p-8;  ///< difference step in lambda for the derivative by the parameter
-  bool symmetric = true;        ///< no external moments on spatial bodies
-  double length = 1;            ///< unit of lengths, for the names of switches
+  bool quaternions = true;  ///< for free rotations of spatial bodies, instead of rotation vectors
+  bool symmetric = true;    ///< no external moments on spatial bodies
+  double length = 1;        ///< unit of lengths, for the names of switches
 };
 
 /// Rotation vectors of bodies, of any length.
@@ -71,6 +72,9 @@ class PathProblem {
   /// The same point as it is evaluated: by `turned(y, lambda)`, with free rotations at zero.
   Vector local(const Vector& y, double lambda) const;
   const statics::System& turned(const Vector& y, double lambda) const;
+  /// The same with the frames of all spatial bodies turned, also of those whose rotation is
+  /// prescribed: derivatives by rotation vectors are then derivatives by twists in world axes.
+  const statics::System& turned_to_pose(const Vector& y, double lambda, Vector& z) const;
   /// Rate of `local` along a direction of the path: free rotations turn about world axes.
   Vector local_rate(const Vector& y, const Vector& dy, double dlambda) const;
   /// Rate of `expand` with these turns.

@@ -53,6 +53,16 @@ Vector measured_direction(const Study& study, model::TaskSpace space) {
   return direction / direction.norm();
 }
 
+std::vector<Index> prescribed_coordinates(const Study& study, model::TaskSpace space) {
+  const std::vector<std::string> names = statics::pose_names(space);
+  std::vector<Index> list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::find(study.prescribed.begin(), study.prescribed.end(), names[i]) !=
+        study.prescribed.end())
+      list.push_back(static_cast<Index>(i));
+  return list;
+}
+
 Unit lambda_unit_of(const Study& study, const statics::System& system) {
   const auto body = static_cast<std::size_t>(study.body - 1);
   const Index lengths = translations(system.mechanism.bodies[body].task_space);
@@ -190,8 +200,7 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
 std::optional<Evaluator::Assembled> Evaluator::assemble(
     const continuation::CurvePoint& point) const {
   Assembled at;
-  at.z = problem_.local(point.x, point.lambda);
-  const statics::System& system = problem_.turned(point.x, point.lambda);
+  const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
   Vector r;
   if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, r,
                           at.A))

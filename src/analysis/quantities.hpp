@@ -44,6 +44,9 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
                                               const Scales& scales, double lambda_scale,
                                               Unit lambda_unit);
 
+/// Places of study.prescribed among the pose coordinates, increasing; unknown names are left out.
+std::vector<Index> prescribed_coordinates(const Study& study, model::TaskSpace space);
+
 Unit lambda_unit_of(const Study& study, const statics::System& system);
 
 /// The part of the direction along which deflection and stiffness are measured: its translation,

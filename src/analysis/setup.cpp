@@ -1,18 +1,29 @@
 #include "setup.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "quantities.hpp"
 #include "springfold/core/scaling.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 /// Orthonormal basis of the pose coordinates that stay free beside `direction`.
-Matrix free_directions(ControlMode control, const Vector& direction, Index d) {
+Matrix free_directions(ControlMode control, const Vector& direction,
+                       const std::vector<Index>& prescribed, Index d) {
   if (control == ControlMode::pose) return Matrix(d, 0);
   if (control != ControlMode::mixed) return Matrix::Identity(d, d);
+  if (!prescribed.empty()) {
+    Matrix N(d, d - static_cast<Index>(prescribed.size()));
+    Index column = 0;
+    for (Index i = 0; i < d; ++i)
+      if (std::find(prescribed.begin(), prescribed.end(), i) == prescribed.end())
+        N.col(column++) = Vector::Unit(d, i);
+    return N;
+  }
   const Eigen::HouseholderQR<Matrix> qr(direction);
   const Matrix Q = qr.householderQ() * Matrix::Identity(d, d);
   return Q.rightCols(d - 1);
@@ -115,7 +126,8 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
   }
   const bool traces = study.kind == StudyKind::force_deflection;
   const ControlMode free = traces ? study.control : ControlMode::load;
-  setup.rule.N = free_directions(free, study.direction, dimension(space));
+  setup.rule.N = free_directions(free, study.direction, prescribed_coordinates(study, space),
+                                 dimension(space));
   if (space == model::TaskSpace::spatial)
     for (const Vector* load : {&setup.rule.W_start, &setup.rule.W_rate})
       if (!load->segment(setup.system.body_slices[b].W + 3, 3).isZero(0))

@@ -24,11 +24,36 @@ void check_direction(const Study& study, const model::Body& body,
                        " finite numbers that are not all zero");
     return;
   }
-  if (study.control == ControlMode::mixed && !study.direction.head(lengths).isZero(0) &&
-      !study.direction.tail(d - lengths).isZero(0))
+  if (study.prescribed.empty() && study.control == ControlMode::mixed &&
+      !study.direction.head(lengths).isZero(0) && !study.direction.tail(d - lengths).isZero(0))
     problems.push_back(
         "direction: control \"mixed\" needs a pure translation or a pure rotation; which wrench "
         "stays zero beside a screw would depend on the unit of length");
+}
+
+/// `prescribed`: names of pose coordinates, those along which the direction leads among them.
+void check_prescribed(const Study& study, const model::Body& body,
+                      std::vector<std::string>& problems) {
+  if (study.prescribed.empty()) return;
+  if (study.control != ControlMode::mixed || study.kind != StudyKind::force_deflection)
+    problems.push_back("prescribed: has no meaning here, need control = \"mixed\" with it");
+  const std::vector<std::string> names = statics::pose_names(body.task_space);
+  for (std::size_t i = 0; i < study.prescribed.size(); ++i) {
+    const std::string& name = study.prescribed[i];
+    const auto here = study.prescribed.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      problems.push_back("prescribed: the body has no pose coordinate \"" + name + "\"");
+    if (std::find(study.prescribed.begin(), here, name) != here)
+      problems.push_back("prescribed: \"" + name + "\" is named twice");
+  }
+  const auto prescribed = prescribed_coordinates(study, body.task_space);
+  if (prescribed.size() == names.size())
+    problems.push_back("prescribed: all coordinates, that is control = \"pose\"");
+  for (Index i = 0; i < study.direction.size() && i < dimension(body.task_space); ++i)
+    if (study.direction[i] != 0 &&
+        std::find(prescribed.begin(), prescribed.end(), i) == prescribed.end())
+      problems.push_back("direction: leads along " + names[static_cast<std::size_t>(i)] +
+                         ", which is not prescribed");
 }
 
 void check_start(const Study& study, const model::Mechanism& mechanism, const model::Body& body,
@@ -150,6 +175,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
       (study.constant_load.size() != d || !study.constant_load.allFinite()))
     problems.push_back("load: need " + std::to_string(d) + " finite numbers");
   check_direction(study, body, problems);
+  check_prescribed(study, body, problems);
   check_start(study, mechanism, body, problems);
   check_control(study, mechanism, problems);
   const TraceSettings& t = study.trace;

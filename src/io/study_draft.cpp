@@ -26,7 +26,9 @@ std::string StudyDraft::when(int run) const {
 
 void check_direction(const StudyDraft& draft, model::TaskSpace space, const Values& numbers,
                      const std::string& when, Problems& problems) {
-  if (draft.control != analysis::ControlMode::mixed || draft.direction.empty()) return;
+  if (draft.control != analysis::ControlMode::mixed || draft.direction.empty() ||
+      !draft.prescribed.empty())
+    return;
   const auto lengths = static_cast<std::size_t>(model::translations(space));
   bool translates = false, rotates = false, varies = false;
   for (std::size_t i = 0; i < draft.direction.size(); ++i) {
@@ -50,6 +52,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
       .name = draft.name, .kind = draft.kind, .control = draft.control, .body = draft.body};
   if (!draft.direction.empty())
     study.direction = normalised(vector_of(draft.direction, numbers), space);
+  study.prescribed = draft.prescribed;
   study.constant_load = vector_of(draft.load, numbers);
   for (const RateDraft& rate : draft.actuators)
     study.actuators.push_back({rate.actuator, numbers[rate.rate]});

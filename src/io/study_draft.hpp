@@ -37,7 +37,8 @@ struct StudyDraft {
   analysis::ControlMode control = analysis::ControlMode::load;
   Index body = 1;
   std::vector<NumberId> direction{};  ///< d or none
-  std::vector<NumberId> load{};       ///< d or none
+  std::vector<std::string> prescribed{};
+  std::vector<NumberId> load{};  ///< d or none
   std::vector<RateDraft> actuators{};
   std::optional<std::size_t> parameter{};  ///< control mode parameter
   analysis::StartSolve start_solve = analysis::StartSolve::pose;

@@ -17,9 +17,10 @@ const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator"
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
-const std::vector<std::string> study_keys{
-    "name",      "kind",      "control", "body", "direction", "load",  "start",    "until", "mark",
-    "actuators", "parameter", "set",     "vary", "path",      "trace", "branches", "search"};
+const std::vector<std::string> study_keys{"name",      "kind",   "control",   "body", "direction",
+                                          "load",      "start",  "until",     "mark", "actuators",
+                                          "parameter", "set",    "vary",      "path", "trace",
+                                          "branches",  "search", "prescribed"};
 
 void add_entries(const Node& table, const std::string& prefix, std::vector<NamedPlace>& entries) {
   for (const NodeEntry& entry : table.entries) {
@@ -55,6 +56,8 @@ class StudyReader {
     const bool traces = read_kind();
     read_body();
     draft_.direction = read_vector(table_, "direction", "", "");
+    draft_.prescribed = read_texts(
+        table_.list("prescribed", "a list of pose coordinates such as [\"x\", \"rz\"]"), reading_);
     const std::string force = reading_.units.force, length = reading_.units.length;
     draft_.load = read_vector(table_, "load", force, force + "*" + length);
     read_control(traces);

@@ -8,20 +8,6 @@ namespace {
 
 using model::TaskSpace;
 
-std::vector<std::string> pose_names(TaskSpace space) {
-  switch (space) {
-    case TaskSpace::xy:
-      return {"x", "y"};
-    case TaskSpace::planar:
-      return {"x", "y", "phi"};
-    case TaskSpace::xyz:
-      return {"x", "y", "z"};
-    case TaskSpace::spatial:
-      return {"x", "y", "z", "rx", "ry", "rz"};
-  }
-  return {};
-}
-
 std::vector<std::string> wrench_names(TaskSpace space) {
   switch (space) {
     case TaskSpace::xy:
@@ -101,6 +87,20 @@ void add_chain(System& system, const model::Chain& chain) {
 }
 
 }  // namespace
+
+std::vector<std::string> pose_names(TaskSpace space) {
+  switch (space) {
+    case TaskSpace::xy:
+      return {"x", "y"};
+    case TaskSpace::planar:
+      return {"x", "y", "phi"};
+    case TaskSpace::xyz:
+      return {"x", "y", "z"};
+    case TaskSpace::spatial:
+      return {"x", "y", "z", "rx", "ry", "rz"};
+  }
+  return {};
+}
 
 Index System::closure_count() const {
   Index count = 0;

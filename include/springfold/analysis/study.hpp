@@ -107,7 +107,10 @@ struct Study {
   std::string name{};
   StudyKind kind = StudyKind::force_deflection;
   ControlMode control = ControlMode::load;
-  Index body = 1;                         ///< body number, 1 is the first moving one
+  Index body = 1;  ///< body number, 1 is the first moving one
+  /// Control mode mixed: pose coordinates ("x", "rz", ...) that follow start + lambda direction; all
+  /// others are free. Empty: the displacement along the direction alone is prescribed.
+  std::vector<std::string> prescribed{};
   Vector direction{};                     ///< d entries; unit length, see docs/case-file.md
   Vector constant_load{};                 ///< W0 on the body, d entries; empty: none
   std::vector<ActuatorRate> actuators{};  ///< control mode actuator

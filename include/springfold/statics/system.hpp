@@ -71,6 +71,9 @@ struct System {
   Index closure_count() const;  ///< number of closure equations, sum of all F_count
 };
 
+/// Names of the pose coordinates: "x", "y", "z", "rx", "ry", "rz" of a spatial body.
+std::vector<std::string> pose_names(model::TaskSpace space);
+
 /// @pre model::problems_in(mechanism).empty()
 System prepare(const model::Mechanism& mechanism);
 
