@@ -123,6 +123,20 @@ void number_branches(Figure& figure, std::size_t first) {
   }
 }
 
+/// Equilibria that a search found: stable ones ("ES") are filled, all others ("EU") are not.
+void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result) {
+  if (!result.equilibria) return;
+  const auto value = [&result](const analysis::Sample& sample, const std::string& quantity) {
+    const auto column = column_of(result, quantity);
+    return column ? sample.values[*column] : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const auto& e : result.equilibria->list)
+    add_mark(figure, {value(e.sample, "index") == 0 ? "ES" : "EU",
+                      e.label,
+                      {axes.spec.x_factor * value(e.sample, axes.spec.x),
+                       axes.spec.y_factor * value(e.sample, axes.spec.y)}});
+}
+
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
              const std::string& label) {
   const auto& [spec, units] = axes;
@@ -136,6 +150,7 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
     add_branch(figure, axes, result, result.branches[b], b == 0 ? label : "",
                is_diagram ? static_cast<int>(b) + 1 : 0);
   if (is_diagram) number_branches(figure, first_curve);
+  add_equilibria(figure, axes, result);
   if (result.branches.empty()) return;
   const Branch& first = result.branches.front();
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});

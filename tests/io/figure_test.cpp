@@ -182,6 +182,30 @@ TEST(PlaceLabels, KeepTextsApartAndInsideTheFrame) {
   }
 }
 
+TEST(Figures, MarkEquilibriaByTheirStability) {
+  std::vector<std::string> problems;
+  auto results = sample::two_results();
+  results[0].branches.clear();
+  results.resize(1);
+  analysis::EquilibriaReport report;
+  for (const double index : {0.0, 1.0}) {
+    analysis::Equilibrium e{.label = index == 0 ? "EQ1" : "EQ2"};
+    e.sample.values.assign(results[0].quantities.size(), index);
+    report.list.push_back(e);
+  }
+  results[0].equilibria = report;
+  Case c = sample::two_runs();
+  PlotSpec spec{.name = "places", .x = "point.x", .y = "point.y"};
+  spec.curves.push_back({.study = results[0].study});
+  c.plots = {spec};
+  const auto figure = figures_of(c, results, problems).at(0);
+  ASSERT_THAT(figure.marks, SizeIs(2));
+  EXPECT_EQ(figure.marks[0].code, "ES");
+  EXPECT_EQ(figure.marks[0].label, "EQ1");
+  EXPECT_EQ(figure.marks[1].code, "EU");
+  EXPECT_EQ(figure.marks[1].at.first, 1);
+}
+
 TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
   Figure figure{.low = {0, 0}, .high = {1, 1}};
   figure.marks = {
