@@ -348,11 +348,12 @@ EventKind kind_of(const Hit& hit) {
 }
 
 Stop stop_of(const Curve& curve) {
+  if (curve.stop == StopReason::event && curve.stop_detail.starts_with(whole_turn))
+    return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
   if (!curve.stop_detail.empty()) stop.reason += ": " + curve.stop_detail;
-  stop.complete = (curve.stop == StopReason::event && !curve.stop_detail.starts_with(whole_turn)) ||
-                  curve.stop == StopReason::closed;
+  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
   return stop;
 }
 

@@ -146,11 +146,22 @@ Vector PathProblem::local(const Vector& y, double lambda) const {
   return z;
 }
 
-Turns PathProblem::turns(const Vector& y, const Turns* near) const {
+Turns PathProblem::turns(const Vector& y, const Turns* before) const {
+  constexpr double clear_of_whole_turns = 0.5;
   Turns list;
   for (std::size_t k = 0; k < rotations_.size(); ++k) {
-    const RotationVector phi = rotation_vector_of(y.segment<4>(rotations_[k].y));
-    list.push_back(near != nullptr ? nearest_turn(phi, (*near)[k]) : phi);
+    const Quaternion q = y.segment<4>(rotations_[k].y);
+    const RotationVector phi = rotation_vector_of(q);
+    Turn turn{phi, phi, q};
+    if (before != nullptr) {
+      const Turn& last = (*before)[k];
+      const Rotation motion = rotation_of(q) * rotation_of(last.q).transpose();
+      turn.expected = last.expected + model::log_rotation<double>(motion);
+      turn.phi = nearest_turn(phi, turn.expected);
+    }
+    if (std::abs(std::remainder(phi.norm(), 2 * std::numbers::pi)) > clear_of_whole_turns)
+      turn.expected = turn.phi;
+    list.push_back(turn);
   }
   return list;
 }
@@ -158,7 +169,7 @@ Turns PathProblem::turns(const Vector& y, const Turns* near) const {
 Vector PathProblem::expand(const Vector& y, double lambda, const Turns* turns_of_y) const {
   Vector z = local(y, lambda);
   const Turns phi = turns_of_y != nullptr ? *turns_of_y : turns(y);
-  for (std::size_t k = 0; k < rotations_.size(); ++k) z.segment<3>(rotations_[k].z) = phi[k];
+  for (std::size_t k = 0; k < rotations_.size(); ++k) z.segment<3>(rotations_[k].z) = phi[k].phi;
   return z;
 }
 
@@ -168,7 +179,8 @@ Vector PathProblem::expand_rate(const Vector& y, const Vector& dy, double dlambd
   const Turns phi = turns_of_y != nullptr ? *turns_of_y : turns(y);
   for (std::size_t k = 0; k < rotations_.size(); ++k) {
     const Index z = rotations_[k].z;
-    dz.segment<3>(z) = model::inverse_left_jacobian(phi[k]) * model::Vec3<double>(dz.segment<3>(z));
+    dz.segment<3>(z) =
+        model::inverse_left_jacobian(phi[k].phi) * model::Vec3<double>(dz.segment<3>(z));
   }
   return dz;
 }

@@ -30,8 +30,14 @@ struct PathRule {
   double length = 1;        ///< unit of lengths, for the names of switches
 };
 
-/// Rotation vectors of bodies, of any length.
-using Turns = std::vector<model::Vec3<double>>;
+/// Rotation of a body, followed along a path.
+struct Turn {
+  model::Vec3<double> phi = model::Vec3<double>::Zero();  ///< rotation vector of any length
+  /// Where phi is expected, from the motion so far: near whole turns its axis is not well defined.
+  model::Vec3<double> expected = model::Vec3<double>::Zero();
+  Eigen::Vector4d q = Eigen::Vector4d::UnitX();
+};
+using Turns = std::vector<Turn>;
 
 /// A PiecewiseSmoothProblem for the engine. One object serves one thread: evaluations reuse storage.
 ///
@@ -63,9 +69,9 @@ class PathProblem {
 
   std::vector<Index> double_covers() const;  ///< quaternions: first entries in y
 
-  /// Rotation vectors of the free rotations: those nearest to `near`, without it those of the
-  /// quaternions, shorter than a whole turn.
-  Turns turns(const Vector& y, const Turns* near = nullptr) const;
+  /// Free rotations: those that go on from `before`, a point nearby, with whole turns counted;
+  /// without it those of the quaternions, shorter than a whole turn.
+  Turns turns(const Vector& y, const Turns* before = nullptr) const;
   /// All unknowns of the statics at a point of the path, and back. @param turns  of this point
   Vector expand(const Vector& y, double lambda, const Turns* turns = nullptr) const;
   Vector reduce(const Vector& z) const;

@@ -91,7 +91,8 @@ std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece);
 ///
 ///     R_b = Exp(phi_b) rotations[b],
 ///
-/// so that there is no rotation at which it is singular. Other bodies' entries are not used.
+/// so that there is no rotation at which it is singular. Other bodies' entries are not used. All that
+/// is fixed in a body must be turned here.
 /// @param turned  a copy of `system`; only what is fixed in the bodies is written
 void turn_frames(const System& system, const std::vector<model::Mat3<double>>& rotations,
                  System& turned);
