@@ -168,6 +168,14 @@ TEST_F(Program, ChecksACaseWithoutWritingAnything) {
   EXPECT_EQ(run({"check", case_file().string(), "--set", "Q=1"}).code, wrong_case_file);
 }
 
+TEST_F(Program, NamesAnElasticLinkOnceInACheck) {
+  const auto file =
+      std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/segmented-column/case.toml";
+  const Outcome outcome = run({"check", file.string(), "--set", "N=2"});
+  EXPECT_EQ(outcome.code, all_done) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("joints: link (elastic in Tx Ty Tz Rx Ry Rz)\n"));
+}
+
 TEST_F(Program, FindsAnUnwritableFolderBeforeItComputes) {
   for (const std::string& bad : {case_file().string(), std::string{"/proc/nothing/here"}}) {
     bool was_run = false;
