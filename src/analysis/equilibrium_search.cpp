@@ -8,6 +8,7 @@
 #include <random>
 
 #include "springfold/continuation/search.hpp"
+#include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -86,6 +87,7 @@ class Searcher {
     take(continuation::search_at(problem_, 0, {}, options));
     std::vector<Vector> known;
     for (const FoundEquilibrium& f : result_.found) known.push_back(f.z);
+    known.insert(known.end(), left_.begin(), left_.end());
     options.maximum_solutions = study_.search.maximum - static_cast<int>(result_.found.size()) + 1;
     take(continuation::search_at(problem_, 0, known, options));
   }
@@ -99,11 +101,39 @@ class Searcher {
     for (Index i = 0; i < found.z.size(); ++i)
       if (periods_[i] > 0)
         found.z[i] -= periods_[i] * std::round((found.z[i] - box_.middle[i]) / periods_[i]);
+    const Vector raw = found.z;
+    if (shorten_rotations(found.z)) {
+      left_.push_back(raw);
+      if (!is_solution(found)) return;
+    }
     if (is_known(found.z)) return;
     if (static_cast<int>(result_.found.size()) == study_.search.maximum)
       result_.limit_reached = true;
     else
       result_.found.push_back(std::move(found));
+  }
+
+  /// Rotation vectors longer than half a turn become the shortest of the same rotation.
+  bool shorten_rotations(Vector& z) const {
+    const statics::System& system = problem_.system(0);
+    bool changed = false;
+    for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+      if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+      auto phi = z.segment<3>(system.body_slices[b].t + 3);
+      if (!(phi.norm() > std::numbers::pi + 1e-9)) continue;
+      phi = model::log_rotation<double>(model::exp_rotation<double>(model::Vec3<double>(phi)));
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// At whole turns rotation vectors are singular, and a body seems balanced that is not.
+  bool is_solution(const FoundEquilibrium& found) const {
+    constexpr double tolerance = 1e-8;
+    Vector r;
+    return problem_.residual(found.z, 0, found.piece, r) &&
+           r.lpNorm<Eigen::Infinity>() <=
+               tolerance * std::max(1.0, found.z.lpNorm<Eigen::Infinity>());
   }
 
   bool is_known(const Vector& z) const {
@@ -219,6 +249,7 @@ class Searcher {
   Box box_;
   InRange in_range_;
   Parts parts_;
+  std::vector<Vector> left_{};  ///< solutions with long rotation vectors, as they were found
   Vector periods_;
   EquilibriumSearch result_{};
 };

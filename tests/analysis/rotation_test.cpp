@@ -289,6 +289,28 @@ TEST(FreeRotations, RollUpACantileverSeveralTimes) {
   EXPECT_GT(at(result, rows - 1, "tip.rz"), 4 * pi);
 }
 
+// A rotation vector of a whole turn seems balanced under any moment: such states are none.
+TEST(FreeRotations, OfAWholeTurnAreNoEquilibria) {
+  Carousel c = carousel(Vector{{0, -0.3, 0.2, 0, 0, 0}}, 1);
+  c.study = {.name = "all", .kind = StudyKind::equilibria};
+  c.study.constant_load = Vector{{0, -0.3, 0.2, 0, 0, 0}};
+  c.study.search.starts = 60;
+  ASSERT_TRUE(problems_in(c.study, c.mechanism).empty());
+  const StudyResult result = run_study(c.mechanism, c.study);
+  ASSERT_TRUE(result.equilibria);
+  ASSERT_FALSE(result.equilibria->list.empty());
+  for (const Equilibrium& equilibrium : result.equilibria->list) {
+    Vector phi(3);
+    for (std::size_t q = 0; q < result.quantities.size(); ++q)
+      for (Index i = 0; i < 3; ++i)
+        if (result.quantities[q].name ==
+            std::array{"tool.rx", "tool.ry", "tool.rz"}[static_cast<std::size_t>(i)])
+          phi[i] = equilibrium.sample.values[q];
+    EXPECT_LE(phi.norm(), pi + 1e-6) << equilibrium.label;
+    EXPECT_THAT(equilibrium.note, testing::Not(testing::HasSubstr("singular")));
+  }
+}
+
 /// Bar of length 1 on a universal joint with springs 1, pressed by a dead load: a spatial body.
 Carousel spatial_bar() {
   Carousel c;
