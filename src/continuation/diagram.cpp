@@ -8,6 +8,7 @@
 
 #include "coincide.hpp"
 #include "kink_passage.hpp"
+#include "normalised.hpp"
 #include "springfold/continuation/evidence.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "words.hpp"
@@ -314,6 +315,14 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer) {
   assert(problems_in(options.trace).empty());
+  if (starts.empty()) return {};
+  const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
+  if (!own.trivial()) {
+    std::vector<DiagramStart> inside = starts;
+    for (DiagramStart& start : inside) start.x = own.inside(start.x);
+    return own.outside(
+        trace_diagram(own, inside, own.inside(events), options, own.inside(observer)));
+  }
   const Walker walker{problem, problem.metric(), options.trace};
   Tracer tracer(walker, events, options, observer);
   for (std::size_t i = 0; i < starts.size(); ++i) {

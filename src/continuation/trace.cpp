@@ -7,6 +7,7 @@
 #include "coincide.hpp"
 #include "events.hpp"
 #include "kink_passage.hpp"
+#include "normalised.hpp"
 #include "springfold/continuation/evidence.hpp"
 #include "words.hpp"
 
@@ -169,17 +170,25 @@ std::vector<std::string> problems_in(const TraceOptions& options) {
 
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                const TraceOptions& options) {
-  const Walker walker{problem, problem.metric(), options};
-  const std::vector<Index> active = active_switches(walker, x, lambda);
+  const Normalised own(problem, x, lambda, piece);
+  const Walker walker{own, own.metric(), options};
+  const Vector y = own.inside(x);
+  const std::vector<Index> active = active_switches(walker, y, lambda);
   if (active.size() > 12)
     return {.complete = false, .why = "too many switches act at the start point"};
-  return rays_at(walker, x, lambda, piece, active);
+  Rays result = rays_at(walker, y, lambda, piece, active);
+  for (Ray& ray : result.rays) ray = own.outside(ray);
+  return result;
 }
 
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
             const StepObserver& observer, const HitObserver& at_hit) {
   assert(problems_in(options).empty());
+  const Normalised own(problem, x, lambda, start.piece);
+  if (!own.trivial())
+    return own.outside(trace(own, own.inside(x), lambda, own.inside(start), own.inside(events),
+                             options, own.inside(observer), own.inside(at_hit)));
   const Walker walker{problem, problem.metric(), options};
   CurvePoint first;
   first.x = x;

@@ -1,0 +1,159 @@
+#include "normalised.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/newton.hpp"
+#include "springfold/core/scaling.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Power of two that brings a weight of the metric into [1, 4).
+double unit_of(double weight) {
+  if (!(weight > 0) || !std::isfinite(weight)) return 1;
+  return std::ldexp(1, -static_cast<int>(std::floor(0.5 * std::ilogb(weight))));
+}
+
+/// How far beside the start the equations are looked at as well: at the start itself all their
+/// derivatives may vanish.
+constexpr double beside = 1.0 / 128;
+
+}  // namespace
+
+Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
+    : problem_{problem} {
+  const Index n = problem.size();
+  unit_ = problem.metric().unaryExpr(&unit_of);
+  force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
+  surface_ = Vector::Ones(problem.switch_count());
+  scale_equations(x, lambda, piece);
+  scale_switches(x, lambda);
+  trivial_ = (unit_.array() == 1).all() && (force_.array() == 1).all() &&
+             (surface_.array() == 1).all();
+}
+
+void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
+  double largest = 0;
+  for (const double d : {0.0, beside}) {
+    Linearisation at;
+    if (!linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
+    const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
+    if (K.size() > 0) largest = std::max(largest, K.cwiseAbs().maxCoeff());
+    if (K.size() > 0)
+      largest = std::max(largest, force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff());
+  }
+  force_ /= power_of_two_near(largest);
+}
+
+void Normalised::scale_switches(const Vector& x, double lambda) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (surface_.size() == 0 || !problem_.switch_gradients(x, lambda, dg_dx, dg_dlambda)) return;
+  for (Index j = 0; j < surface_.size(); ++j) {
+    const Vector slope = dg_dx.row(j).transpose().cwiseProduct(unit_);
+    surface_[j] = 1 / power_of_two_near(std::hypot(slope.norm(), dg_dlambda[j]));
+  }
+}
+
+bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
+  if (!problem_.residual(y.cwiseProduct(unit_), lambda, piece, G)) return false;
+  G.array() *= force_.array();
+  return true;
+}
+
+bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
+                             Vector& dG_dlambda) const {
+  if (!problem_.derivatives(y.cwiseProduct(unit_), lambda, piece, dG_dy, dG_dlambda)) return false;
+  dG_dy.array().colwise() *= force_.array();
+  dG_dy.array().rowwise() *= unit_.transpose().array();
+  dG_dlambda.array() *= force_.array();
+  return true;
+}
+
+bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
+  if (!problem_.switches(y.cwiseProduct(unit_), lambda, h)) return false;
+  h.array() *= surface_.array();
+  return true;
+}
+
+bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
+                                  Vector& dh_dlambda) const {
+  if (!problem_.switch_gradients(y.cwiseProduct(unit_), lambda, dh_dy, dh_dlambda)) return false;
+  dh_dy.array().colwise() *= surface_.array();
+  dh_dy.array().rowwise() *= unit_.transpose().array();
+  dh_dlambda.array() *= surface_.array();
+  return true;
+}
+
+Ray Normalised::inside(const Ray& ray) const {
+  Ray result = ray;
+  result.tangent.dx = inside(ray.tangent.dx);
+  return result;
+}
+
+Ray Normalised::outside(const Ray& ray) const {
+  Ray result = ray;
+  result.tangent.dx = ray.tangent.dx.cwiseProduct(unit_);
+  return result;
+}
+
+CurvePoint Normalised::inside(const CurvePoint& point) const {
+  CurvePoint result = point;
+  result.x = inside(point.x);
+  if (point.tangent.dx.size() > 0) result.tangent.dx = inside(point.tangent.dx);
+  return result;
+}
+
+CurvePoint Normalised::outside(const CurvePoint& point) const {
+  CurvePoint result = point;
+  result.x = point.x.cwiseProduct(unit_);
+  if (point.tangent.dx.size() > 0) result.tangent.dx = point.tangent.dx.cwiseProduct(unit_);
+  return result;
+}
+
+Hit Normalised::outside(const Hit& hit) const {
+  Hit result = hit;
+  result.point = outside(hit.point);
+  for (CurvePoint& point : result.leaving) point = outside(point);
+  return result;
+}
+
+std::vector<Event> Normalised::inside(const std::vector<Event>& events) const {
+  std::vector<Event> result = events;
+  for (Event& event : result)
+    event.value = [this, value = std::move(event.value)](const CurvePoint& point) {
+      return value(outside(point));
+    };
+  return result;
+}
+
+StepObserver Normalised::inside(const StepObserver& observer) const {
+  if (!observer) return {};
+  return [this, &observer](const CurvePoint& point) { return observer(outside(point)); };
+}
+
+HitObserver Normalised::inside(const HitObserver& observer) const {
+  if (!observer) return {};
+  return [this, &observer](const Hit& hit) { return observer(outside(hit)); };
+}
+
+Curve Normalised::outside(Curve curve) const {
+  for (CurvePoint& point : curve.points) point = outside(point);
+  for (Hit& hit : curve.hits) hit = outside(hit);
+  return curve;
+}
+
+Diagram Normalised::outside(Diagram diagram) const {
+  for (Branch& branch : diagram.branches) branch.curve = outside(std::move(branch.curve));
+  for (Junction& junction : diagram.junctions) {
+    junction.point = outside(junction.point);
+    for (Way& way : junction.ways) {
+      way.point = outside(way.point);
+      way.start = outside(way.start);
+    }
+  }
+  return diagram;
+}
+
+}  // namespace springfold::continuation

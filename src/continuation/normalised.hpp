@@ -1,0 +1,66 @@
+// A problem in units of the engine's own, so that its tolerances mean the same in the units of
+// every caller. Private to the engine.
+#pragma once
+
+#include <vector>
+
+#include "springfold/continuation/diagram.hpp"
+#include "springfold/continuation/problem.hpp"
+
+namespace springfold::continuation {
+
+/// F(x, lambda) = 0 in other unknowns and with other factors, all of them powers of two: nothing is
+/// rounded, and changing the caller's units by powers of two changes no bit inside.
+///
+///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
+///     h_j = surface_j g_j
+///
+/// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
+/// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
+/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's.
+class Normalised {
+ public:
+  /// @param x, lambda, piece  a point of the curve
+  Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece);
+
+  /// Nothing to do: the problem is in the engine's units already.
+  bool trivial() const { return trivial_; }
+
+  // What the engine asks for.
+  Index size() const { return problem_.size(); }
+  bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
+  bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
+                   Vector& dG_dlambda) const;
+  Index switch_count() const { return problem_.switch_count(); }
+  bool switches(const Vector& y, double lambda, Vector& h) const;
+  bool switch_gradients(const Vector& y, double lambda, Matrix& dh_dy, Vector& dh_dlambda) const;
+  bool symmetric() const { return problem_.symmetric(); }
+  Vector metric() const { return problem_.metric().cwiseProduct(unit_.cwiseAbs2()); }
+  Vector periods() const { return problem_.periods().cwiseQuotient(unit_); }
+  std::string switch_name(Index j) const { return problem_.switch_name(j); }
+
+  Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
+  Ray inside(const Ray& ray) const;
+  CurvePoint inside(const CurvePoint& point) const;
+  CurvePoint outside(const CurvePoint& point) const;
+  Hit outside(const Hit& hit) const;
+  Ray outside(const Ray& ray) const;
+  std::vector<Event> inside(const std::vector<Event>& events) const;
+  StepObserver inside(const StepObserver& observer) const;
+  HitObserver inside(const HitObserver& observer) const;
+
+  Curve outside(Curve curve) const;
+  Diagram outside(Diagram diagram) const;
+
+ private:
+  void scale_equations(const Vector& x, double lambda, const Piece& piece);
+  void scale_switches(const Vector& x, double lambda);
+
+  ProblemView problem_;
+  Vector unit_{};     ///< n
+  Vector force_{};    ///< n: factors of the equations
+  Vector surface_{};  ///< factors of the switching functions
+  bool trivial_ = true;
+};
+
+}  // namespace springfold::continuation
