@@ -3,8 +3,15 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace springfold::continuation {
+namespace {
+
+constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau) {
   const Index n = at.dF_dx.rows();
@@ -48,6 +55,29 @@ std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders) {
   Matrix Sigma = A.partialPivLu().solve(right).bottomRows(m);
   if (!Sigma.allFinite()) return std::nullopt;
   return Sigma;
+}
+
+double determinant_noise(const Matrix& E, const Borders& borders, double size) {
+  const Index n = E.rows(), m = borders.B.cols();
+  Matrix A(n + m, n + m);
+  A << E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
+  Matrix right = Matrix::Zero(n + m, m);
+  right.bottomRows(m).setIdentity();
+  const Matrix Phi = A.partialPivLu().solve(right).topRows(n).cwiseAbs();
+  const Matrix Psi = A.transpose().partialPivLu().solve(right).topRows(n).cwiseAbs();
+  const double entry = few_units * (Psi.transpose() * (E.cwiseAbs() * Phi)).norm();
+  return static_cast<double>(m) * entry * std::pow(std::max(size, entry), static_cast<double>(m - 1));
+}
+
+double rate_noise(const Matrix& E) {
+  const Index n = E.rows();
+  const Vector unit = Vector::Unit(n, n - 1);
+  const Eigen::PartialPivLU<Matrix> lu(E);
+  Vector tangent = lu.solve(unit);
+  tangent /= tangent.norm();
+  const Vector row = lu.transpose().solve(unit);
+  const double noise = few_units * row.cwiseAbs().dot(E.cwiseAbs() * tangent.cwiseAbs());
+  return std::isfinite(noise) ? noise : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace springfold::continuation

@@ -15,9 +15,11 @@ WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint
   for (const CurvePoint* p : samples) rates.push_back(p->tangent.dlambda);
   for (const double r : rates) scale = std::max(scale, std::abs(r));
   if (!arc.walker().options.limit_points || !within_reach(rates)) return {};
-  if (scale <= unit_noise) return {.resolved = false};  // lambda stands still to rounding
-  const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(),
-                                      std::max(rounding * scale, unit_noise), resolution);
+  const auto E = arc.matrix(*samples[samples.size() / 2]);
+  const double noise = std::max(rounding * scale, E ? rate_noise(*E) : scale);
+  if (scale <= noise) return {.resolved = false};  // lambda stands still to rounding
+  const ZeroSearch found =
+      find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution);
   return {found.zeros, found.resolved};
 }
 
@@ -148,9 +150,7 @@ SingularPoints singular_points(const Walker& walker,
     return result;
   }
   if (walker.options.limit_points && walker.options.branch_points)
-    result.doubt = walker.problem.symmetric() && from.negative && !to.negative
-                       ? "step ends at a singular point"
-                       : accounting(arc, found, to);
+    result.doubt = accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
   for (Candidate& candidate : found) result.hits.push_back(hit_of(arc, std::move(candidate)));
   return result;

@@ -35,6 +35,35 @@ void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEven
   curve.hits.push_back(std::move(hit));
 }
 
+/// Steps may end where an eigenvalue is zero to rounding. From the last point before them with a count
+/// of negative eigenvalues to the new one, the special points must explain its change.
+void account_over_gap(Curve& curve) {
+  const CurvePoint& here = curve.points.back();
+  auto known = curve.points.rbegin() + 1;
+  while (known != curve.points.rend() && !known->negative) ++known;
+  if (!here.negative || known == curve.points.rend() || known == curve.points.rbegin() + 1) return;
+  int most = 0;
+  bool odd = false, parity = true;
+  for (const Hit& hit : curve.hits) {
+    if (hit.point.s < known->s || hit.kind == HitKind::user) continue;
+    const bool branch_point = hit.kind == HitKind::branch_point;
+    const bool limit_point = hit.kind == HitKind::limit_point;
+    if (!branch_point && !limit_point && hit.kind != HitKind::touch) return;
+    most += branch_point ? hit.multiplicity + 1 : limit_point ? 1 : 0;
+    odd = odd != limit_point;
+    parity = parity && !branch_point;  // lambda may turn there as well
+  }
+  const auto change = static_cast<int>(std::abs(*here.negative - *known->negative));
+  if (change <= most && (!parity || (change % 2 == 1) == odd)) return;
+  Hit hit{.kind = HitKind::unresolved,
+          .name = "unresolved: number of negative eigenvalues and special points do not fit together"};
+  hit.point = here;
+  hit.multiplicity = std::max(1, change);
+  hit.s_before = known->s;
+  hit.s_after = here.s;
+  curve.hits.push_back(std::move(hit));
+}
+
 /// One step: predict, correct, look for switching surfaces and events, record.
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
                 Progress& progress, Curve& curve, std::string& refusal) {
@@ -90,6 +119,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   progress.here = std::move(*step.point);
   progress.left.clear();
   curve.points.push_back(progress.here);
+  account_over_gap(curve);
   if (closed) {
     curve.stop = StopReason::closed;
     return Outcome::stop;

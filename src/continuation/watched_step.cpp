@@ -219,7 +219,11 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   };
   for (const double t : {0.0, 0.5, 1.0})
     if (!determinant(t * arc.length())) return {.resolved = false};
-  const ZeroSearch found = find_zeros(determinant, 0, arc.high(), rounding * scale, resolution);
+  const auto m = static_cast<double>(result.order);
+  const double noise =
+      std::max(rounding * scale, determinant_noise(E[middle], borders, std::pow(scale, 1 / m)));
+  if (scale <= noise) return {.resolved = false};
+  const ZeroSearch found = find_zeros(determinant, 0, arc.high(), noise, resolution);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   return result;
