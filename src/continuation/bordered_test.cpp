@@ -57,7 +57,7 @@ std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders) {
   return Sigma;
 }
 
-double determinant_noise(const Matrix& E, const Borders& borders, double size) {
+double sigma_noise(const Matrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
   Matrix A(n + m, n + m);
   A << E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
@@ -65,8 +65,8 @@ double determinant_noise(const Matrix& E, const Borders& borders, double size) {
   right.bottomRows(m).setIdentity();
   const Matrix Phi = A.partialPivLu().solve(right).topRows(n).cwiseAbs();
   const Matrix Psi = A.transpose().partialPivLu().solve(right).topRows(n).cwiseAbs();
-  const double entry = few_units * (Psi.transpose() * (E.cwiseAbs() * Phi)).norm();
-  return static_cast<double>(m) * entry * std::pow(std::max(size, entry), static_cast<double>(m - 1));
+  const double noise = few_units * (Psi.transpose() * (E.cwiseAbs() * Phi)).norm();
+  return std::isfinite(noise) ? noise : std::numeric_limits<double>::infinity();
 }
 
 double rate_noise(const Matrix& E) {

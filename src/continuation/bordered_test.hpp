@@ -40,10 +40,9 @@ Index small_singular_values(const Matrix& E, double reach);
 /// @returns nothing when the bordered matrix is singular
 std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders);
 
-/// What rounding of E's entries, a few units in their last places, makes of det Sigma near a place
-/// where all its entries are about `size`: |Psi|^T (epsilon |E|) |Phi| with the solutions of the
-/// bordered system and of its transpose.
-double determinant_noise(const Matrix& E, const Borders& borders, double size);
+/// What rounding of E's entries, a few units in their last places, makes of Sigma: the norm of
+/// |Psi|^T (epsilon |E|) |Phi| with the solutions of the bordered system and of its transpose.
+double sigma_noise(const Matrix& E, const Borders& borders);
 
 /// The same of the lambda-component of the unit tangent, which is E^-1 times the last unit vector.
 /// Infinity where E is singular.

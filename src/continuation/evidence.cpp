@@ -1,7 +1,6 @@
 #include "springfold/continuation/evidence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "springfold/continuation/branch_point.hpp"
@@ -19,36 +18,68 @@ Direction between(const CurvePoint& a, const CurvePoint& b) {
   return {b.x - a.x, b.lambda - a.lambda};
 }
 
-/// Residual on the predictor line at a quarter, half and three quarters against its end. A smooth
-/// curve gives t^2, near an inflection t^3; the limits leave room for changing curvature.
+/// Largest residual on the predictor line at a share t of the step, against that at its end. A smooth
+/// curve gives t^2, near an inflection t^3; there is room for changing curvature.
+double residual_limit(double t) {
+  if (t <= 0.25) return 1.6 * t;
+  return t <= 0.5 ? 0.4 + 0.8 * (t - 0.25) : 0.6 + 1.2 * (t - 0.5);
+}
+
+/// The residual on the predictor line at seven places against that at its end.
 std::string residual_doubt(const Walker& walker, const CurvePoint& from, double ds) {
-  constexpr std::array<std::pair<double, double>, 3> limits{{{0.25, 0.4}, {0.5, 0.6}, {0.75, 0.9}}};
   constexpr double noise = 1e-12;
+  constexpr int parts = 8;
+  Vector F;
   const auto size_at = [&](double t) {
-    Vector F;
     const double d = t * ds;
     const bool inside = walker.problem.residual(
         from.x + d * from.tangent.dx, from.lambda + d * from.tangent.dlambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
   const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
-  for (const auto& [t, limit] : limits)
-    if (size_at(t) > limit * at_end + noise * scale)
+  for (int k = 1; k < parts; ++k) {
+    const double t = static_cast<double>(k) / parts;
+    if (size_at(t) > residual_limit(t) * at_end + noise * scale)
       return "residual does not grow evenly along the predictor: another branch may be near";
+  }
   return {};
 }
 
-/// Distance of the corrected middle from the cubic through both ends, across the curve.
+/// The curve as a function of the way t along the tangent at `from`: with every corrected point on the
+/// hyperplane across it, du/dt = tau / (tau . tau_from) exactly.
+Direction rate(const Walker& walker, const CurvePoint& from, const CurvePoint& p) {
+  const double along = metric_product(walker.weights, p.tangent, from.tangent);
+  return {p.tangent.dx / along, p.tangent.dlambda / along};
+}
+
+/// Part of a direction across the tangent.
+double across(const Walker& walker, const Direction& d, const Direction& tangent) {
+  const double along = metric_product(walker.weights, d, tangent);
+  return length(walker.weights, {d.dx - along * tangent.dx, d.dlambda - along * tangent.dlambda});
+}
+
+/// Distance of the corrected middle from the cubic through both ends.
 double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                  const CurvePoint& middle) {
-  const double chord = length(walker.weights, between(from, to));
-  Direction off{middle.x - 0.5 * (from.x + to.x) - chord / 8 * (from.tangent.dx - to.tangent.dx),
-                middle.lambda - 0.5 * (from.lambda + to.lambda) -
-                    chord / 8 * (from.tangent.dlambda - to.tangent.dlambda)};
-  const double along = metric_product(walker.weights, off, middle.tangent);
-  off.dx -= along * middle.tangent.dx;
-  off.dlambda -= along * middle.tangent.dlambda;
-  return length(walker.weights, off);
+  const double h = to.s - from.s;
+  const Direction a = rate(walker, from, from), b = rate(walker, from, to);
+  return across(walker,
+                {middle.x - 0.5 * (from.x + to.x) - h / 8 * (a.dx - b.dx),
+                 middle.lambda - 0.5 * (from.lambda + to.lambda) - h / 8 * (a.dlambda - b.dlambda)},
+                middle.tangent);
+}
+
+/// What the tangents, integrated by Simpson's rule, leave of the way from one end to the other. A
+/// neighbouring branch has nearly the same tangents, but lies elsewhere.
+double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                    const CurvePoint& middle) {
+  const double h = to.s - from.s;
+  const Direction a = rate(walker, from, from), m = rate(walker, from, middle),
+                  b = rate(walker, from, to);
+  return across(walker,
+                {to.x - from.x - h / 6 * (a.dx + 4 * m.dx + b.dx),
+                 to.lambda - from.lambda - h / 6 * (a.dlambda + 4 * m.dlambda + b.dlambda)},
+                middle.tangent);
 }
 
 /// Errors that residuals at rounding level leave where dF/dx is nearly singular.
@@ -79,15 +110,17 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     d.dlambda -= along * from.tangent.dlambda;
     return length(walker.weights, d);
   };
-  constexpr double share = 0.1;
+  constexpr double share = 0.1, smaller_share = 0.01;
   const double noise = 1e-11 + corrector_noise(walker, middle);
+  const double size = std::max(bend(middle), 0.25 * bend(to));
   const double off = off_cubic(walker, from, to, middle);
-  const double allowed = share * std::max(bend(middle), 0.25 * bend(to)) + noise;
-  if (off > allowed) {
+  if (off > share * size + noise)
     evidence.doubt = "the point half-way is " + rounded(off / ds) +
                      " steps off the cubic through both ends: another branch may be near";
-    return evidence;
-  }
+  const double left = off_integral(walker, from, to, middle);
+  if (evidence.doubt.empty() && left > smaller_share * size + noise)
+    evidence.doubt = "the end is " + rounded(left / ds) +
+                     " steps from where the tangents lead: another branch may be near";
   return evidence;
 }
 

@@ -34,6 +34,30 @@ std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double l
       a, b);
 }
 
+/// What is left of Sigma near a place where all of it should vanish, as an error of the place: the
+/// largest t with Sigma v = t Sigma' v. Zero where Sigma cannot be told from zero.
+double left_of(const Vector& entries, const Vector& slopes, Index m, double nothing) {
+  const auto Sigma = entries.reshaped(m, m), slope = slopes.reshaped(m, m);
+  if (Sigma.norm() <= nothing) return 0;
+  const Eigen::PartialPivLU<Matrix> lu(slope);
+  const double left = lu.solve(Sigma).norm();
+  return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
+}
+
+/// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
+/// because rounding matters less, narrow ones where the curve is not smooth enough.
+bool turns_at(const WatchedStep& arc, double t) {
+  for (const double share : {1.0, 0.3, 0.1}) {
+    const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
+    if (!curve) continue;
+    const Index n = curve->values.rows() - 1;
+    const double h = 0.1 * (curve->b - curve->a);
+    const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
+    if (std::abs(curve->slope(t)[n]) <= merged * std::abs(change)) return true;
+  }
+  return false;
+}
+
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
 std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, double length,
                                            Index m) {
@@ -53,6 +77,9 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       },
       curve->a, curve->b);
   if (!Sigma) return {};
+  // Entries below this are zero: rounding, and the error of the interpolant.
+  const double nothing =
+      8 * sigma_noise(*E, borders) + 1e-12 * Sigma->values.cwiseAbs().maxCoeff();
   std::vector<Singularity> found;
   for (const double start : {t, curve->a, curve->b}) {
     double place = start;
@@ -64,8 +91,7 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       place = std::clamp(place + step, curve->a, curve->b);
       if (std::abs(step) < 1e-15) break;
     }
-    // What is left of Sigma, as an error of the place.
-    const double left = (*Sigma)(place).norm() / Sigma->slope(place).norm();
+    const double left = left_of((*Sigma)(place), Sigma->slope(place), m, nothing);
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
       return std::abs(other.at - place) < 2 * merged;
     });
@@ -147,6 +173,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   result.multiplicity = static_cast<int>(m);
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;
+  result.turns = turns_at(arc, place.at);
   polish(arc, result.point, m);
   if (const auto refined = refined_point(arc, result)) result.point = *refined;
   if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
@@ -219,9 +246,12 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   };
   for (const double t : {0.0, 0.5, 1.0})
     if (!determinant(t * arc.length())) return {.resolved = false};
+  // det Sigma is a product of m factors, each with the noise of an entry.
   const auto m = static_cast<double>(result.order);
+  const double entry = sigma_noise(E[middle], borders);
   const double noise =
-      std::max(rounding * scale, determinant_noise(E[middle], borders, std::pow(scale, 1 / m)));
+      std::max(rounding * scale,
+               m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
   if (scale <= noise) return {.resolved = false};
   const ZeroSearch found = find_zeros(determinant, 0, arc.high(), noise, resolution);
   result.zeros = found.zeros;
@@ -237,11 +267,15 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
     if (candidates.empty()) return false;
     for (Candidate& candidate : candidates) {
       // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
+      bool turned = false;
       std::erase_if(turns, [&](const ZeroOf& turn) {
-        const bool here = std::abs(turn.at - candidate.at) <= merged + 50 * turn.off;
-        if (here && !turn.touches) candidate.odd = !candidate.odd;
+        const double distance = std::abs(turn.at - candidate.at);
+        const bool here =
+            distance <= merged + 50 * turn.off || (candidate.turns && distance <= blurred);
+        turned = turned != (here && !turn.touches);
         return here;
       });
+      candidate.odd = candidate.odd != (turned || candidate.turns);
       found.push_back(std::move(candidate));
     }
     return true;

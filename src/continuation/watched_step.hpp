@@ -14,6 +14,7 @@ inline constexpr double together = 1e-5;  // arc length within which zeros are e
 inline constexpr double resolution = 1e-7;   // of features of one function
 inline constexpr double rounding = 1e-11;    // of a function against its size
 inline constexpr double merged = 1e-7;       // zeros that are closer are one multiple zero
+inline constexpr double blurred = 2e-4;  // around a branch point corrected points are less exact
 inline constexpr double poor = 1e-6;  // a limit point that cannot be placed better is not resolved
 inline constexpr double apart = 200;  // residual over rounding at which branches do not meet
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
@@ -63,7 +64,8 @@ struct Candidate {
   CurvePoint point{};
   HitKind kind = HitKind::limit_point;
   int multiplicity = 1;
-  bool odd = false;  ///< an odd number of eigenvalues change sign here
+  bool odd = false;    ///< an odd number of eigenvalues change sign here
+  bool turns = false;  ///< branch points: lambda turns back here as well
 };
 
 struct WatchedZeros {

@@ -37,7 +37,10 @@ std::vector<double> features_of(const Interpolant& p, double level) {
     const bool crosses = (here < 0) != (next < 0);
     const bool turns = std::abs(here) <= std::abs(before) && std::abs(here) <= std::abs(next) &&
                        (before < 0) == (next < 0);
-    if (crosses || (turns && std::abs(here) <= level)) places.push_back(t(i));
+    // A parabola that touches zero half-way between two points is an eighth of its second difference
+    // off at them.
+    const double reach = std::max(level, 0.25 * std::abs(before - 2 * here + next));
+    if (crosses || (turns && std::abs(here) <= reach)) places.push_back(t(i));
     before = here;
     here = next;
   }

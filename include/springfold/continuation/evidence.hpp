@@ -18,9 +18,10 @@ struct Evidence {
 ///  - the residual along the straight predictor must grow like the square of the distance. If
 ///    another branch was crossed on the way, it goes up and down instead;
 ///  - the point half-way, corrected on its own, must lie on the cubic that the two ends and their
-///    tangents define. A step that landed on a neighbour has the wrong chord for its tangents.
+///    tangents define, and the three tangents, integrated, must lead from one end to the other. A
+///    step that landed on a neighbour has the wrong chord for its tangents.
 ///
-/// Sampling, not proof: a feature much narrower than a quarter of the step can escape it.
+/// Sampling, not proof: a feature much narrower than an eighth of the step can escape it.
 Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to);
 
 }  // namespace springfold::continuation
