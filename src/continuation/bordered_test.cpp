@@ -36,9 +36,10 @@ bool surely_regular(const Matrix& E0, const Matrix& E1) {
   return false;
 }
 
+Vector singular_values(const Matrix& E) { return Eigen::JacobiSVD<Matrix>(E).singularValues(); }
+
 Index small_singular_values(const Matrix& E, double reach) {
-  const Eigen::BDCSVD<Matrix> svd(E);
-  return std::max<Index>(1, (svd.singularValues().array() < reach).count());
+  return std::max<Index>(1, (singular_values(E).array() < reach).count());
 }
 
 Borders borders_of(const Matrix& E, Index m) {

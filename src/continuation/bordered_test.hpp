@@ -34,6 +34,9 @@ struct Borders {
 /// Left and right singular vectors of the m smallest singular values, m = 1...
 Borders borders_of(const Matrix& E, Index m);
 
+/// In descending order.
+Vector singular_values(const Matrix& E);
+
 /// How many singular values are smaller than `reach`; at least one.
 Index small_singular_values(const Matrix& E, double reach);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace springfold::continuation {
 namespace {
@@ -12,10 +13,20 @@ namespace {
 constexpr double singular_pivot = 1e-15;
 
 /// Newton stops only when the next correction would be shorter than this.
-constexpr double refined_step = 1e-13;
+constexpr double refined_step = 1e-14;
 
 /// Corrections below this may be rounding of F, magnified by a nearly singular matrix.
 constexpr double noise_step = 1e-8;
+
+/// The same where the residual itself is no more than rounding.
+constexpr double blurred_step = 1e-6;
+
+/// Rounding errors that the terms of F have, estimated from its derivatives.
+double rounding_of_residual(const Linearisation& at, const Vector& x, double lambda) {
+  return std::numeric_limits<double>::epsilon() *
+         (at.dF_dx.cwiseAbs() * x.cwiseAbs() + std::abs(lambda) * at.dF_dlambda.cwiseAbs())
+             .lpNorm<Eigen::Infinity>();
+}
 
 double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
@@ -94,9 +105,12 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     const auto left_over = [&] {
       return result.residual_norm * (result.corrections.back() / before);
     };
-    const bool refined =
-        !result.corrections.empty() &&
-        (result.residual_norm == 0 || (before > 0 && left_over() <= refined_step * scale));
+    const auto rounded = [&] {
+      return result.residual_norm <= 4 * rounding_of_residual(at, result.x, result.lambda);
+    };
+    const bool refined = !result.corrections.empty() &&
+                         (result.residual_norm == 0 ||
+                          (before > 0 && left_over() <= refined_step * scale) || rounded());
     before = result.residual_norm;
     if (small && refined) {
       result.status = NewtonStatus::converged;
@@ -118,7 +132,8 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > 0.1 && length < noise_step) {
+      if (small && ratio > 0.1 &&
+          (length < noise_step || (length < blurred_step && rounded()))) {
         result.status = NewtonStatus::converged;
         return result;
       }

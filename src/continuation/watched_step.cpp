@@ -157,6 +157,16 @@ std::optional<CurvePoint> refined_point(const WatchedStep& arc, const Candidate&
   return refined;
 }
 
+/// Are exactly m singular values of E small here, with a gap to the others?
+bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
+  constexpr double gap = 0.1;
+  const auto E = arc.matrix(point);
+  if (!E) return false;
+  const Vector values = singular_values(*E);  // descending
+  const Index n = values.size();
+  return m >= n || values[n - m] <= gap * values[n - m - 1];
+}
+
 /// A branch point from its place; nothing if the branches do not meet there.
 std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
                                       const std::vector<ZeroOf>& zeros, Index m, bool touches) {
@@ -177,6 +187,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   polish(arc, result.point, m);
   if (const auto refined = refined_point(arc, result)) result.point = *refined;
   if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
+  if (!has_corank(arc, result.point, m)) return std::nullopt;
   return result;
 }
 

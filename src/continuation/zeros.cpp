@@ -80,6 +80,8 @@ class Search {
   static constexpr double location = 1e-11, poor_location = 1e-6;
   /// A parabola that touches zero between two points of the grid is less than this off at them.
   static constexpr double touching = 1e-4;
+  /// A function that needs more is noise.
+  static constexpr int most_intervals = 200;
 
   struct Fit {
     std::optional<Interpolant> polynomial{};
@@ -87,7 +89,8 @@ class Search {
   };
 
   void examine(const Fit& fit, double a, double b, int depth) {
-    if (!fit.polynomial) return give_up();
+    if (!result.resolved) return;  // nothing that follows would be believed
+    if (!fit.polynomial || ++examined_ > most_intervals) return give_up();
     const Interpolant& p = *fit.polynomial;
     const double scale = p.values.cwiseAbs().maxCoeff(), least = p.values.cwiseAbs().minCoeff();
     // Zero all along: a family, not a point; or a point too flat to be resolved.
@@ -217,6 +220,7 @@ class Search {
 
   const SampledFunction& f_;
   double low_, high_, noise_, resolution_;
+  int examined_ = 0;
 };
 
 }  // namespace
