@@ -132,8 +132,7 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > 0.1 &&
-          (length < noise_step || (length < blurred_step && rounded()))) {
+      if (small && ratio > 0.1 && (length < noise_step || (length < blurred_step && rounded()))) {
         result.status = NewtonStatus::converged;
         return result;
       }

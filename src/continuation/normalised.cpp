@@ -29,8 +29,8 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
   surface_ = Vector::Ones(problem.switch_count());
   scale_equations(x, lambda, piece);
   scale_switches(x, lambda);
-  trivial_ = (unit_.array() == 1).all() && (force_.array() == 1).all() &&
-             (surface_.array() == 1).all();
+  trivial_ =
+      (unit_.array() == 1).all() && (force_.array() == 1).all() && (surface_.array() == 1).all();
 }
 
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {

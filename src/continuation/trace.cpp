@@ -55,8 +55,9 @@ void account_over_gap(Curve& curve) {
   }
   const auto change = static_cast<int>(std::abs(*here.negative - *known->negative));
   if (change <= most && (!parity || (change % 2 == 1) == odd)) return;
-  Hit hit{.kind = HitKind::unresolved,
-          .name = "unresolved: number of negative eigenvalues and special points do not fit together"};
+  Hit hit{
+      .kind = HitKind::unresolved,
+      .name = "unresolved: number of negative eigenvalues and special points do not fit together"};
   hit.point = here;
   hit.multiplicity = std::max(1, change);
   hit.s_before = known->s;

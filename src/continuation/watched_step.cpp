@@ -77,9 +77,16 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       },
       curve->a, curve->b);
   if (!Sigma) return {};
+  double error = 0;
+  for (const double share : {0.31, 0.78}) {
+    const double t_between = curve->a + share * (curve->b - curve->a);
+    const auto entries = arc.sigma(t_between, borders);
+    if (!entries) return {};
+    error = std::max(error, (entries->reshaped() - (*Sigma)(t_between)).norm());
+  }
   // Entries below this are zero: rounding, and the error of the interpolant.
   const double nothing =
-      8 * sigma_noise(*E, borders) + 1e-12 * Sigma->values.cwiseAbs().maxCoeff();
+      8 * sigma_noise(*E, borders) + 1e-12 * Sigma->values.cwiseAbs().maxCoeff() + 3 * error;
   std::vector<Singularity> found;
   for (const double start : {t, curve->a, curve->b}) {
     double place = start;
@@ -91,7 +98,8 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       place = std::clamp(place + step, curve->a, curve->b);
       if (std::abs(step) < 1e-15) break;
     }
-    const double left = left_of((*Sigma)(place), Sigma->slope(place), m, nothing);
+    const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
+                        error / Sigma->slope(place).norm();
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
       return std::abs(other.at - place) < 2 * merged;
     });
@@ -211,8 +219,12 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
     if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
   }
   if (zeros.size() > 1) return {};
-  if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
-    add({middle, (*curve)(middle), curve->slope(middle)}, 1, zeros.front().touches);
+  const bool touches = zeros.front().touches;
+  const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
+  if (places.size() == 1)
+    add(places.front(), 1, false);
+  else if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+    add({middle, (*curve)(middle), curve->slope(middle)}, 1, touches);
   return result;
 }
 
@@ -260,9 +272,8 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   // det Sigma is a product of m factors, each with the noise of an entry.
   const auto m = static_cast<double>(result.order);
   const double entry = sigma_noise(E[middle], borders);
-  const double noise =
-      std::max(rounding * scale,
-               m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
+  const double noise = std::max(
+      rounding * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
   if (scale <= noise) return {.resolved = false};
   const ZeroSearch found = find_zeros(determinant, 0, arc.high(), noise, resolution);
   result.zeros = found.zeros;

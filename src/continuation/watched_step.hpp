@@ -11,10 +11,10 @@
 namespace springfold::continuation {
 
 inline constexpr double together = 1e-5;  // arc length within which zeros are examined as one point
-inline constexpr double resolution = 1e-7;   // of features of one function
-inline constexpr double rounding = 1e-11;    // of a function against its size
-inline constexpr double merged = 1e-7;       // zeros that are closer are one multiple zero
-inline constexpr double blurred = 2e-4;  // around a branch point corrected points are less exact
+inline constexpr double resolution = 1e-7;  // of features of one function
+inline constexpr double rounding = 1e-11;   // of a function against its size
+inline constexpr double merged = 1e-7;      // zeros that are closer are one multiple zero
+inline constexpr double blurred = 2e-4;     // around a branch point corrected points are less exact
 inline constexpr double poor = 1e-6;  // a limit point that cannot be placed better is not resolved
 inline constexpr double apart = 200;  // residual over rounding at which branches do not meet
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
