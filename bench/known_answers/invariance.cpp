@@ -16,6 +16,7 @@ struct Found {
   int multiplicity = 1;
   Vector z{};
   double lambda = 0, parameter = 0;
+  double rounding = 0;  ///< of its place
 };
 
 using Events = std::vector<Found>;
@@ -26,7 +27,8 @@ void append(const Embedded& problem, const Draw& draw, const Curve& curve, Event
     const Vector z = problem.base_point(hit.point.x);
     const int count =
         hit.switches.empty() ? hit.multiplicity : static_cast<int>(hit.switches.size());
-    events.push_back({hit.kind, count, z, hit.point.lambda, draw.parameter(z, hit.point.lambda)});
+    events.push_back({hit.kind, count, z, hit.point.lambda, draw.parameter(z, hit.point.lambda),
+                      place_rounding(problem, hit, curve)});
   }
 }
 
@@ -44,11 +46,12 @@ Events events_of(const Embedded& problem, const Draw& draw, const std::vector<Cu
 
 bool same(const Events& a, const Events& b, double tolerance) {
   if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i)
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double allowed = tolerance + 2 * (a[i].rounding + b[i].rounding);
     if (a[i].kind != b[i].kind || a[i].multiplicity != b[i].multiplicity ||
-        !((a[i].z - b[i].z).norm() <= tolerance) ||
-        !(std::abs(a[i].lambda - b[i].lambda) <= tolerance))
+        !((a[i].z - b[i].z).norm() <= allowed) || !(std::abs(a[i].lambda - b[i].lambda) <= allowed))
       return false;
+  }
   return true;
 }
 

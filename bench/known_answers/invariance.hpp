@@ -25,12 +25,6 @@ enum class Change {
 constexpr std::size_t change_count = 12;
 const char* name_of(Change change);
 
-/// The engine's documentation asks for equations of order one; their scale is no requirement.
-inline bool required(Change change) { return change != Change::forces_binary; }
-
-/// Asked for by --check: all but other units, a known gap.
-inline bool gates(Change change) { return change < Change::units_bitwise; }
-
 enum class Same { yes, no, not_compared };
 
 struct Invariance {

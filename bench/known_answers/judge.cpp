@@ -26,6 +26,15 @@ bool same_label(const Answer& a, const Hit& hit) {
   return false;
 }
 
+/// Eigenvalue of dF/dq nearest to zero, and the error that rounding of dF/dq makes in it.
+std::pair<double, double> least_eigenvalue(const Embedded& problem, const CurvePoint& p) {
+  Matrix H;
+  Vector F_lambda;
+  problem.derivatives(p.x, p.lambda, p.piece, H, F_lambda);
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(H).eigenvalues();
+  return {values.cwiseAbs().minCoeff(), 4 * std::numeric_limits<double>::epsilon() * H.norm()};
+}
+
 struct Pair {
   double off = 0;
   std::size_t answer = 0, hit = 0;
@@ -50,30 +59,6 @@ struct Matching {
                     std::abs(hit.point.lambda - a.lambda));
   }
 
-  /// Eigenvalue of dF/dq nearest to zero, and the error that rounding of dF/dq makes in it.
-  std::pair<double, double> least_eigenvalue(const CurvePoint& p) const {
-    Matrix H;
-    Vector F_lambda;
-    problem.derivatives(p.x, p.lambda, p.piece, H, F_lambda);
-    const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(H).eigenvalues();
-    return {values.cwiseAbs().minCoeff(), 4 * std::numeric_limits<double>::epsilon() * H.norm()};
-  }
-
-  /// How far rounding of dF/dq moves the place where its eigenvalue is zero: the slope of the
-  /// eigenvalue along the curve is taken from the stored points around it, and measured in z.
-  double rounding(const Hit& hit, const Curve& curve) const {
-    const auto after = std::find_if(curve.points.begin(), curve.points.end(),
-                                    [&](const CurvePoint& p) { return p.s > hit.point.s; });
-    if (after == curve.points.end() || after == curve.points.begin()) return 0;
-    double worst = 0;
-    for (const CurvePoint* p : {&*after, &*(after - 1)}) {
-      const auto [eigenvalue, error] = least_eigenvalue(*p);
-      const double way = (problem.base_point(p->x) - problem.base_point(hit.point.x)).norm();
-      worst = std::max(worst, eigenvalue > 0 ? error / eigenvalue * way : 1);
-    }
-    return worst;
-  }
-
   /// Nearest pairs first; those with the right label before the others.
   void match() {
     std::vector<Pair> pairs;
@@ -92,7 +77,7 @@ struct Matching {
       verdict.answers[pair.answer].outcome = pair.label ? Outcome::found : Outcome::mislabelled;
       verdict.answers[pair.answer].place_error = pair.off / std::max(1.0, draw.size);
       verdict.answers[pair.answer].rounding =
-          rounding(*hits[pair.hit], *curves[pair.hit]) / std::max(1.0, draw.size);
+          place_rounding(problem, *hits[pair.hit], *curves[pair.hit]) / std::max(1.0, draw.size);
     }
   }
 
@@ -204,6 +189,19 @@ void excuse(const Embedded& problem, const Draw& draw, const Followed& followed,
 }
 
 }  // namespace
+
+double place_rounding(const Embedded& problem, const Hit& hit, const Curve& curve) {
+  const auto after = std::find_if(curve.points.begin(), curve.points.end(),
+                                  [&](const CurvePoint& p) { return p.s > hit.point.s; });
+  if (after == curve.points.end() || after == curve.points.begin()) return 0;
+  double worst = 0;
+  for (const CurvePoint* p : {&*after, &*(after - 1)}) {
+    const auto [eigenvalue, error] = least_eigenvalue(problem, *p);
+    const double way = (problem.base_point(p->x) - problem.base_point(hit.point.x)).norm();
+    worst = std::max(worst, eigenvalue > 0 ? error / eigenvalue * way : 1);
+  }
+  return worst;
+}
 
 Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed) {
   Verdict verdict{.family = draw.family, .gap = draw.gap, .separation = smallest_separation(draw)};

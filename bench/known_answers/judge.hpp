@@ -44,6 +44,11 @@ constexpr double may_be_cluster = 1e-4;
 void check_points(const Embedded& problem, const Draw& draw, const continuation::Curve& curve,
                   Verdict& verdict);
 
+/// How far rounding of dF/dq moves the place where its eigenvalue is zero: the slope of the
+/// eigenvalue along the curve is taken from the stored points around it, and measured in z.
+double place_rounding(const Embedded& problem, const continuation::Hit& hit,
+                      const continuation::Curve& curve);
+
 Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followed);
 
 }  // namespace springfold::known_answers

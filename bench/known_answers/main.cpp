@@ -43,7 +43,7 @@
 // between the stored points around); among others closer than 1e-4, by a tenth of their separation.
 //
 // With --check the exit code is 1 if a requirement is not met; known gaps are printed as such, but
-// do not count: exact places and counts within such clusters, and other units of the unknowns.
+// do not count: exact places and counts within such clusters.
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>

@@ -2,6 +2,7 @@
 // within one step, and neighbouring branches that nearly touch.
 #include <gtest/gtest.h>
 
+#include "springfold/continuation/evidence.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {
@@ -75,6 +76,65 @@ TEST(CloseCall, TwoBranchPointsMayCancelInTheCount) {
     EXPECT_NEAR(branches[0].point.lambda, 0.5, 1e-10);
     EXPECT_NEAR(branches[1].point.lambda, 0.5 + gap, 1e-10);
   }
+}
+
+/// Two modes, the second one softer by a factor.
+struct StiffAndSoft {
+  double first = 1, second = 1, soft = 1e-4;
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, Vector& F) const {
+    F = Vector{{(first - lambda) * x[0] + std::pow(x[0], 3),
+                soft * ((second - lambda) * x[1] + std::pow(x[1], 3))}};
+    return true;
+  }
+  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    dF_dx = Vector{{first - lambda + 3 * x[0] * x[0], soft * (second - lambda + 3 * x[1] * x[1])}}
+                .asDiagonal();
+    dF_dlambda = Vector{{-x[0], -soft * x[1]}};
+    return true;
+  }
+};
+
+TEST(CloseCall, BranchPointsOfAStiffAndASoftModeAreTwoUnlessTheyAreOne) {
+  for (const double gap : {0.0, 1e-3, 1e-4, 1e-5}) {
+    const StartPoint start{Vector::Zero(2), 0.713, {}, {Vector::Zero(2), 1}};
+    const Curve curve = follow(StiffAndSoft{1, 1 + gap}, start, {lambda_reaches(1.3)});
+    const auto found = hits_of(curve, HitKind::branch_point);
+    ASSERT_EQ(found.size(), gap > 0 ? 2u : 1u) << "gap " << gap;
+    EXPECT_EQ(found[0].multiplicity, gap > 0 ? 1 : 2) << "gap " << gap;
+    EXPECT_NEAR(found.back().point.lambda, 1 + gap, 1e-10) << "gap " << gap;
+  }
+}
+
+/// x = lambda^2 and x = lambda^2 + shift: the same tangents everywhere.
+struct Parallel {
+  double shift = 0;
+  static Index size() { return 1; }
+  bool residual(const Vector& x, double lambda, Vector& F) const {
+    const double y = x[0] - lambda * lambda;
+    F = Vector::Constant(1, y * (1 - y / shift));
+    return true;
+  }
+  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    const double dF_dy = 1 - 2 * (x[0] - lambda * lambda) / shift;
+    dF_dx = Matrix::Constant(1, 1, dF_dy);
+    dF_dlambda = Vector::Constant(1, -2 * lambda * dF_dy);
+    return true;
+  }
+};
+
+TEST(CloseCall, AStepThatEndsOnANeighbourWithTheSameTangentsIsNotTrusted) {
+  const Parallel problem{2e-4};
+  const Walker walker{problem, Vector::Ones(1), {}};
+  const auto point_on = [&](double lambda, double shift) {
+    CurvePoint p{.s = lambda, .x = Vector::Constant(1, lambda * lambda + shift), .lambda = lambda};
+    const double length = std::hypot(2 * lambda, 1);
+    p.tangent = {Vector::Constant(1, 2 * lambda / length), 1 / length};
+    return p;
+  };
+  EXPECT_EQ(examine(walker, point_on(0, 0), point_on(0.005, 0)).doubt, "");
+  EXPECT_NE(examine(walker, point_on(0, 0), point_on(0.005, problem.shift)).doubt, "");
 }
 
 TEST(CloseCall, TwoLimitPointsMayStandWithinOneStep) {

@@ -174,6 +174,32 @@ TEST(Curve, DoesNotDependOnTheUnitOfTheEquations) {
   }
 }
 
+TEST(Curve, IsTheSameToTheLastBitInUnitsThatArePowersOfTwo) {
+  const ScalarProblem ladder = fold_ladder();
+  const Curve reference = follow(ladder, on_graph(ladder, -1, 1), {x_reaches(1)});
+  for (const double x_unit : {0x1p-20, 0x1p-1, 0x1p13})
+    for (const double F_unit : {1.0, x_unit, 0x1p-9}) {
+      SCOPED_TRACE(std::to_string(x_unit) + ", " + std::to_string(F_unit));
+      StartPoint start = on_graph(ladder, -1, 1);
+      start.x /= x_unit;
+      start.towards.dx /= x_unit;
+      const InOtherUnits problem{.problem = ladder, .x_unit = x_unit, .F_unit = F_unit};
+      const TraceOptions options;
+      const Curve scaled = trace(problem, start.x, start.lambda, ray_of(problem, start, options),
+                                 {x_reaches(1 / x_unit)}, options);
+      ASSERT_EQ(scaled.points.size(), reference.points.size());
+      for (std::size_t i = 0; i < scaled.points.size(); ++i) {
+        CurvePoint p = scaled.points[i];
+        p.x *= x_unit;
+        p.tangent.dx *= x_unit;
+        EXPECT_TRUE(same_bits(p, reference.points[i])) << "point " << i;
+      }
+      ASSERT_EQ(scaled.hits.size(), reference.hits.size());
+      for (std::size_t i = 0; i < scaled.hits.size(); ++i)
+        EXPECT_EQ(scaled.hits[i].point.lambda, reference.hits[i].point.lambda);
+    }
+}
+
 TEST(Curve, WalksInAMetricThatLeavesOutUnknowns) {
   // x_2 is a force that follows: with weight zero it does not count in the arc length.
   struct Follower : TwoModes {

@@ -1,0 +1,43 @@
+// All zeros of a function on an interval.
+#include "continuation/zeros.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace springfold::continuation {
+namespace {
+
+TEST(Zeros, ThatTouchAreFoundBesideALargerHump) {
+  // Two touches: the parabola at each of them is steep compared with the values far away.
+  const auto f = [](double t) -> std::optional<double> {
+    return std::pow((t - 0.12) * (t - 0.83), 2);
+  };
+  for (const double begin : {-0.05, 0.0, 0.013}) {
+    const ZeroSearch found = find_zeros(f, begin, 1.0, 1e-13, 1e-7);
+    ASSERT_TRUE(found.resolved);
+    ASSERT_EQ(found.zeros.size(), 2u) << "from " << begin;
+    EXPECT_TRUE(found.zeros[0].touches);
+    EXPECT_NEAR(found.zeros[0].at, 0.12, 1e-7);
+    EXPECT_TRUE(found.zeros[1].touches);
+    EXPECT_NEAR(found.zeros[1].at, 0.83, 1e-7);
+  }
+}
+
+TEST(Zeros, OfNoiseAreGivenUpSoon) {
+  int asked = 0;
+  const auto noise = [&](double t) -> std::optional<double> {
+    ++asked;
+    return std::sin(1e9 * t);
+  };
+  EXPECT_FALSE(find_zeros(noise, 0, 1, 1e-6, 1e-7).resolved);
+  EXPECT_LT(asked, 10000);
+}
+
+TEST(Zeros, OfAFunctionBelowTheNoiseAreNone) {
+  const auto f = [](double t) -> std::optional<double> { return 1e-9 * (t - 0.5); };
+  EXPECT_TRUE(find_zeros(f, 0, 1, 1e-6, 1e-7).zeros.empty());
+}
+
+}  // namespace
+}  // namespace springfold::continuation
