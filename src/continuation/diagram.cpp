@@ -197,10 +197,11 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
   near.trace.maximum_points = 500;
   bool reached = false;
   std::vector<Hit> between_them;
+  // Rounding blurs the place of a multiple point; nothing else can be as near to it.
   const auto is_junction_itself = [&](const Hit& hit) {
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
     return length_of(walker_, between(walker_, junction.point, hit.point)) <=
-           options_.same_place * scale;
+           std::max(options_.same_place * scale, 1e-3 * gap);
   };
   const auto hit_on_the_way = [&](const Hit& hit) {
     reached = is_junction_itself(hit);

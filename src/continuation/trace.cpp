@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "cluster.hpp"
 #include "coincide.hpp"
 #include "events.hpp"
 #include "kink_passage.hpp"
@@ -65,9 +66,56 @@ void account_over_gap(Curve& curve) {
   curve.hits.push_back(std::move(hit));
 }
 
+/// Where special points made a step too long first: from there a cluster of them is crossed.
+struct Anchor {
+  Progress before{};
+  std::size_t points = 0, hits = 0;
+  bool set = false, tried = false;
+};
+
+/// Crosses a cluster of special points in one step from the anchor: on short steps beside it rounding
+/// would decide where the curve goes.
+bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
+                   Progress& progress, Curve& curve) {
+  anchor.tried = true;
+  if (curve.hits.size() != anchor.hits || !anchor.before.left.empty()) return false;
+  const CurvePoint& from = anchor.before.here;
+  Walker plain = walker;
+  plain.options.limit_points = plain.options.branch_points = false;
+  for (const double share : {1.0, 0.6, 0.35}) {
+    const double ds = share * anchor.before.ds;
+    const StepResult step = try_step(walker, from, ds);
+    if (!step.point) continue;
+    const Evidence evidence = examine(walker, from, *step.point);
+    if (!evidence.doubt.empty() || !step.point->negative != !from.negative) continue;
+    if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) continue;
+    auto cluster = cluster_on_step(walker, {&from, &*evidence.middle, &*step.point});
+    if (!cluster) continue;
+    const StepEvents wanted = events_on_step(plain, from, *step.point, evidence.middle, events);
+    if (!wanted.hits.empty() || !wanted.doubt.empty()) continue;
+    curve.points.resize(anchor.points);
+    curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});
+    curve.hits.push_back(std::move(*cluster));
+    curve.points.push_back(*step.point);
+    progress = anchor.before;
+    progress.here = *step.point;
+    progress.ds = next_step_length(ds, step.measures, walker.options.step);
+    return true;
+  }
+  return false;
+}
+
+/// What became of a step that was refused.
+struct Refusal {
+  std::string reason{};
+  bool special = false;  ///< because of special points on it
+};
+
 /// One step: predict, correct, look for switching surfaces and events, record.
+/// @param report  special points that cannot be told apart are reported on the shortest steps
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
-                Progress& progress, Curve& curve, std::string& refusal) {
+                bool report, Progress& progress, Curve& curve, Refusal& refused) {
+  std::string& refusal = refused.reason;
   StepResult step = try_step(walker, progress.here, progress.ds);
   if (!step.point) {
     refusal = step.refusal;
@@ -100,7 +148,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
   if (!found.doubt.empty()) {
     refusal = found.doubt;
-    if (progress.ds > unresolved_length) return Outcome::shorten;
+    refused.special = true;
+    if (progress.ds > unresolved_length || !report) return Outcome::shorten;
     add_unresolved(progress.here, end, found, curve);
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
@@ -136,17 +185,30 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
   curve.stop = StopReason::max_points;
+  Anchor anchor;
   while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
-    const double from = progress.here.s, tried = progress.ds;
-    std::string refusal;
-    const Outcome outcome = advance(walker, events, at_hit, progress, curve, refusal);
+    const Progress before = progress;
+    if (anchor.set && (curve.hits.size() != anchor.hits ||
+                       progress.here.s > anchor.before.here.s + anchor.before.ds))
+      anchor = {};
+    Refusal refused;
+    const bool report = !anchor.set || anchor.tried;
+    Outcome outcome = advance(walker, events, at_hit, report, progress, curve, refused);
     if (outcome == Outcome::stop) return;
     if (outcome == Outcome::shorten) {
-      curve.log.push_back({from, tried, refusal});
+      curve.log.push_back({before.here.s, before.ds, refused.reason});
+      if (refused.special && !anchor.set)
+        anchor = {before, curve.points.size(), curve.hits.size(), true, false};
       progress.ds *= 0.5;
-      if (progress.ds >= walker.options.step.minimum) continue;
+      const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
+      if (last && cross_cluster(walker, events, anchor, progress, curve))
+        outcome = Outcome::go_on;
+      else if (progress.ds >= walker.options.step.minimum)
+        continue;
+    }
+    if (outcome == Outcome::shorten) {
       curve.stop = StopReason::step_too_small;
-      curve.stop_detail = refusal;
+      curve.stop_detail = refused.reason;
       return;
     }
     if (observer && !observer(progress.here)) {

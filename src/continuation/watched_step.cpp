@@ -193,7 +193,11 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   result.odd = m % 2 == 1 && !touches;
   result.turns = turns_at(arc, place.at);
   polish(arc, result.point, m);
-  if (const auto refined = refined_point(arc, result)) result.point = *refined;
+  const auto refined = refined_point(arc, result);
+  if (refined)
+    result.point = *refined;
+  else if (m == 1 && place.doubt > merged)
+    return std::nullopt;
   if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
   if (!has_corank(arc, result.point, m)) return std::nullopt;
   return result;
@@ -224,7 +228,8 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   if (places.size() == 1)
     add(places.front(), 1, false);
   else if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
-    add({middle, (*curve)(middle), curve->slope(middle)}, 1, touches);
+    add({middle, (*curve)(middle), curve->slope(middle), touches ? 0 : zeros.front().off}, 1,
+        touches);
   return result;
 }
 
