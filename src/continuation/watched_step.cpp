@@ -45,17 +45,24 @@ double left_of(const Vector& entries, const Vector& slopes, Index m, double noth
 }
 
 /// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
-/// because rounding matters less, narrow ones where the curve is not smooth enough.
+/// because rounding matters less, narrow ones where the curve is not smooth enough. How far they
+/// differ shows what can be told.
 bool turns_at(const WatchedStep& arc, double t) {
+  std::vector<double> distances;  // from t to the turn
   for (const double share : {1.0, 0.3, 0.1}) {
     const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
     if (!curve) continue;
     const Index n = curve->values.rows() - 1;
     const double h = 0.1 * (curve->b - curve->a);
     const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
-    if (std::abs(curve->slope(t)[n]) <= merged * std::abs(change)) return true;
+    distances.push_back(-curve->slope(t)[n] / change);
   }
-  return false;
+  std::erase_if(distances, [](double d) { return !std::isfinite(d); });
+  if (distances.empty()) return false;
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
+  const double nearest = std::min(std::abs(*low), std::abs(*high));
+  return *low * *high <= 0 ? *high - *low <= blurred
+                           : nearest <= merged + std::min(*high - *low, 0.1 * blurred);
 }
 
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
