@@ -1,7 +1,8 @@
 // Known-answer campaign: random problems whose special points are known in closed form, followed by
 // the engine at its default options.
 //
-//     known_answers [N] [seed] [--check] [--threads n] [--family name] [--draw i] [--verbose]
+//     known_answers [N] [seed] [--check] [--threads n] [--family name] [--draw i] [--steps f]
+//         [--verbose]
 //
 // Draw i of a seed is always the same problem, whatever N and the number of threads are. Problems
 // in few unknowns are embedded in up to 30 (embedded.hpp). The families:
@@ -62,6 +63,7 @@ struct Settings {
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   long draw = -1;  ///< only this one
   std::string family{};
+  double steps = 1;  ///< factor of the step limits
   bool verbose = false, check = false;
 };
 
@@ -95,7 +97,13 @@ std::optional<Result> run(const Settings& settings, long number) {
     draw.blurred = true;
     draw.family += ", blurred";
   }
-  const Followed followed = follow(problem, draw, {});
+  continuation::TraceOptions options;
+  options.step.initial *= settings.steps;
+  options.step.maximum *= settings.steps;
+  options.step.minimum *= settings.steps;
+  options.maximum_points =
+      static_cast<int>(options.maximum_points * std::max(1.0, 1 / settings.steps));
+  const Followed followed = follow(problem, draw, options);
   if (settings.draw == number) print(problem, draw, followed, settings.verbose);
   Result result{.verdict = judge(problem, draw, followed)};
   result.verdict.number = number;
@@ -143,6 +151,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 256));
   app.add_option("--draw", settings.draw, "only this draw, with all that was found");
   app.add_option("--family", settings.family, "only this family");
+  app.add_option("--steps", settings.steps, "factor of the default step limits")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--verbose", settings.verbose, "with --draw: the whole step log");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   CLI11_PARSE(app, argc, argv);
