@@ -89,28 +89,47 @@ CurvePoint point_at(const PathProblem& problem, const FoundEquilibrium& found) {
   return point;
 }
 
+/// The rank that the closure of every chain has anywhere.
+std::vector<Index> full_ranks(const PathProblem& problem, const Evaluator& evaluator,
+                              const std::vector<FoundEquilibrium>& found) {
+  std::vector<Index> full;
+  for (const FoundEquilibrium& f : found) {
+    const auto ranks = evaluator.closure_ranks(point_at(problem, f));
+    full.resize(std::max(full.size(), ranks.size()), 0);
+    for (std::size_t i = 0; i < ranks.size(); ++i) full[i] = std::max(full[i], ranks[i]);
+  }
+  return full;
+}
+
 /// Chains whose joints cannot move their end in all directions in which they can elsewhere: a bar
 /// along the first axis of its universal joint, a bar of no length.
 std::string locked_chains(const PathProblem& problem, const Evaluator& evaluator,
-                          const FoundEquilibrium& found) {
-  const statics::System& system = problem.system(0);
+                          const FoundEquilibrium& found, const std::vector<Index>& full) {
   const auto ranks = evaluator.closure_ranks(point_at(problem, found));
   std::string names;
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    const auto& slice = system.chain_slices[i];
-    if (ranks[i] < std::min(slice.x_count, slice.F_count))
-      names += (names.empty() ? "" : ", ") + system.mechanism.chains[i].name;
-  }
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    if (ranks[i] < full[i])
+      names += (names.empty() ? "" : ", ") + problem.system(0).mechanism.chains[i].name;
   return names;
 }
 
-CountedEquilibrium counted(const PathProblem& problem, const Evaluator& evaluator,
-                           const FoundEquilibrium& found) {
+CountedEquilibrium counted(const PathProblem& problem, const FoundEquilibrium& found,
+                           bool is_locked) {
   const CurvePoint point = point_at(problem, found);
-  CountedEquilibrium result{found.z, std::nullopt,
-                            !locked_chains(problem, evaluator, found).empty()};
+  CountedEquilibrium result{found.z, std::nullopt, is_locked};
   if (point.negative) result.index = *point.negative - problem.closures();
   return result;
+}
+
+/// The same state with rotation vectors of at most half a turn.
+FoundEquilibrium with_short_rotations(const statics::System& system, FoundEquilibrium found) {
+  for (std::size_t i = 0; i < system.body_slices.size(); ++i) {
+    if (system.mechanism.bodies[i].task_space != model::TaskSpace::spatial) continue;
+    auto v = found.z.segment(system.body_slices[i].t + 3, 3);
+    const double angle = v.norm();
+    if (angle > std::numbers::pi) v *= std::remainder(angle, 2 * std::numbers::pi) / angle;
+  }
+  return found;
 }
 
 }  // namespace
@@ -136,16 +155,17 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
   EquilibriaReport report;
   report.starts = search.starts;
   report.limit_reached = search.limit_reached;
+  const std::vector<Index> full = full_ranks(problem, evaluator, search.found);
   std::vector<FoundEquilibrium> distinct;
   std::vector<CountedEquilibrium> raw, once;
   for (const FoundEquilibrium& f : search.found) {
-    raw.push_back(counted(problem, evaluator, f));
+    raw.push_back(counted(problem, f, !locked_chains(problem, evaluator, f, full).empty()));
     const bool is_known =
         std::any_of(distinct.begin(), distinct.end(), [&](const FoundEquilibrium& other) {
           return same_equilibrium(problem.system(0), f.z, other.z);
         });
     if (is_known) continue;
-    distinct.push_back(f);
+    distinct.push_back(with_short_rotations(problem.system(0), f));
     once.push_back(raw.back());
   }
   report.morse = morse_count(problem, raw, once);
@@ -161,10 +181,15 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.potential = setup.scales.moment() * potential_of(problem, f.z);
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;
-    if (const std::string locked = locked_chains(problem, evaluator, f); !locked.empty())
+    equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
+    if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {
+      if (!equilibrium.is_start) {
+        ++report.locked;
+        continue;
+      }
       equilibrium.note += (f.note.empty() ? "" : "; ") +
                           ("the joints of " + locked + " are locked here: they lose rank");
-    equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
+    }
     report.list.push_back(std::move(equilibrium));
   }
   if (!result.start.found && !report.list.empty()) {

@@ -108,6 +108,7 @@ Json equilibria_json(const StudyResult& result, const std::string& file) {
           {"at_least", report.list.size()},
           {"starts", report.starts},
           {"out_of_range", report.out_of_range},
+          {"locked", report.locked},
           {"limit_reached", report.limit_reached},
           {"morse",
            {{"applies", report.morse.applies},

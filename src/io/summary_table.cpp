@@ -298,6 +298,8 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
                       counted(report.starts, "start") + "; nothing is proved about others";
   if (report.out_of_range > 0)
     found += "; " + std::to_string(report.out_of_range) + " further out of range";
+  if (report.locked > 0)
+    found += "; " + std::to_string(report.locked) + " further with locked joints";
   text += line("found", found);
   if (report.limit_reached)
     text += line("", "the search ended because so many were found: there may well be more");

@@ -162,8 +162,11 @@ struct MorseCount {
 /// AT LEAST these equilibria exist: a search proves nothing about others.
 struct EquilibriaReport {
   std::vector<Equilibrium> list{};
-  int starts = 0;              ///< first states used
-  int out_of_range = 0;        ///< further ones, outside of the study's limits
+  int starts = 0;        ///< first states used
+  int out_of_range = 0;  ///< further ones, outside of the study's limits
+  int locked =
+      0;  ///< further ones at which joints of a chain lose rank (a bar along the first axis
+          ///< of its universal joint, a bar of no length)
   bool limit_reached = false;  ///< ended because so many were found
   MorseCount morse{};          ///< counts those out of range too
 };
