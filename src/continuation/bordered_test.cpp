@@ -9,6 +9,9 @@
 namespace springfold::continuation {
 namespace {
 
+/// Jacobi's method is the more accurate one; on larger matrices it takes too long.
+constexpr Index jacobi_size = 32;
+
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -36,15 +39,22 @@ bool surely_regular(const Matrix& E0, const Matrix& E1) {
   return false;
 }
 
-Vector singular_values(const Matrix& E) { return Eigen::JacobiSVD<Matrix>(E).singularValues(); }
+Vector singular_values(const Matrix& E) {
+  return E.rows() <= jacobi_size ? Vector(Eigen::JacobiSVD<Matrix>(E).singularValues())
+                                 : Vector(Eigen::BDCSVD<Matrix>(E).singularValues());
+}
 
 Index small_singular_values(const Matrix& E, double reach) {
   return std::max<Index>(1, (singular_values(E).array() < reach).count());
 }
 
 Borders borders_of(const Matrix& E, Index m) {
-  const Eigen::JacobiSVD<Matrix> svd(E, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {svd.matrixU().rightCols(m), svd.matrixV().rightCols(m)};
+  constexpr int both = Eigen::ComputeFullU | Eigen::ComputeFullV;
+  const auto last = [m](const auto& svd) {
+    return Borders{svd.matrixU().rightCols(m), svd.matrixV().rightCols(m)};
+  };
+  return E.rows() <= jacobi_size ? last(Eigen::JacobiSVD<Matrix>(E, both))
+                                 : last(Eigen::BDCSVD<Matrix>(E, both));
 }
 
 std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders) {
