@@ -10,6 +10,7 @@ macro(springfold_find)
   endif()
 endmacro()
 
+springfold_find(Threads)
 springfold_find(Eigen3 3.4 CONFIG)
 springfold_find(LAPACK)
 springfold_find(SUNDIALS 6.4 COMPONENTS kinsol)

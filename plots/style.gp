@@ -52,11 +52,12 @@ set style line 20 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.
 set style line 21 linecolor rgb ink pointtype 4 pointsize 1.9 linewidth 2.2   # FM
 set style line 22 linecolor rgb stable_color pointtype 7 pointsize 2.2        # ES
 set style line 23 linecolor rgb unstable_color pointtype 6 pointsize 2.2 linewidth 2.5  # EU
+set style line 24 linecolor rgb ink pointtype 8 pointsize 2.2 linewidth 2.2   # SC
 
 point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
                     code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : \
-                    code eq 'FM' ? 21 : code eq 'ES' ? 22 : code eq 'EU' ? 23 : 20
+                    code eq 'FM' ? 21 : code eq 'ES' ? 22 : code eq 'EU' ? 23 : code eq 'SC' ? 24 : 20
 point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'LP' ? 'limit point (LP)' : \
                    code eq 'CL' ? 'corner limit point (CL)' : \
@@ -69,6 +70,7 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'UZ' ? 'marked value (UZ)' : \
                    code eq 'ES' ? 'stable equilibrium (EQ)' : \
                    code eq 'EU' ? 'unstable equilibrium (EQ)' : \
+                   code eq 'SC' ? 'stability changes (SC)' : \
                    code eq 'UR' ? 'unresolved (UR)' : ''
 
 set border 3 linecolor rgb ink linewidth 1.2

@@ -26,6 +26,8 @@ std::string code_of(EventKind kind) {
       return "UZ";
     case EventKind::end_of_range:
       return "EP";
+    case EventKind::stability_change:
+      return "SC";
     case EventKind::unresolved:
       return "UR";
   }

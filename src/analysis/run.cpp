@@ -9,6 +9,7 @@
 #include "branches.hpp"
 #include "equilibria.hpp"
 #include "limits.hpp"
+#include "run_kinds.hpp"
 #include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "start.hpp"
@@ -117,8 +118,12 @@ void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, 
 }  // namespace
 
 StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
-                      const ParameterFamily* family, const Observer& observer) {
+                      const ParameterFamily* family, const Observer& observer,
+                      const RunOptions& options) {
   assert(problems_in(study, mechanism).empty());
+  if (study.kind == StudyKind::control) return run_control(mechanism, study, observer);
+  if (study.kind == StudyKind::map) return run_map(mechanism, study, observer, options);
+  if (study.kind == StudyKind::workspace) return run_workspace(mechanism, study);
   const std::clock_t began = std::clock();
   StudyResult result;
   result.study = study.name;

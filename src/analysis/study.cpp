@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quantities.hpp"
+#include "run_kinds.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::analysis {
@@ -169,6 +170,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   std::vector<std::string> problems;
   if (study.body < 1 || study.body > static_cast<Index>(mechanism.bodies.size()))
     return {"body: no such moving body"};
+  if (is_of_commands(study.kind)) return problems_of_kind(study, mechanism);
   const model::Body& body = mechanism.bodies[static_cast<std::size_t>(study.body - 1)];
   const Index d = dimension(body.task_space);
   if (study.constant_load.size() != 0 &&
@@ -190,6 +192,10 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
 
 std::vector<std::string> quantity_names(const Study& study, const model::Mechanism& mechanism) {
   std::vector<std::string> names;
+  if (is_of_commands(study.kind)) {
+    for (const Quantity& q : columns_of(study, mechanism)) names.push_back(q.name);
+    return names;
+  }
   for (const auto& q : quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none))
     names.push_back(q.name);
   return names;

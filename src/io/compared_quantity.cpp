@@ -70,12 +70,16 @@ const Event* event_in(const Branch& branch, std::size_t row) {
   return nullptr;
 }
 
-/// All special points of this code, on all branches; for "EQ" all equilibria.
+/// All special points of this code, on all branches; for "row" all rows without one; for "EQ" all
+/// equilibria.
 std::vector<Point> points_with(const StudyResult& result, const std::string& code) {
   std::vector<Point> points;
-  for (const Branch& branch : result.branches)
+  for (const Branch& branch : result.branches) {
     for (const Event& event : branch.events)
       if (analysis::code_of(event.kind) == code) points.push_back(point_of(branch, event));
+    for (std::size_t row = 0; code == any_row && row < branch.samples.size(); ++row)
+      if (branch.samples[row].event.empty()) points.push_back({&branch.samples[row], nullptr, nullptr});
+  }
   if (code == equilibrium_code && result.equilibria)
     for (const auto& e : result.equilibria->list) points.push_back(point_of(e));
   return points;
@@ -190,7 +194,7 @@ std::vector<MatrixEntryName> matrix_entries(const model::Mechanism& mechanism) {
 
 const std::vector<std::string>& event_codes() {
   static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS",
-                                              "TP", "FM", "UZ", "EP", "UR", "EQ"};
+                                              "TP", "FM", "UZ", "EP", "SC", "UR", "EQ"};
   return codes;
 }
 

@@ -28,6 +28,9 @@ std::vector<std::string> general_quantities();
 /// Codes of special points, "LP", "BP", ..., and "EQ" for one of several equilibria
 const std::vector<std::string>& event_codes();
 
+/// Stands where a code may stand: the rows that are no special points.
+inline constexpr const char* any_row = "row";
+
 /// The value that the run has; NaN if the point or the quantity does not exist.
 double found_value(const ExpectedValue& expected, const analysis::StudyResult& result);
 

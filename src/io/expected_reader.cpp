@@ -25,7 +25,7 @@ bool is_event_label(const std::string& text) {
 
 /// Whether the point is one that there can be, and `near` is there if and only if it is needed.
 void check_point(const TableReader& table, const std::string& at, Reading& reading) {
-  const bool is_code = is_event_code(at);
+  const bool is_code = is_event_code(at) || at == any_row;
   if (is_code && !table.has("near"))
     reading.problems.add(table.find("at")->place, table.key_of("at"),
                          "got \"" + at + "\", which may be several points: need near = { " +
@@ -33,12 +33,12 @@ void check_point(const TableReader& table, const std::string& at, Reading& readi
   if (table.has("near") && !is_code)
     reading.problems.add(table.find("near")->place, table.key_of("near"),
                          "goes with at = \"LP\" and the like, the code of a special point "
-                         "without a number");
+                         "without a number, and with at = \"row\"");
   if (at == "start" || at == "end" || is_code || is_event_label(at)) return;
   reading.problems.add(table.find("at")->place, table.key_of("at"),
                        "got \"" + at +
                            "\", need \"start\", \"end\", an event such as \"LP1\", or the code of "
-                           "an event and `near`");
+                           "an event or \"row\" and `near`");
 }
 
 std::vector<NearDraft> read_near(const TableReader& table, NumberTable& numbers, Reading& reading) {

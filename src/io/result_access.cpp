@@ -26,6 +26,10 @@ std::string unit_text(Unit unit, const UnitLabels& labels) {
       return labels.force + "/" + labels.length;
     case Unit::rotational_stiffness:
       return labels.force + "·" + labels.length + "/rad";
+    case Unit::compliance:
+      return labels.length + "/" + labels.force;
+    case Unit::rotational_compliance:
+      return "rad/(" + labels.force + "·" + labels.length + ")";
     case Unit::none:
     case Unit::lambda:
       return "";
@@ -80,6 +84,7 @@ bool has_two_sides(const analysis::Event& event) {
     case EventKind::family:
     case EventKind::user_value:
     case EventKind::end_of_range:
+    case EventKind::stability_change:
     case EventKind::unresolved:
       return false;
   }

@@ -34,6 +34,7 @@ Trust trust_at(EventKind kind) {
     case EventKind::kinematic_singularity:
     case EventKind::touch:
     case EventKind::family:
+    case EventKind::stability_change:
     case EventKind::unresolved:
       return Trust::little;
   }

@@ -127,13 +127,13 @@ bool close(Closures& closures, const std::vector<Index>& moving, const std::vect
   if (!closures.evaluate(state.z, state.rho)) return false;
   Vector e = closures.e();
   double damping = 0;
-  for (state.iterations = 0; state.iterations < 200; ++state.iterations) {
+  for (state.iterations = 0; state.iterations < 100; ++state.iterations) {
     const double size = e.norm();
     Matrix J(e.size(), nz + nr);
     J << closures.by_z(moving), closures.by_rho(commands);
     const Vector gradient = J.transpose() * e;
     if (size == 0) break;
-    if (size > closed_enough && gradient.norm() <= 1e-12 * size) break;  // nearest approach
+    if (size > closed_enough && gradient.norm() <= 1e-9 * size) break;  // nearest approach
     Vector step;
     if (damping == 0) {
       step = -J.completeOrthogonalDecomposition().solve(e);
@@ -185,6 +185,7 @@ Vector at_rest(const System& system, Vector z) {
     if (!moves_freely(joint) && joint.spring)
       z[place] = rest_of(model::compile(*joint.spring), joint.initial);
   });
+  for (const CoordinateGroup& group : system.coupled) z(group.coordinates) = group.free;
   for (Index i = 0; i < system.size; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) z[i] = 0;
   return z;
@@ -208,6 +209,14 @@ KinematicInverse kinematic_inverse(const System& system, const CommandTask& task
   report_gap(system, closures.e(), result);
   Matrix J(system.closure_count(), static_cast<Index>(moving.size() + full.commands.size()));
   J << closures.by_z(moving), closures.by_rho(full.commands);
+  if (!result.closed) {
+    std::vector<Index> elastic;
+    for_each_coordinate(system, [&](const model::Joint& joint, Index place) {
+      if (!moves_freely(joint)) elastic.push_back(place);
+    });
+    const Vector e = closures.e();
+    result.elastic = (closures.by_z(elastic).transpose() * e).norm() > 1e-6 * e.norm();
+  }
   result.unique = J.colPivHouseholderQr().rank() == J.cols();
   return result;
 }

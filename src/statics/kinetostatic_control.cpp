@@ -144,21 +144,36 @@ ControlResult by_paper(const System& system, const ControlProblem& problem, Cont
 
 }  // namespace
 
-ControlSolver control_solver(const System& system, const CommandTask& task, const Vector& z,
-                             const Vector& rho) {
-  assert(counts_match(task, system));
+bool has_potential(const System& system, const Inputs& inputs) {
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b)
+    if (system.mechanism.bodies[b].task_space == model::TaskSpace::spatial &&
+        !inputs.W.segment(system.body_slices[b].W + 3, 3).isZero(0))
+      return false;
+  return true;
+}
+
+ControlSolver equilibrium_solver(const System& system, const Vector& z, const Vector& rho) {
   ControlSolver s;
-  s.task = completed(task, system);
-  const BodySlice& body = system.body_slices[static_cast<std::size_t>(task.body - 1)];
-  for (const Index k : s.task.prescribed) s.held.push_back(body.t + k);
-  for (Index i = 0; i < system.size; ++i)
-    if (std::find(s.held.begin(), s.held.end(), i) == s.held.end()) s.unknowns.push_back(i);
-  for (const Index k : s.task.commands) s.unknowns.push_back(system.size + k);
+  for (Index i = 0; i < system.size; ++i) s.unknowns.push_back(i);
   s.z = z;
   s.inputs = {rho, Vector::Zero(system.load_size)};
   s.piece.resize(system.switches.size());
   s.M.resize(system.size, system.size);
   s.step.resize(system.size);
+  return s;
+}
+
+ControlSolver control_solver(const System& system, const CommandTask& task, const Vector& z,
+                             const Vector& rho) {
+  assert(counts_match(task, system));
+  ControlSolver s = equilibrium_solver(system, z, rho);
+  s.task = completed(task, system);
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(task.body - 1)];
+  for (const Index k : s.task.prescribed) s.held.push_back(body.t + k);
+  std::erase_if(s.unknowns, [&s](Index i) {
+    return std::find(s.held.begin(), s.held.end(), i) != s.held.end();
+  });
+  for (const Index k : s.task.commands) s.unknowns.push_back(system.size + k);
   return s;
 }
 
@@ -215,14 +230,24 @@ bool solve_control_globally(const System& system, ControlSolver& solver) {
 }
 
 ControlResult kinetostatic_control(const System& system, const ControlProblem& problem) {
+  ControlResult result{.status = ControlStatus::wrong_count};
+  if (!counts_match(problem.task, system)) return result;
+  return kinetostatic_control(
+      system, problem,
+      kinematic_inverse(system, problem.task, problem.target, problem.z, problem.rho));
+}
+
+ControlResult kinetostatic_control(const System& system, const ControlProblem& problem,
+                                   KinematicInverse plain) {
   ControlResult result;
   if (!counts_match(problem.task, system)) {
     result.status = ControlStatus::wrong_count;
     return result;
   }
-  result.plain = kinematic_inverse(system, problem.task, problem.target, problem.z, problem.rho);
+  result.plain = std::move(plain);
   result.status = result.plain.closed ? ControlStatus::not_held : ControlStatus::unreachable;
   ControlSolver solver = control_solver(system, problem.task, result.plain.z, result.plain.rho);
+  if (!result.plain.closed && !result.plain.elastic) return result;
   if (problem.method == ControlMethod::paper) {
     if (result.plain.closed) result = by_paper(system, problem, result);
   } else {
@@ -245,7 +270,8 @@ ControlResult kinetostatic_control(const System& system, const ControlProblem& p
   Workspace work;
   Vector r;
   Matrix A;
-  if (equilibrium_matrix(system, result.piece, result.z, result.inputs, work, r, A))
+  if (has_potential(system, result.inputs) &&
+      equilibrium_matrix(system, result.piece, result.z, result.inputs, work, r, A))
     result.stability = stability(system, A);
   return result;
 }

@@ -18,9 +18,11 @@ enum class Unit {
   force,
   moment,
   energy,
-  stiffness,             ///< force per length
-  rotational_stiffness,  ///< moment per angle
-  lambda,                ///< that of the continuation parameter: see StudyResult::lambda_unit
+  stiffness,              ///< force per length
+  rotational_stiffness,   ///< moment per angle
+  compliance,             ///< length per force
+  rotational_compliance,  ///< angle per moment
+  lambda,                 ///< that of the continuation parameter: see StudyResult::lambda_unit
 };
 
 /// A column of the branch table.
@@ -40,10 +42,11 @@ enum class EventKind {
   family,                 ///< FM: lambda stands still: a continuum of equilibria begins here
   user_value,             ///< UZ: a marked value
   end_of_range,           ///< EP: a limit of the study, or where tracing stopped
+  stability_change,       ///< SC: the commanded point loses or regains stability (kind control)
   unresolved,             ///< UR: something happens here that could not be resolved
 };
 
-/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "UR".
+/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR".
 std::string code_of(EventKind kind);
 
 /// One row of the branch table: a point of the branch.
@@ -51,6 +54,7 @@ struct Sample {
   std::vector<double> values{};  ///< in the order of StudyResult::quantities; NaN: undefined here
   std::string piece{};           ///< segment number of every spring with breakpoints, "0.1.0"
   std::string event{};           ///< label of the event at this point ("LP1"), or empty
+  std::string status{};  ///< targets and nodes: "ok", or what is wrong there; otherwise empty
 };
 
 /// A special point. All values are those of the located point itself.

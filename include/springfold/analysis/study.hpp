@@ -9,6 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "springfold/analysis/control.hpp"
+#include "springfold/analysis/map.hpp"
+#include "springfold/analysis/situation.hpp"
+#include "springfold/analysis/workspace.hpp"
 #include "springfold/core/types.hpp"
 #include "springfold/model/mechanism.hpp"
 
@@ -18,7 +22,16 @@ enum class StudyKind {
   equilibrium,       ///< the start point only: position, stiffness, indices
   force_deflection,  ///< the whole branch through the start point
   equilibria,        ///< all equilibria under the constant load that a search finds
+  control,           ///< commands along a path of targets
+  map,               ///< quantities over a grid of poses or parameters
+  workspace,         ///< the largest region within bounds of the transmission factors
 };
+
+/// Is it a study of commands and poses, not a curve or a point of one? These have settings and
+/// columns of their own.
+constexpr bool is_of_commands(StudyKind kind) {
+  return kind == StudyKind::control || kind == StudyKind::map || kind == StudyKind::workspace;
+}
 
 /// What lambda is.
 enum class ControlMode {
@@ -122,12 +135,10 @@ struct Study {
   TraceSettings trace{};
   BranchSettings branches{};
   SearchSettings search{};
-};
-
-/// What a named parameter changes, for control mode `parameter`.
-struct Situation {
-  model::Mechanism mechanism{};
-  Vector constant_load{};
+  CommandSettings command{};      ///< kinds control and map
+  ControlPath targets{};          ///< kind control
+  MapSettings map{};              ///< kind map
+  WorkspaceSettings workspace{};  ///< kind workspace
 };
 
 /// The case as a function of one parameter; `value` is where the study starts.

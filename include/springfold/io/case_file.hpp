@@ -81,7 +81,7 @@ struct ExpectedValue {
   std::string study{};
   int run = 1;
   std::string at = "start";  ///< "start", "end", an event label such as "LP1", or a code such as
-                             ///< "UZ": then `near` says which
+                             ///< "UZ" or "row": then `near` says which
   std::vector<NearValue> near{};
   std::string quantity{};  ///< a quantity name, "count.LP", "K.x.y", "corank", "ways", ...
   std::optional<MatrixEntry> entry{};  ///< which one "K.x.y" or "C.x.y" means

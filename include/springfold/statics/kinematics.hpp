@@ -30,6 +30,7 @@ struct KinematicInverse {
   Vector rho{};    ///< commands, those outside of the task as guessed
   double gap = 0;  ///< largest closure residual
   std::size_t chain = 0;  ///< of this chain
+  bool elastic = false;   ///< not closed, but elastic coordinates could make the gap smaller
   int iterations = 0;
 };
 

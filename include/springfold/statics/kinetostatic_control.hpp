@@ -7,6 +7,10 @@
 
 namespace springfold::statics {
 
+/// Unstable modes can be counted only under loads that have a potential: no external moments on
+/// spatial bodies.
+bool has_potential(const System& system, const Inputs& inputs);
+
 enum class ControlStatus {
   converged,
   unreachable,  ///< the chains cannot be closed with the prescribed coordinates at the target
@@ -34,6 +38,9 @@ struct ControlSolver {
 /// @param z, rho  first guess @pre counts_match(task, system)
 ControlSolver control_solver(const System& system, const CommandTask& task, const Vector& z,
                              const Vector& rho);
+
+/// The same for plain equilibria: nothing is prescribed, the commands are given.
+ControlSolver equilibrium_solver(const System& system, const Vector& z, const Vector& rho);
 
 /// Newton's method from the solver's last solution (or its guess): unknowns are all entries of z but
 /// the prescribed ones, and the commands. The matrix is exact,
@@ -81,5 +88,9 @@ struct ControlResult {
 
 /// Commands for a target, from the plain inverse kinematics.
 ControlResult kinetostatic_control(const System& system, const ControlProblem& problem);
+
+/// The same where plain inverse kinematics of the target is known already.
+ControlResult kinetostatic_control(const System& system, const ControlProblem& problem,
+                                   KinematicInverse plain);
 
 }  // namespace springfold::statics

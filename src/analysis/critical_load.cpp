@@ -1,0 +1,105 @@
+#include "critical_load.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "branch_rows.hpp"
+#include "number_text.hpp"
+#include "path_problem.hpp"
+#include "springfold/continuation/trace.hpp"
+#include "springfold/core/inertia.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CurvePoint;
+using continuation::Hit;
+using continuation::HitKind;
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Index> unstable_modes(const PathProblem& problem, const CurvePoint& point) {
+  Matrix A;
+  Vector b;
+  if (!problem.derivatives(point.x, point.lambda, point.piece, A, b)) return std::nullopt;
+  return statics::unstable_modes(A, problem.closures());
+}
+
+/// Is stability lost at this special point? A spring that switches may, or may not.
+bool loses_stability(const PathProblem& problem, const Hit& hit) {
+  switch (hit.kind) {
+    case HitKind::limit_point:
+    case HitKind::branch_point:
+    case HitKind::corner:
+    case HitKind::branching_kink:
+    case HitKind::unresolved:
+      return true;
+    case HitKind::kink: {
+      if (hit.leaving.empty()) return true;
+      const auto modes = unstable_modes(problem, hit.leaving.front());
+      return modes && *modes > 0;
+    }
+    case HitKind::touch:
+    case HitKind::family:
+    case HitKind::user:
+      return false;
+  }
+  return false;
+}
+
+PathRule load_rule(const CommandSetup& setup, const CommandedState& state, const Vector& rate) {
+  PathRule rule;
+  rule.body = setup.task.body;
+  rule.t_start = state.z.segment(setup.t, setup.d);
+  rule.t_rate = Vector::Zero(setup.d);
+  rule.N = Matrix::Identity(setup.d, setup.d);
+  rule.rho_start = state.inputs.rho;
+  rule.rho_rate = Vector::Zero(state.inputs.rho.size());
+  rule.W_start = state.inputs.W;
+  rule.W_rate = Vector::Zero(setup.system.load_size);
+  rule.W_rate.segment(setup.system.body_slices[static_cast<std::size_t>(setup.task.body - 1)].W,
+                      setup.d) = rate;
+  rule.length = setup.scales.length;
+  rule.symmetric = has_potential(setup.system, {{}, rule.W_start}) &&
+                   has_potential(setup.system, {{}, rule.W_rate});
+  return rule;
+}
+
+}  // namespace
+
+CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& state,
+                           const CriticalSettings& settings,
+                           const continuation::TraceOptions& options) {
+  // lambda from 0 to 1 is the load from 0 to its limit.
+  const Vector rate = settings.up_to * settings.direction.cwiseQuotient(setup.wrench_scale);
+  const PathProblem problem(setup.system, load_rule(setup, state, rate));
+  if (!problem.symmetric()) return {undefined, "moments on a spatial body have no potential"};
+  const Vector y = problem.reduce(state.z);
+  const auto rays = rays_from(problem, y, 0, state.piece, options);
+  const continuation::Ray* forward = nullptr;
+  for (const auto& ray : rays.rays)
+    if (ray.tangent.dlambda > 0 && (!forward || ray.tangent.dlambda > forward->tangent.dlambda))
+      forward = &ray;
+  if (forward == nullptr || !rays.complete)
+    return {undefined, "the node is no ordinary point of its curve"};
+  const std::vector<continuation::Event> events{
+      {"limit", [](const CurvePoint& p) { return p.lambda - 1; }, continuation::EventAction::stop}};
+  const Hit* loss = nullptr;
+  Hit found;
+  const auto curve = trace(problem, y, 0, *forward, events, options, {}, [&](const Hit& hit) {
+    if (!loses_stability(problem, hit)) return true;
+    found = hit;
+    loss = &found;
+    return false;
+  });
+  if (loss != nullptr && loss->kind != HitKind::unresolved)
+    return {settings.up_to * loss->point.lambda, ""};
+  if (loss == nullptr && curve.stop == continuation::StopReason::event)
+    return {std::numeric_limits<double>::infinity(), ""};
+  return {undefined, loss != nullptr
+                         ? "stability is lost near the load " +
+                               rounded(settings.up_to * loss->point.lambda) + ", unresolved"
+                         : stop_of(curve).reason};
+}
+
+}  // namespace springfold::analysis

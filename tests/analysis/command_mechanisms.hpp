@@ -1,0 +1,67 @@
+// The planar Orthoglide for tests of commands, maps and workspaces.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "springfold/analysis/run.hpp"
+
+namespace springfold::analysis {
+
+/// Leg length and drive stiffness 1; the slider of leg_x at (rho, 0), the link back to the point.
+inline model::Mechanism orthoglide(const model::SpringLaw& knee, double unit = 1) {
+  using namespace model;
+  Mechanism m;
+  m.bodies.push_back({"tool", TaskSpace::xy, Vector::Zero(2)});
+  for (const bool along_x : {true, false}) {
+    const Vec3<double> axis = along_x ? Vec3<double>::UnitX() : Vec3<double>::UnitY();
+    Chain chain;
+    chain.name = along_x ? "leg_x" : "leg_y";
+    chain.elements.push_back(Joint{.name = "drive",
+                                   .kind = JointKind::prismatic,
+                                   .axis = axis,
+                                   .role = JointRole::actuated,
+                                   .spring = LinearSpring{1 / unit, 0},
+                                   .command = unit});
+    chain.elements.push_back(Joint{.name = "knee",
+                                   .axis = (along_x ? -1 : 1) * Vec3<double>::UnitZ(),
+                                   .role = JointRole::preloaded,
+                                   .spring = knee});
+    chain.elements.push_back(RigidLink{{Mat3<double>::Identity(), -unit * axis}});
+    m.chains.push_back(chain);
+  }
+  return m;
+}
+
+inline model::SpringLaw linear(double stiffness) { return model::LinearSpring{stiffness, 0}; }
+
+inline model::SpringLaw one_sided(double stiffness, double from) {
+  return model::OneSidedSpring{stiffness, from, model::OneSidedSpring::Side::above};
+}
+
+inline std::size_t column(const StudyResult& result, const std::string& name) {
+  for (std::size_t i = 0; i < result.quantities.size(); ++i)
+    if (result.quantities[i].name == name) return i;
+  throw std::out_of_range("no quantity " + name);
+}
+
+inline double value(const StudyResult& result, std::size_t row, const std::string& name) {
+  return result.branches.front().samples[row].values[column(result, name)];
+}
+
+inline Study command_study(StudyKind kind) {
+  Study study;
+  study.name = "commands";
+  study.kind = kind;
+  return study;
+}
+
+/// Row of the event with this label.
+inline std::size_t row_of(const StudyResult& result, const std::string& label) {
+  for (const Event& event : result.branches.front().events)
+    if (event.label == label) return event.row;
+  throw std::out_of_range("no event " + label);
+}
+
+}  // namespace springfold::analysis
