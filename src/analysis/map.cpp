@@ -21,8 +21,8 @@
 namespace springfold::analysis {
 
 double MapAxis::at(int i) const {
-  if (i == points - 1 && i > 0) return to;
-  return points == 1 ? from : from + (to - from) * (static_cast<double>(i) / (points - 1));
+  const int last = points - 1;
+  return last == 0 ? from : (from * (last - i) + to * i) / last;
 }
 
 int MapSettings::nodes() const {
@@ -84,6 +84,7 @@ class NodeMaker {
         return without_values(at, "no mechanism: " + mistakes.front());
       own = ground_of(situation.mechanism, study_, situation.constant_load);
       near = own.own;
+      pose = situation.pose;
       if (pose.size() == 0) pose = own.setup.pose.cwiseProduct(own.setup.pose_scale);
     }
     for (std::size_t a = 0; a < at.size(); ++a)

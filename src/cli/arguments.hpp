@@ -17,6 +17,8 @@ struct Arguments {
   std::vector<std::string> studies{};              ///< empty: all
   std::optional<std::filesystem::path> folder{};   ///< --out
   std::map<std::string, std::string> overrides{};  ///< --set name=value
+  int threads = 0;                                 ///< --threads; 0: all cores
+  bool resumes = false;                            ///< --resume
   bool draws_plots = true;
   bool prints_json = false;
   bool prints_csv = false;                     ///< verify only

@@ -71,6 +71,12 @@ std::string word_of(StudyKind kind) {
       return "force_deflection";
     case StudyKind::equilibria:
       return "equilibria";
+    case StudyKind::control:
+      return "control";
+    case StudyKind::map:
+      return "map";
+    case StudyKind::workspace:
+      return "workspace";
   }
   return "";
 }
@@ -173,6 +179,7 @@ std::string description_of(const io::Case& the_case) {
   }
   for (const auto& name : study_names(the_case)) text += study_text(the_case, name);
   for (const auto& plot : the_case.plots) text += "  figure    " + plot.name + "\n";
+  for (const auto& plot : the_case.map_plots) text += "  figure    " + plot.name + "\n";
   if (!the_case.expected.values.empty())
     text += "  expected  " +
             counted(static_cast<Index>(the_case.expected.values.size()), "compared value") + "\n";

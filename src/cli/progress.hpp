@@ -1,6 +1,7 @@
 // How far a run is, on one line that is written over and over; only for terminals.
 #pragma once
 
+#include <chrono>
 #include <ostream>
 #include <string>
 
@@ -15,6 +16,8 @@ class Progress {
 
   void begin(std::string what);
   void points(int count);
+  /// The part of a known amount of work that is done: a bar, and the time that is left.
+  void part(double done);
   void clear();
 
  private:
@@ -24,6 +27,8 @@ class Progress {
   bool is_shown_;
   bool is_on_screen_ = false;
   std::string what_{};
+  std::chrono::steady_clock::time_point began_{};
+  std::chrono::steady_clock::time_point shown_{};
 };
 
 }  // namespace springfold::cli

@@ -5,8 +5,10 @@
 #include <stdexcept>
 
 #include "exit_code.hpp"
+#include "map_runs.hpp"
 #include "progress.hpp"
 #include "selection.hpp"
+#include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
 #include "springfold/io/results.hpp"
 
@@ -28,7 +30,8 @@ void say(const Session& session, const std::string& message) {
 }
 
 /// Runs until all is done or a signal comes. The run that the signal stops is kept as well.
-std::vector<StudyResult> run_all(const Case& the_case, const Session& session) {
+std::vector<StudyResult> run_all(const Arguments& arguments, const fs::path& folder,
+                                 const Case& the_case, const Session& session) {
   std::vector<StudyResult> results;
   Progress progress{session.err, session.shows_progress};
   for (const auto& planned : the_case.runs) {
@@ -36,10 +39,12 @@ std::vector<StudyResult> run_all(const Case& the_case, const Session& session) {
     const auto number = std::to_string(results.size() + 1) + "/" +
                         std::to_string(the_case.runs.size()) + " " + planned.study;
     progress.begin(planned.label.empty() ? number : number + ", " + planned.label);
-    StudyResult result = session.run_study(planned, [&](int points, double) {
-      progress.points(points);
-      return session.signal() == 0;
-    });
+    const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
+    StudyResult result = is_map ? run_map(arguments, folder, the_case, planned, session, progress)
+                                : session.run_study(planned, [&](int points, double) {
+                                    progress.points(points);
+                                    return session.signal() == 0;
+                                  });
     result.study = planned.study;
     result.run = planned.run;
     result.label = planned.label;
@@ -132,9 +137,11 @@ int run_command(const Arguments& arguments, const Session& session) {
     return input_output;
   }
 
-  const auto results = run_all(the_case, session);
+  const auto results = run_all(arguments, folder, the_case, session);
   try {
     io::write_results(folder, the_case, results);
+    const bool all_ran = results.size() == the_case.runs.size();
+    if (all_ran && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   } catch (const std::runtime_error& error) {
     say(session, error.what());
     return input_output;

@@ -19,6 +19,12 @@ analysis::StudyResult run_planned(const io::PlannedRun& planned,
   return analysis::run_study(planned.mechanism, planned.plan, family, observer);
 }
 
+analysis::StudyResult run_planned_map(const io::PlannedRun& planned,
+                                      const analysis::Observer& observer,
+                                      const analysis::RunOptions& options) {
+  return analysis::run_study(planned.mechanism, planned.plan, nullptr, observer, options);
+}
+
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
                bool shows_progress) {
   if (!parsed.error.empty()) {
@@ -34,7 +40,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
                         .err = err,
                         .shows_progress = shows_progress,
                         .signal = InterruptGuard::signal,
-                        .run_study = run_planned};
+                        .run_study = run_planned,
+                        .run_map = run_planned_map};
   switch (parsed.arguments->command) {
     case Command::check:
       return check_command(*parsed.arguments, session);

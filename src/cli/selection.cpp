@@ -69,6 +69,8 @@ io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted)
   std::erase_if(the_case.expected.values, is_left_out);
   for (auto& plot : the_case.plots) std::erase_if(plot.curves, is_left_out);
   std::erase_if(the_case.plots, [](const io::PlotSpec& plot) { return plot.curves.empty(); });
+  for (auto& plot : the_case.map_plots) std::erase_if(plot.panels, is_left_out);
+  std::erase_if(the_case.map_plots, [](const auto& plot) { return plot.panels.empty(); });
   if (the_case.expected.values.empty()) the_case.expected.notes.clear();
   return the_case;
 }

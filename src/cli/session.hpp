@@ -12,12 +12,16 @@ namespace springfold::cli {
 using RunStudy =
     std::function<analysis::StudyResult(const io::PlannedRun&, const analysis::Observer&)>;
 
+using RunMap = std::function<analysis::StudyResult(const io::PlannedRun&, const analysis::Observer&,
+                                                   const analysis::RunOptions&)>;
+
 struct Session {
   std::ostream& out;  ///< tables
   std::ostream& err;  ///< messages
   bool shows_progress = false;
   std::function<int()> signal{};  ///< the signal that asks to stop, 0 if none
   RunStudy run_study{};
+  RunMap run_map{};  ///< maps, which have options; empty: run_study runs them too
 };
 
 }  // namespace springfold::cli

@@ -97,6 +97,7 @@ class Builder {
     for (std::size_t i = 0; i < draft_->studies.size(); ++i)
       for (int run = 1; run <= draft_->studies[i].runs(); ++run) add_run(i, run);
     add_plots();
+    add_map_plots();
     add_expectations();
     return std::move(result_);
   }
@@ -121,6 +122,7 @@ class Builder {
       check_segments(i, run);
     if (study.control == analysis::ControlMode::parameter && study.parameter)
       planned.family = family_of(draft_, i, run, parameters);
+    planned.plan.map.situation = situations_of(draft_, i, run);
     if (check(planned, of_mechanism, i)) result_.runs.push_back(std::move(planned));
   }
 
@@ -220,6 +222,23 @@ class Builder {
           check_use(plot.y, i, 1);
         }
       result_.plots.push_back(std::move(spec));
+    }
+  }
+
+  void add_map_plots() {
+    const Values parameters = evaluate(draft_->parameters, {}, draft_->book, "", problems_);
+    for (const MapPlotDraft& plot : draft_->map_plots) {
+      const std::vector<double> numbers = plot.numbers.values(draft_->book, parameters).values;
+      MapPlotSpec spec = plot.spec;
+      spec.factor = numbers[plot.factor];
+      spec.x_factor = numbers[plot.x_factor];
+      spec.y_factor = numbers[plot.y_factor];
+      for (const NumberId level : plot.levels) spec.levels.push_back(numbers[level]);
+      if (!plot.range.empty()) spec.range = {numbers[plot.range[0]], numbers[plot.range[1]]};
+      for (const MapPanelSpec& panel : spec.panels)
+        for (std::size_t i = 0; i < draft_->studies.size(); ++i)
+          if (draft_->studies[i].name == panel.study) check_use(plot.quantity, i, panel.run);
+      result_.map_plots.push_back(std::move(spec));
     }
   }
 

@@ -42,6 +42,10 @@ void check_numbers(const CaseDraft& draft, Problems& problems) {
     std::vector<bool> none;
     plot.numbers.check(plot.numbers.values(draft.book, parameters), "", problems, none);
   }
+  for (const MapPlotDraft& plot : draft.map_plots) {
+    std::vector<bool> none;
+    plot.numbers.check(plot.numbers.values(draft.book, parameters), "", problems, none);
+  }
   for (const StudyDraft& study : draft.studies) check_runs(draft, study, reported, problems);
 }
 

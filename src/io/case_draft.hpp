@@ -1,6 +1,7 @@
 // Everything that a case says, its numbers still formulas.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,6 +28,14 @@ struct NearDraft {
   NumberId value = 0;
 };
 
+struct MapPlotDraft {
+  MapPlotSpec spec{};  ///< without its numbers
+  NumberTable numbers{};
+  NumberId factor = 0, x_factor = 0, y_factor = 0;
+  std::vector<NumberId> levels{}, range{};
+  NamedPlace quantity{};
+};
+
 struct ExpectedDraft {
   ExpectedValue value{};  ///< without its numbers
   NumberTable numbers{};
@@ -44,6 +53,7 @@ struct CaseDraft {
   MechanismDraft mechanism{};
   std::vector<StudyDraft> studies{};
   std::vector<PlotDraft> plots{};
+  std::vector<MapPlotDraft> map_plots{};
   std::vector<ExpectedDraft> expected{};
   std::vector<std::string> notes{};
 };
@@ -65,5 +75,10 @@ Case build_case(std::shared_ptr<const CaseDraft> draft, Problems& problems);
 /// @param parameters  as the run has them @pre the study's control mode is `parameter`
 analysis::ParameterFamily family_of(std::shared_ptr<const CaseDraft> draft, std::size_t study,
                                     int run, const Values& parameters);
+
+/// Mechanism and load of a map's run as a function of those axes that are parameters; empty if none
+/// is. Several threads may call it.
+std::function<analysis::Situation(const std::vector<double>&)> situations_of(
+    std::shared_ptr<const CaseDraft> draft, std::size_t study, int run);
 
 }  // namespace springfold::io

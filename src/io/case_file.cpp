@@ -1,6 +1,7 @@
 #include "springfold/io/case_file.hpp"
 
 #include "case_draft.hpp"
+#include "command_reader.hpp"
 #include "sha256.hpp"
 
 namespace springfold::io {
@@ -38,6 +39,18 @@ std::vector<Document> read_expected_file(const fs::path& file, const Node& root,
   return sources.read_single((folder / named->text).lexically_normal(), named->place, "expected");
 }
 
+/// Targets of studies that have them in files of their own, beside the case.
+void read_target_files(const fs::path& folder, SourceReader& sources, CaseDraft& draft,
+                       Problems& problems) {
+  for (StudyDraft& study : draft.studies) {
+    if (!study.commands.file) continue;
+    const TargetFile file = *study.commands.file;
+    const fs::path path = (folder / file.name).lexically_normal();
+    const auto text = sources.read_text(path, file.place, file.key);
+    if (text) read_target_file(file, path.string(), *text, study.commands, study.numbers, problems);
+  }
+}
+
 std::string fingerprint(const SourceReader& sources,
                         const std::map<std::string, std::string>& overrides) {
   std::string bytes = sources.bytes();
@@ -58,8 +71,9 @@ Case load_case(const fs::path& file, const std::map<std::string, std::string>& o
   const std::vector<Document> expected =
       read_expected_file(file, documents.back().root, sources, problems);
 
-  const auto draft =
-      std::make_shared<const CaseDraft>(read_case(documents, overrides, expected, problems));
+  CaseDraft read = read_case(documents, overrides, expected, problems);
+  read_target_files(file.parent_path(), sources, read, problems);
+  const auto draft = std::make_shared<const CaseDraft>(std::move(read));
   check_numbers(*draft, problems);
   throw_if_any(problems);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_parameters = 1000;
 
 const std::vector<std::string> case_keys{"title", "include", "units", "parameters", "body",
-                                         "chain", "study",   "plot",  "expected"};
+                                         "chain", "study",   "plot",  "map_plot",   "expected"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
@@ -30,7 +30,8 @@ std::vector<Item> tables_of(const std::vector<Document>& documents, const std::s
 void check_included(const Document& document, Problems& problems) {
   if (!document.included) return;
   for (const NodeEntry& entry : document.root.entries)
-    if (entry.key == "study" || entry.key == "plot" || entry.key == "expected")
+    if (entry.key == "study" || entry.key == "plot" || entry.key == "map_plot" ||
+        entry.key == "expected")
       problems.add(entry.place, entry.key,
                    "belongs into the case file itself, not into an included file");
 }
@@ -155,6 +156,8 @@ CaseDraft read_case(const std::vector<Document>& documents,
   draft.studies = read_studies(studies, draft.mechanism, reading);
   const std::vector<Item> plots = tables_of(documents, "plot", reading);
   draft.plots = read_plots(plots, draft.studies, reading);
+  draft.map_plots = read_map_plots(tables_of(documents, "map_plot", reading), draft.studies,
+                                   draft.plots, reading);
   read_expectations(expected_file, draft, reading);
   return draft;
 }

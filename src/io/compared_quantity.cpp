@@ -78,7 +78,8 @@ std::vector<Point> points_with(const StudyResult& result, const std::string& cod
     for (const Event& event : branch.events)
       if (analysis::code_of(event.kind) == code) points.push_back(point_of(branch, event));
     for (std::size_t row = 0; code == any_row && row < branch.samples.size(); ++row)
-      if (branch.samples[row].event.empty()) points.push_back({&branch.samples[row], nullptr, nullptr});
+      if (branch.samples[row].event.empty())
+        points.push_back({&branch.samples[row], nullptr, nullptr});
   }
   if (code == equilibrium_code && result.equilibria)
     for (const auto& e : result.equilibria->list) points.push_back(point_of(e));
@@ -193,8 +194,8 @@ std::vector<MatrixEntryName> matrix_entries(const model::Mechanism& mechanism) {
 }
 
 const std::vector<std::string>& event_codes() {
-  static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS",
-                                              "TP", "FM", "UZ", "EP", "SC", "UR", "EQ"};
+  static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS", "TP",
+                                              "FM", "UZ", "EP", "SC", "UR", "EQ"};
   return codes;
 }
 

@@ -21,6 +21,14 @@ using analysis::StudyResult;
 PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
   PlotSpec spec{.name = safe_file_name(result.study), .title = result.study};
   spec.curves.push_back({.study = result.study});
+  if (column_of(result, "path")) {  // commands along a path: what the first one compensates
+    spec.x = "path";
+    for (const auto& quantity : result.quantities)
+      if (quantity.name.ends_with(".compensation")) {
+        spec.y = quantity.name;
+        return spec;
+      }
+  }
   if (column_of(result, "deflection") && column_of(result, "force")) return spec;
   spec.y = "lambda";
   const PlannedRun* planned = plan_of(the_case, result);
@@ -40,7 +48,9 @@ std::vector<PlotSpec> plots_of(const Case& the_case, const std::vector<StudyResu
   std::vector<std::string> studies;
   for (const auto& result : results) {
     const bool is_new = std::find(studies.begin(), studies.end(), result.study) == studies.end();
-    if (!is_new || !has_curve(result)) continue;
+    const PlannedRun* planned = plan_of(the_case, result);
+    const bool is_map = planned != nullptr && planned->plan.kind == analysis::StudyKind::map;
+    if (!is_new || is_map || !has_curve(result)) continue;
     studies.push_back(result.study);
     specs.push_back(default_plot(the_case, result));
   }

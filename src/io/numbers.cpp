@@ -25,6 +25,8 @@ bool holds(Range range, double value) {
       return !std::isnan(value);
     case Range::whole:
       return whole && value >= 0;
+    case Range::at_least_two:
+      return whole && value >= 2 && value <= largest_count;
     case Range::small_count:
       return whole && value >= 1 && value <= largest_count;
   }
@@ -43,6 +45,8 @@ std::string range_in_words(Range range) {
       return "a number, inf or -inf";
     case Range::whole:
       return "a whole number >= 0";
+    case Range::at_least_two:
+      return "a whole number from 2 to 1000000";
     case Range::small_count:
       return "a whole number from 1 to 1000000";
   }

@@ -18,6 +18,7 @@ enum class Range {
   maybe_infinite,  ///< anything but NaN
   whole,           ///< 0, 1, 2, ...
   small_count,     ///< 1, 2, ... 1000000
+  at_least_two,    ///< 2, 3, ... 1000000
 };
 
 /// What a number must be.

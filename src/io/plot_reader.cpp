@@ -5,20 +5,6 @@
 namespace springfold::io {
 namespace {
 
-/// A whole number from 1 to the number of the study's runs, written as such.
-std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
-  const double value = item.node->number;
-  const bool whole = item.node->kind == Node::Kind::number && value >= 1 && value <= 1e6 &&
-                     value == static_cast<int>(value);
-  if (whole && (value <= study.runs() || !study.runs_known)) return static_cast<int>(value);
-  const std::string range =
-      study.runs() == 1 ? "1: the study has one run" : "1 to " + std::to_string(study.runs());
-  reading.problems.add(item.node->place, item.key,
-                       "got " + described(*item.node) + ", need the number of a run of \"" +
-                           study.name + "\", " + range);
-  return std::nullopt;
-}
-
 PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies, Reading& reading) {
   const TableReader table{*item.node, item.key, {"study", "runs", "labels"}, reading};
   PlotCurves curves;
@@ -43,9 +29,30 @@ PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies,
   return curves;
 }
 
-/// The name is a file name too.
+NamedPlace read_quantity(const TableReader& table, const std::string& name,
+                         const std::string& otherwise) {
+  const Node* node = table.find(name);
+  return {table.text(name).value_or(otherwise), node ? node->place : table.place(),
+          table.key_of(name)};
+}
+
+}  // namespace
+
+std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
+  const double value = item.node->number;
+  const bool whole = item.node->kind == Node::Kind::number && value >= 1 && value <= 1e6 &&
+                     value == static_cast<int>(value);
+  if (whole && (value <= study.runs() || !study.runs_known)) return static_cast<int>(value);
+  const std::string range =
+      study.runs() == 1 ? "1: the study has one run" : "1 to " + std::to_string(study.runs());
+  reading.problems.add(item.node->place, item.key,
+                       "got " + described(*item.node) + ", need the number of a run of \"" +
+                           study.name + "\", " + range);
+  return std::nullopt;
+}
+
 void check_plot_name(const TableReader& table, const std::string& name,
-                     const std::vector<PlotDraft>& plots, Reading& reading) {
+                     const std::vector<std::string>& taken, Reading& reading) {
   if (name.empty()) return;
   const Item at{table.find("name"), table.key_of("name")};
   const auto fits = [](char c) {
@@ -56,22 +63,12 @@ void check_plot_name(const TableReader& table, const std::string& name,
     reading.problems.add(
         at.node->place, at.key,
         "got \"" + name + "\", need a file name without ending: letters, digits, '_', '-', '.'");
-  const auto has_name = [&name](const PlotDraft& other) { return other.spec.name == name; };
-  if (std::any_of(plots.begin(), plots.end(), has_name))
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
     reading.problems.add(at.node->place, at.key,
                          "\"" + name +
                              "\" is already the name of another plot, need different "
                              "names");
 }
-
-NamedPlace read_quantity(const TableReader& table, const std::string& name,
-                         const std::string& otherwise) {
-  const Node* node = table.find(name);
-  return {table.text(name).value_or(otherwise), node ? node->place : table.place(),
-          table.key_of(name)};
-}
-
-}  // namespace
 
 std::optional<std::size_t> study_number(const std::string& name, const Item& at,
                                         const std::vector<StudyDraft>& studies, Reading& reading) {
@@ -96,7 +93,9 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     PlotDraft draft;
     PlotSpec& spec = draft.spec;
     spec.name = table.required_text("name", "a file name without ending").value_or("");
-    check_plot_name(table, spec.name, plots, reading);
+    std::vector<std::string> taken;
+    for (const PlotDraft& other : plots) taken.push_back(other.spec.name);
+    check_plot_name(table, spec.name, taken, reading);
     spec.title = table.text("title").value_or("");
     draft.x = read_quantity(table, "x", spec.x);
     draft.y = read_quantity(table, "y", spec.y);

@@ -15,6 +15,18 @@ std::optional<std::size_t> study_number(const std::string& name, const Item& at,
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading);
 
+/// [[map_plot]] tables. @param plots  whose names are taken
+std::vector<MapPlotDraft> read_map_plots(const std::vector<Item>& tables,
+                                         const std::vector<StudyDraft>& studies,
+                                         const std::vector<PlotDraft>& plots, Reading& reading);
+
+/// Reports a name that cannot be a file name, or that another plot has already.
+void check_plot_name(const TableReader& table, const std::string& name,
+                     const std::vector<std::string>& taken, Reading& reading);
+
+/// A whole number from 1 to the number of the study's runs, written as such.
+std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading);
+
 std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies, Reading& reading);
 

@@ -13,6 +13,7 @@
 #include "gnuplot_process.hpp"
 #include "label_layout.hpp"
 #include "manifest.hpp"
+#include "map_figure.hpp"
 #include "sha256.hpp"
 #include "text.hpp"
 
@@ -45,6 +46,7 @@ class WorkFolder {
 struct Templates {
   std::string style{};
   std::string figure{};
+  std::string map{};
 };
 
 fs::path template_folder(const fs::path& wanted) {
@@ -61,9 +63,10 @@ fs::path template_folder(const fs::path& wanted) {
                            ", " SPRINGFOLD_INSTALLED_PLOTS " and " SPRINGFOLD_SOURCE_PLOTS};
 }
 
-Templates read_templates(const fs::path& wanted) {
+Templates read_templates(const fs::path& wanted, bool with_maps) {
   const fs::path folder = template_folder(wanted);
-  return {read_file(folder / "style.gp"), read_file(folder / "force-deflection.gp")};
+  return {read_file(folder / "style.gp"), read_file(folder / "force-deflection.gp"),
+          with_maps ? read_file(folder / "map.gp") : std::string{}};
 }
 
 /// A gnuplot string: nothing but the quote is special between single quotes.
@@ -206,13 +209,14 @@ ListedFile listed(const fs::path& file) {
   return {"plots/" + file.filename().string(), sha256(bytes), bytes.size()};
 }
 
-/// Draws one figure; the reason if there is no picture.
-std::optional<std::string> draw(const fs::path& folder, const Figure& figure,
-                                const Templates& templates, const std::optional<fs::path>& gnuplot,
-                                const PlotOptions& options, PlotOutcome& outcome) {
+/// Draws one figure; the reason if there is no picture. @param write  puts its script into a file
+std::optional<std::string> draw(const fs::path& folder, const std::string& name,
+                                const std::function<void(const fs::path&)>& write,
+                                const std::optional<fs::path>& gnuplot, const PlotOptions& options,
+                                PlotOutcome& outcome) {
   const WorkFolder work{folder / "plots"};
-  const std::string script = figure.name + ".gp";
-  write_script(work.path() / script, figure, templates);
+  const std::string script = name + ".gp";
+  write(work.path() / script);
   list_in_manifest(folder, {listed(work.path() / script)});
   publish_file(work.path() / script, folder / "plots" / script);
   const std::string kept = " (script kept: " + (folder / "plots" / script).string() + ")";
@@ -226,7 +230,7 @@ std::optional<std::string> draw(const fs::path& folder, const Figure& figure,
   if (failure) return *failure + kept;
   std::vector<ListedFile> pictures;
   for (const char* ending : {".png", ".svg"}) {
-    const fs::path picture = work.path() / (figure.name + ending);
+    const fs::path picture = work.path() / (name + ending);
     std::error_code error;
     if (!fs::is_regular_file(picture, error) || fs::file_size(picture, error) == 0)
       return "gnuplot wrote no " + picture.filename().string() + kept;
@@ -235,9 +239,9 @@ std::optional<std::string> draw(const fs::path& folder, const Figure& figure,
   // Listed before they are there: what the manifest does not list is never removed later.
   list_in_manifest(folder, pictures);
   for (const char* ending : {".png", ".svg"}) {
-    const std::string name = figure.name + ending;
-    publish_file(work.path() / name, folder / "plots" / name);
-    outcome.files.push_back(folder / "plots" / name);
+    const std::string picture = name + ending;
+    publish_file(work.path() / picture, folder / "plots" / picture);
+    outcome.files.push_back(folder / "plots" / picture);
   }
   return std::nullopt;
 }
@@ -250,15 +254,22 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
   PlotOutcome outcome;
   try {
     const auto figures = figures_of(the_case, results, outcome.warnings);
-    if (figures.empty()) return outcome;
-    const Templates templates = read_templates(options.templates);
+    const auto maps = map_figures_of(the_case, results, outcome.warnings);
+    if (figures.empty() && maps.empty()) return outcome;
+    const Templates templates = read_templates(options.templates, !maps.empty());
     const auto gnuplot = find_executable(options.gnuplot);
     make_folder(folder / "plots");
-    for (const auto& figure : figures) {
-      if (options.stop_requested && options.stop_requested()) break;
-      const auto failure = draw(folder, figure, templates, gnuplot, options, outcome);
-      if (failure) outcome.warnings.push_back("figure '" + figure.name + "': " + *failure);
-    }
+    const auto draw_one = [&](const std::string& name, const auto& write) {
+      if (options.stop_requested && options.stop_requested()) return;
+      const auto failure = draw(folder, name, write, gnuplot, options, outcome);
+      if (failure) outcome.warnings.push_back("figure '" + name + "': " + *failure);
+    };
+    for (const auto& figure : figures)
+      draw_one(figure.name, [&](const fs::path& file) { write_script(file, figure, templates); });
+    for (const auto& figure : maps)
+      draw_one(figure.name, [&](const fs::path& file) {
+        write_file(file, map_script(figure, templates.style, templates.map));
+      });
   } catch (const std::exception& error) {
     outcome.warnings.push_back(std::string{"no further figures: "} + error.what());
   }

@@ -32,11 +32,17 @@ std::string row_start(const StudyResult& result, std::size_t branch) {
 
 std::string branch_csv(const StudyResult& result, const Branch& branch) {
   std::string csv;
+  // Targets and nodes say how they are; points of curves have nothing to say.
+  const bool has_status =
+      std::any_of(branch.samples.begin(), branch.samples.end(),
+                  [](const analysis::Sample& sample) { return !sample.status.empty(); });
   for (const auto& quantity : result.quantities) csv += csv_text(quantity.name) + ",";
-  csv += "piece,event\n";
+  csv += has_status ? "piece,event,status\n" : "piece,event\n";
   for (const auto& sample : branch.samples) {
     for (const double value : sample.values) csv += csv_number(value) + ",";
-    csv += csv_text(sample.piece) + "," + csv_text(sample.event) + "\n";
+    csv += csv_text(sample.piece) + "," + csv_text(sample.event);
+    if (has_status) csv += "," + csv_text(sample.status);
+    csv += "\n";
   }
   return csv;
 }

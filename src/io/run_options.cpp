@@ -18,6 +18,12 @@ std::string text_of(StudyKind kind) {
       return "force_deflection";
     case StudyKind::equilibria:
       return "equilibria";
+    case StudyKind::control:
+      return "control";
+    case StudyKind::map:
+      return "map";
+    case StudyKind::workspace:
+      return "workspace";
   }
   return "";
 }

@@ -63,7 +63,17 @@ std::vector<Document> SourceReader::read_single(const fs::path& file, const Plac
   return documents;
 }
 
+std::optional<std::string> SourceReader::read_text(const fs::path& file, const Place& place,
+                                                   const std::string& key) {
+  return read_counted(file, {place, key});
+}
+
 std::optional<Node> SourceReader::read_one(const fs::path& file, const Origin& origin) {
+  const auto text = read_counted(file, origin);
+  return text ? read_toml(*text, file.string(), *problems_) : std::nullopt;
+}
+
+std::optional<std::string> SourceReader::read_counted(const fs::path& file, const Origin& origin) {
   const Contents contents = read_bytes(file);
   if (!contents.problem.empty()) {
     const bool named = !origin.place.file.empty();
@@ -75,7 +85,7 @@ std::optional<Node> SourceReader::read_one(const fs::path& file, const Origin& o
     return std::nullopt;
   }
   bytes_ += std::to_string(contents.bytes.size()) + "\n" + contents.bytes;
-  return read_toml(contents.bytes, file.string(), *problems_);
+  return contents.bytes;
 }
 
 std::vector<std::pair<std::string, SourceReader::Origin>> SourceReader::includes_of(

@@ -31,6 +31,10 @@ class SourceReader {
   std::vector<Document> read_single(const std::filesystem::path& file, const Place& place,
                                     const std::string& key);
 
+  /// The text of a file that is no TOML; nothing if it cannot be read, which is reported.
+  std::optional<std::string> read_text(const std::filesystem::path& file, const Place& place,
+                                       const std::string& key);
+
   /// The bytes of all files read so far, in order, each with its length.
   const std::string& bytes() const { return bytes_; }
 
@@ -41,6 +45,7 @@ class SourceReader {
   };
   void read_with_includes(const std::filesystem::path& file, const Origin& origin,
                           std::vector<Document>& documents);
+  std::optional<std::string> read_counted(const std::filesystem::path& file, const Origin& origin);
   std::optional<Node> read_one(const std::filesystem::path& file, const Origin& origin);
   std::vector<std::pair<std::string, Origin>> includes_of(const Node& root) const;
 

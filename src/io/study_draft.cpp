@@ -1,17 +1,6 @@
 #include "study_draft.hpp"
 
 namespace springfold::io {
-namespace {
-
-/// Lengths first: unit length of the translational part, or of the rotational part if the first is
-/// zero, so that lambda is a distance (or a force), or an angle (or a moment).
-Vector normalised(const Vector& v, model::TaskSpace space) {
-  const Index lengths = model::translations(space);
-  const double head = v.head(lengths).stableNorm();
-  return v / (head > 0 ? head : v.tail(v.size() - lengths).stableNorm());
-}
-
-}  // namespace
 
 Redefinitions StudyDraft::changes(int run) const {
   Redefinitions changes = set;
@@ -83,6 +72,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   study.search.maximum = static_cast<int>(numbers[draft.equilibria_maximum]);
   for (const LimitDraft& limit : draft.box)
     study.search.box.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
+  build_commands(draft.commands, space, numbers, study);
   return study;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "command_draft.hpp"
 #include "mechanism_draft.hpp"
 #include "springfold/analysis/study.hpp"
 
@@ -53,6 +54,7 @@ struct StudyDraft {
   std::vector<LimitDraft> box{};
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};
+  CommandDraft commands{};  ///< kinds control, map and workspace
   Redefinitions set{};
   std::optional<VaryDraft> vary{};
   bool runs_known = true;  ///< false: `vary` is there but unusable

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "command_reader.hpp"
 #include "mechanism_reader.hpp"
 
 namespace springfold::io {
@@ -12,7 +13,10 @@ using analysis::ControlMode;
 using analysis::StartSolve;
 using analysis::StudyKind;
 
-const std::vector<std::string> kind_words{"force_deflection", "equilibrium", "equilibria"};
+const std::vector<std::string> kind_words{"force_deflection", "equilibrium", "equilibria",
+                                          "control",          "map",         "workspace"};
+const std::array kinds{StudyKind::force_deflection, StudyKind::equilibrium, StudyKind::equilibria,
+                       StudyKind::control,          StudyKind::map,         StudyKind::workspace};
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
@@ -21,6 +25,16 @@ const std::vector<std::string> study_keys{"name",      "kind",   "control",   "b
                                           "load",      "start",  "until",     "mark", "actuators",
                                           "parameter", "set",    "vary",      "path", "trace",
                                           "branches",  "search", "prescribed"};
+
+/// Studies of commands have keys of their own.
+std::vector<std::string> keys_of(const Node& study) {
+  const Node* kind = study.find("kind");
+  const auto word =
+      kind ? std::find(kind_words.begin(), kind_words.end(), kind->text) : kind_words.end();
+  if (word == kind_words.end()) return study_keys;
+  const StudyKind found = kinds[static_cast<std::size_t>(word - kind_words.begin())];
+  return analysis::is_of_commands(found) ? command_keys(found) : study_keys;
+}
 
 void add_entries(const Node& table, const std::string& prefix, std::vector<NamedPlace>& entries) {
   for (const NodeEntry& entry : table.entries) {
@@ -43,7 +57,7 @@ std::vector<std::string> actuator_names(const MechanismDraft& mechanism) {
 class StudyReader {
  public:
   StudyReader(const Item& item, const MechanismDraft& mechanism, Reading& reading)
-      : table_{*item.node, item.key, study_keys, reading},
+      : table_{*item.node, item.key, keys_of(*item.node), reading},
         mechanism_{mechanism},
         reading_{reading} {
     draft_.place = item.node->place;
@@ -60,6 +74,10 @@ class StudyReader {
         table_.list("prescribed", "a list of pose coordinates such as [\"x\", \"rz\"]"), reading_);
     const std::string force = reading_.units.force, length = reading_.units.length;
     draft_.load = read_vector(table_, "load", force, force + "*" + length);
+    if (analysis::is_of_commands(draft_.kind) && body_known_)
+      draft_.commands = read_commands(draft_.kind, table_,
+                                      mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)],
+                                      actuator_names(mechanism_), draft_.numbers, reading_);
     read_control(traces);
     read_start();
     read_until();
@@ -75,8 +93,7 @@ class StudyReader {
 
  private:
   bool read_kind() {
-    draft_.kind = std::array{StudyKind::force_deflection, StudyKind::equilibrium,
-                             StudyKind::equilibria}[table_.choice("kind", kind_words, 0)];
+    draft_.kind = kinds[table_.choice("kind", kind_words, 0)];
     const bool traces = draft_.kind == StudyKind::force_deflection;
     if (traces) table_.require("control", choices(control_words));
     draft_.control =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "command_summary.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
 #include "text.hpp"
@@ -313,6 +314,9 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
 }
 
 std::string run_block(const Case& the_case, const StudyResult& result) {
+  if (const PlannedRun* planned = plan_of(the_case, result);
+      planned != nullptr && analysis::is_of_commands(planned->plan.kind))
+    return heading_of(result) + "\n" + command_lines(the_case, *planned, result);
   std::string text = heading_of(result) + "\n" + start_lines(result.start);
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
   if (!result.start.found || result.branches.empty()) return text;

@@ -96,7 +96,7 @@ TEST(Map, RunsOverParametersOfTheCase) {
                     {.name = "node.x", .pose = 0, .from = -0.454, .to = 0.454, .points = 2}};
   study.map.pose = Vector{{0, 0.454}};
   study.map.situation = [](const std::vector<double>& values) {
-    return Situation{orthoglide(linear(values[0])), {}};
+    return Situation{.mechanism = orthoglide(linear(values[0])), .pose = Vector{{0, 0.454}}};
   };
   const StudyResult result = run_study(orthoglide(linear(0)), study);
   ASSERT_TRUE(complete(result));

@@ -25,7 +25,7 @@ struct MapAxis {
   double from = 0, to = 0;
   int points = 2;
 
-  /// Value at place i; exactly `to` at the last one.
+  /// Value at place i.
   double at(int i) const;
 };
 

@@ -9,6 +9,7 @@ namespace springfold::analysis {
 struct Situation {
   model::Mechanism mechanism{};
   Vector constant_load{};  ///< on the study's body, d entries; empty: none
+  Vector pose{};           ///< of the study's body, for maps; empty: its own pose
 };
 
 }  // namespace springfold::analysis

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "springfold/analysis/study.hpp"
@@ -53,6 +54,29 @@ struct PlotSpec {
   std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
   double x_factor = 1, y_factor = 1;          ///< plotted value = factor * quantity
   std::vector<PlotCurves> curves{};
+};
+
+/// One map of a figure.
+struct MapPanelSpec {
+  std::string study{};
+  int run = 1;
+  std::string title{};
+  int slice = 1;  ///< maps of three axes: number of the value of the third one
+};
+
+/// A figure of maps side by side with one colour scale.
+struct MapPlotSpec {
+  std::string name{};  ///< file name without ending
+  std::string title{};
+  std::string quantity{};            ///< name of a column of all its maps
+  std::string label{};               ///< of the colours; empty: from quantity and unit
+  std::string x_label{}, y_label{};  ///< empty: from the axes
+  double factor = 1;                 ///< shown value = factor * quantity
+  double x_factor = 1, y_factor = 1;
+  std::vector<double> levels{};  ///< contour lines; empty: about ten round numbers
+  std::optional<std::pair<double, double>> range{};  ///< of the colours; none: all that occurs
+  bool activation = true;                            ///< lines at which springs switch
+  std::vector<MapPanelSpec> panels{};
 };
 
 /// When a compared value holds.
@@ -105,6 +129,7 @@ struct Case {
   UnitLabels units{};
   std::vector<PlannedRun> runs{};
   std::vector<PlotSpec> plots{};
+  std::vector<MapPlotSpec> map_plots{};
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};

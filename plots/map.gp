@@ -1,0 +1,85 @@
+# A figure of maps: panels side by side with one colour scale, contour lines, the edge of the
+# workspace, lines at which springs switch, and lines at which stability is lost.
+#
+# The program has set before this file is read:
+#   figure_name, figure_title, x_title, y_title, value_title, panel_title[n]   texts
+#   x_low, x_high, y_low, y_high, value_low, value_high                        ends of axes and colours
+#   levels         values of the contour lines, "0.5 1 1.5"
+#   panels         number of panels; panel n has the data blocks
+#                  field_n      x y value, an empty line between rows of nodes; NaN: no value
+#                  contours_n, edge_n, activation_n, unstable_n   x y of line segments
+#   has_edge, has_activation, has_unstable   1 if any panel has such lines
+# style.gp is read before this file.
+
+# Viridis (van der Walt, Smith, Firing): perceptually uniform, also in grey print and for
+# colour-blind readers.
+set palette defined (0 '#440154', 1 '#481a6c', 2 '#472f7d', 3 '#414487', 4 '#39568c', 5 '#31688e', \
+    6 '#2a788e', 7 '#23888e', 8 '#1f988b', 9 '#22a884', 10 '#35b779', 11 '#54c568', 12 '#7ad151', \
+    13 '#a5db36', 14 '#d2e21b', 15 '#fde725')
+set style line 31 linecolor rgb '#FFFFFF' linewidth 1.2            # contour lines
+set style line 32 linecolor rgb ink linewidth 3.0                  # edge of the workspace
+set style line 33 linecolor rgb '#D55E00' linewidth 3.0 dashtype (8, 5)   # springs switch
+set style line 34 linecolor rgb '#CC79A7' linewidth 3.0 dashtype (2, 4)   # stability is lost
+
+tic_font = font_family.',12'
+panel_size = 470.0
+left = 100.0; gap = 85.0; right = 150.0; bottom = 85.0
+top = 110.0
+figure_width = left + panels * panel_size + (panels - 1) * gap + right
+figure_height = bottom + panel_size + top
+
+set xrange [x_low:x_high]
+set yrange [y_low:y_high]
+set cbrange [value_low:value_high]
+set border 15 linecolor rgb ink linewidth 1.2
+set tics nomirror out font tic_font
+unset grid
+# Nodes without values stay pale.
+set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb '#EEEEEE' \
+    fillstyle solid noborder
+set xlabel x_title noenhanced textcolor rgb ink offset 0, -0.2
+set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center noenhanced \
+    font title_font textcolor rgb ink
+set cblabel value_title noenhanced textcolor rgb ink offset 1.5, 0
+do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
+
+do for [format in 'png svg'] {
+  if (format eq 'png') {
+    set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
+  } else {
+    set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
+        background rgb 'white'
+  }
+  set output figure_name.'.'.format
+  set multiplot
+  do for [n = 1:panels] {
+    x0 = left + (n - 1) * (panel_size + gap)
+    set lmargin at screen x0 / figure_width
+    set rmargin at screen (x0 + panel_size) / figure_width
+    set bmargin at screen bottom / figure_height
+    set tmargin at screen (bottom + panel_size) / figure_height
+    if (n == 1) { set ylabel y_title noenhanced textcolor rgb ink } else { unset ylabel }
+    if (n == panels) {
+      set colorbox user origin (x0 + panel_size + 18) / figure_width, bottom / figure_height \
+          size 20 / figure_width, panel_size / figure_height
+    } else { unset colorbox }
+    set title panel_title[n] noenhanced font base_font textcolor rgb ink offset 0, -0.4
+    if (n == 1) {
+      set key at screen 0.5, screen 1 - 40 / figure_height top center horizontal noenhanced \
+          samplen 3 font key_font textcolor rgb ink Left reverse
+    } else { unset key }
+    plot '$field_'.n using 1:2:3 with image notitle, \
+         '$contours_'.n with lines linestyle 31 notitle, \
+         '$activation_'.n with lines linestyle 33 notitle, \
+         '$unstable_'.n with lines linestyle 34 notitle, \
+         '$edge_'.n with lines linestyle 32 notitle, \
+         NaN with lines linestyle 32 title (has_edge ? 'edge of the workspace' : ''), \
+         NaN with lines linestyle 33 title (has_activation ? 'a spring switches' : ''), \
+         NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : '')
+    unset label 1
+  }
+  unset multiplot
+  unset output
+  set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center noenhanced \
+      font title_font textcolor rgb ink
+}

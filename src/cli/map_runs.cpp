@@ -1,0 +1,42 @@
+#include "map_runs.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "springfold/io/checkpoint.hpp"
+
+namespace springfold::cli {
+
+analysis::StudyResult run_map(const Arguments& arguments, const std::filesystem::path& folder,
+                              const io::Case& the_case, const io::PlannedRun& planned,
+                              const Session& session, Progress& progress) {
+  analysis::RunOptions options{.threads = arguments.threads};
+  const auto known =
+      arguments.resumes ? io::read_checkpoint(folder, the_case, planned) : std::nullopt;
+  if (known) {
+    options.known = &*known;
+    progress.clear();
+    session.err << "springfold: " << planned.study << ", run " << planned.run << ": "
+                << std::count(known->done.begin(), known->done.end(), true) << " of "
+                << known->done.size() << " nodes are known already\n";
+  }
+  bool can_write = true;
+  options.checkpoint = [&](const analysis::PartialRows& rows) {
+    if (!can_write) return;
+    try {
+      io::write_checkpoint(folder, the_case, planned, rows);
+    } catch (const std::runtime_error& error) {  // the results are what counts
+      can_write = false;
+      session.err << "springfold: warning: no checkpoint: " << error.what() << "\n";
+    }
+  };
+  return session.run_map(
+      planned,
+      [&](int, double done) {
+        progress.part(done);
+        return session.signal() == 0;
+      },
+      options);
+}
+
+}  // namespace springfold::cli

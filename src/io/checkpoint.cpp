@@ -1,0 +1,104 @@
+#include "springfold/io/checkpoint.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "atomic_file.hpp"
+#include "springfold/version.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::PartialRows;
+
+fs::path path_of(const fs::path& folder, const PlannedRun& planned) {
+  return folder /
+         (".checkpoint-" + safe_file_name(planned.study) + "-" + std::to_string(planned.run));
+}
+
+std::size_t nodes_of(const PlannedRun& planned) {
+  return static_cast<std::size_t>(planned.plan.map.nodes());
+}
+
+std::string header_of(const Case& the_case, const PlannedRun& planned) {
+  return "springfold checkpoint 1 " + std::string{version} + " " + the_case.hash + " " +
+         std::to_string(nodes_of(planned)) + " " + planned.study + "\n";
+}
+
+/// Takes the text up to the next separator off the front.
+std::string_view taken(std::string_view& text, char separator) {
+  const std::size_t end = std::min(text.find(separator), text.size());
+  const std::string_view front = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return front;
+}
+
+template <class Number>
+bool read_number(std::string_view text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// node, piece, status, values; tabs between them, nothing for NaN.
+bool read_row(std::string_view line, PartialRows& all) {
+  std::size_t node = 0;
+  if (!read_number(taken(line, '\t'), node) || node >= all.rows.size()) return false;
+  analysis::Sample sample;
+  sample.piece = taken(line, '\t');
+  sample.status = taken(line, '\t');
+  while (!line.empty()) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const std::string_view field = taken(line, '\t');
+    if (field != "." && !read_number(field, value)) return false;
+    sample.values.push_back(value);
+  }
+  all.rows[node] = std::move(sample);
+  all.done[node] = true;
+  return true;
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& folder, const Case& the_case, const PlannedRun& planned,
+                      const PartialRows& rows) {
+  std::string text = header_of(the_case, planned);
+  for (std::size_t node = 0; node < rows.rows.size(); ++node) {
+    if (!rows.done[node]) continue;
+    const analysis::Sample& sample = rows.rows[node];
+    text += std::to_string(node) + "\t" + sample.piece + "\t" + sample.status;
+    for (const double value : sample.values)
+      text += "\t" + (std::isnan(value) ? std::string(".") : shortest(value));
+    text += "\n";
+  }
+  text += "end\n";
+  write_file(path_of(folder, planned), text);
+}
+
+std::optional<PartialRows> read_checkpoint(const fs::path& folder, const Case& the_case,
+                                           const PlannedRun& planned) {
+  const fs::path path = path_of(folder, planned);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  const std::string text = read_file(path);
+  const std::string header = header_of(the_case, planned);
+  if (!text.starts_with(header) || !text.ends_with("\nend\n")) return std::nullopt;
+  std::string_view rest = std::string_view{text}.substr(header.size());
+  rest.remove_suffix(4);
+  PartialRows all{std::vector<analysis::Sample>(nodes_of(planned)),
+                  std::vector<bool>(nodes_of(planned), false)};
+  while (!rest.empty())
+    if (!read_row(taken(rest, '\n'), all)) return std::nullopt;
+  return all;
+}
+
+void remove_checkpoints(const fs::path& folder, const Case& the_case) {
+  for (const PlannedRun& planned : the_case.runs) {
+    std::error_code ignored;
+    fs::remove(path_of(folder, planned), ignored);
+  }
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,213 @@
+#include "map_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "result_access.hpp"
+#include "springfold/statics/system.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyKind;
+using analysis::StudyResult;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The nodes of one plane of a map: the first two axes, the third one fixed.
+class Plane {
+ public:
+  Plane(const PlannedRun& planned, const StudyResult& result, int slice)
+      : planned_{planned}, result_{result} {
+    const auto& axes = planned.plan.map.axes;
+    const auto fill = [](const analysis::MapAxis& axis, std::vector<double>& values) {
+      for (int i = 0; i < axis.points; ++i) values.push_back(axis.at(i));
+    };
+    fill(axes[0], xs_);
+    fill(axes[1], ys_);
+    first_ = xs_.size() * ys_.size() * static_cast<std::size_t>(slice - 1);
+  }
+
+  /// A field of any number that a row has.
+  template <class Value>
+  GridField field(const Value& value) const {
+    GridField field{xs_, ys_, {}};
+    const auto& samples = result_.branches.front().samples;
+    for (std::size_t k = 0; k < xs_.size() * ys_.size(); ++k)
+      field.values.push_back(first_ + k < samples.size() ? value(samples[first_ + k]) : nothing);
+    return field;
+  }
+
+  GridField quantity(std::size_t column, double factor) const {
+    return field([=](const analysis::Sample& s) { return factor * s.values[column]; });
+  }
+
+  GridField held() const {
+    return field([](const analysis::Sample& s) {
+      const bool inside = s.status == "ok" || s.status == "unstable" || s.status == "critical" ||
+                          s.status.starts_with("critical load");
+      return s.status == "not computed" ? nothing : inside ? 1.0 : 0.0;
+    });
+  }
+
+  GridField stable() const {
+    return field([](const analysis::Sample& s) {
+      if (s.status == "unstable") return 0.0;
+      return s.status == "ok" || s.status.starts_with("critical load") ? 1.0 : nothing;
+    });
+  }
+
+  /// The same springs act where these are the same.
+  std::vector<std::string> pieces() const {
+    std::vector<std::string> pieces;
+    const auto& samples = result_.branches.front().samples;
+    for (std::size_t k = 0; k < xs_.size() * ys_.size(); ++k)
+      pieces.push_back(first_ + k < samples.size() ? samples[first_ + k].piece : "");
+    return pieces;
+  }
+
+  /// Distances of all springs' coordinates from their breakpoints.
+  std::vector<GridField> distances() const {
+    std::vector<GridField> fields;
+    const statics::System system = statics::prepare(planned_.mechanism);
+    for (const statics::CoordinateSpring& spring : system.springs)
+      if (const auto column = column_of(result_, spring.name))
+        for (const double breakpoint : spring.law.breakpoints)
+          fields.push_back(
+              field([=](const analysis::Sample& s) { return s.values[*column] - breakpoint; }));
+    return fields;
+  }
+
+ private:
+  const PlannedRun& planned_;
+  const StudyResult& result_;
+  std::vector<double> xs_{}, ys_{};
+  std::size_t first_ = 0;
+};
+
+/// Round numbers within a range: 1, 2 or 5 times a power of ten apart, about `count` of them.
+std::vector<double> round_levels(double low, double high, int count) {
+  std::vector<double> levels;
+  if (!(low < high)) return levels;
+  const double raw = (high - low) / count, power = std::pow(10, std::floor(std::log10(raw)));
+  const double step = power * (raw < 1.5 * power   ? 1
+                               : raw < 3.5 * power ? 2
+                               : raw < 7.5 * power ? 5
+                                                   : 10);
+  for (double k = std::ceil(low / step); k * step < high; ++k)
+    if (k * step > low) levels.push_back(k * step);
+  return levels;
+}
+
+void append(std::vector<Segment>& all, const std::vector<Segment>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+std::vector<MapPlotSpec> specs_of(const Case& the_case) {
+  if (!the_case.map_plots.empty() || !the_case.plots.empty()) return the_case.map_plots;
+  std::vector<MapPlotSpec> specs;
+  for (const PlannedRun& planned : the_case.runs) {
+    const auto& map = planned.plan.map;
+    if (planned.plan.kind != StudyKind::map || map.axes.size() < 2) continue;
+    const std::string number = planned.label.empty() ? "" : "-" + std::to_string(planned.run);
+    MapPlotSpec spec{.name = safe_file_name(planned.study + number), .title = planned.study};
+    spec.quantity = map.directions.empty() ? "K_trans_min" : "stiffness";
+    spec.panels = {{planned.study, planned.run, planned.label, 1}};
+    specs.push_back(spec);
+  }
+  return specs;
+}
+
+std::string title_of(const std::string& given, const std::string& name, double factor,
+                     const StudyResult& result, const UnitLabels& units) {
+  if (!given.empty()) return given;
+  const auto column = column_of(result, name);
+  const std::string unit =
+      column ? unit_label(result.quantities[*column].unit, result.lambda_unit, units) : "";
+  return (factor == 1 ? name : shortest(factor) + " · " + name) +
+         (unit.empty() ? "" : " [" + unit + "]");
+}
+
+void scale(std::vector<Segment>& segments, double x, double y) {
+  for (auto& [a, b] : segments)
+    for (auto* point : {&a, &b}) *point = {x * point->first, y * point->second};
+}
+
+/// Fits the colours to all panels, unless the case says their range.
+void set_colours(const MapPlotSpec& spec, MapFigure& figure) {
+  figure.low = std::numeric_limits<double>::infinity();
+  figure.high = -figure.low;
+  for (const MapPanel& panel : figure.panels)
+    for (const double v : panel.field.values)
+      if (!std::isnan(v))
+        figure.low = std::min(figure.low, v), figure.high = std::max(figure.high, v);
+  if (spec.range) std::tie(figure.low, figure.high) = *spec.range;
+  if (!(figure.low < figure.high)) {
+    const double room = std::max(1e-12, 0.05 * std::abs(figure.low));
+    figure.low -= room;
+    figure.high += room;
+  }
+  figure.levels = spec.levels.empty() ? round_levels(figure.low, figure.high, 10) : spec.levels;
+}
+
+void add_lines(const MapPlotSpec& spec, const Plane& plane, const std::vector<double>& levels,
+               MapPanel& panel) {
+  // Stiffness jumps where springs switch: no contour line leads through such a cell.
+  const bool jumps = !plane.distances().empty();
+  const std::vector<std::string> pieces = jumps ? plane.pieces() : std::vector<std::string>{};
+  for (const double level : levels) append(panel.contours, contour(panel.field, level, pieces));
+  panel.edge = contour(plane.held(), 0.5);
+  panel.unstable = contour(plane.stable(), 0.5);
+  if (spec.activation)
+    for (const GridField& distance : plane.distances())
+      append(panel.activation, contour(distance, 0));
+  for (auto* lines : {&panel.edge, &panel.unstable, &panel.activation})
+    scale(*lines, spec.x_factor, spec.y_factor);
+}
+
+}  // namespace
+
+std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<StudyResult>& results,
+                                      std::vector<std::string>& problems) {
+  std::vector<MapFigure> figures;
+  for (const MapPlotSpec& spec : specs_of(the_case)) {
+    MapFigure figure{.name = spec.name, .title = spec.title};
+    std::vector<Plane> planes;
+    for (const MapPanelSpec& wanted : spec.panels) {
+      const StudyResult* result = result_of(results, wanted.study, wanted.run);
+      if (!result || result->branches.empty()) continue;
+      const PlannedRun* planned = plan_of(the_case, *result);
+      const auto column = column_of(*result, spec.quantity);
+      if (!planned || planned->plan.map.axes.size() < 2 || !column) continue;
+      const auto& axes = planned->plan.map.axes;
+      planes.emplace_back(*planned, *result, wanted.slice);
+      MapPanel panel{.title = wanted.title, .field = planes.back().quantity(*column, spec.factor)};
+      for (double& x : panel.field.xs) x *= spec.x_factor;
+      for (double& y : panel.field.ys) y *= spec.y_factor;
+      figure.panels.push_back(std::move(panel));
+      const UnitLabels& units = the_case.units;
+      figure.x_title = title_of(spec.x_label, axes[0].name, spec.x_factor, *result, units);
+      figure.y_title = title_of(spec.y_label, axes[1].name, spec.y_factor, *result, units);
+      figure.value_title = title_of(spec.label, spec.quantity, spec.factor, *result, units);
+    }
+    const bool has_values =
+        std::any_of(figure.panels.begin(), figure.panels.end(), [](const MapPanel& panel) {
+          return std::any_of(panel.field.values.begin(), panel.field.values.end(),
+                             [](double v) { return std::isfinite(v); });
+        });
+    if (!has_values) {
+      if (!figure.panels.empty())
+        problems.push_back("figure '" + spec.name + "': there is no value to draw");
+      continue;
+    }
+    set_colours(spec, figure);
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      add_lines(spec, planes[i], figure.levels, figure.panels[i]);
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,56 @@
+// Figures of maps: panels with one colour scale, contour lines, edges of the workspace, lines at
+// which springs switch.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// Values over a grid of nodes: value of node (i, j) at j * xs.size() + i; NaN where there is none,
+/// infinity where it is beyond all bounds.
+struct GridField {
+  std::vector<double> xs{}, ys{};
+  std::vector<double> values{};
+};
+
+using Segment = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+/// Pieces of the line on which the field has this value, by linear interpolation along the edges of
+/// the cells (marching squares; a saddle is decided by the mean of its corners). Cells with a
+/// corner without value have none, nor have cells whose corners differ in `pieces` (one per node, or
+/// empty).
+std::vector<Segment> contour(const GridField& field, double level,
+                             const std::vector<std::string>& pieces = {});
+
+struct MapPanel {
+  std::string title{};
+  GridField field{};  ///< the quantity, in the units of the figure
+  std::vector<Segment> contours{};
+  std::vector<Segment> edge{};        ///< of the workspace
+  std::vector<Segment> activation{};  ///< where a spring switches
+  std::vector<Segment> unstable{};    ///< where stability is lost
+};
+
+struct MapFigure {
+  std::string name{}, title{}, x_title{}, y_title{}, value_title{};
+  double low = 0, high = 1;  ///< of the colours
+  std::vector<double> levels{};
+  std::vector<MapPanel> panels{};
+};
+
+/// The figures that the case asks for; without any, and without any [[plot]], one per map of two
+/// axes. What cannot be drawn is said in `problems`.
+std::vector<MapFigure> map_figures_of(const Case& the_case,
+                                      const std::vector<analysis::StudyResult>& results,
+                                      std::vector<std::string>& problems);
+
+/// The whole script of a figure. @param style, figure  the templates style.gp and map.gp
+std::string map_script(const MapFigure& figure, const std::string& style,
+                       const std::string& drawing);
+
+}  // namespace springfold::io

@@ -1,0 +1,95 @@
+// The gnuplot script of a map: values and lines as data blocks, then the templates.
+#include <cmath>
+
+#include "map_figure.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+std::string gnuplot_text(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string number(double value) { return std::isnan(value) ? "NaN" : rounded(value, 8); }
+
+void add_block(std::string& script, const std::string& name, const std::vector<Segment>& segments) {
+  script += "$" + name + " << e\n";
+  for (const auto& [a, b] : segments)
+    script += number(a.first) + " " + number(a.second) + "\n" + number(b.first) + " " +
+              number(b.second) + "\n\n";
+  if (segments.empty()) script += "NaN NaN\n";
+  script += "e\n";
+}
+
+/// An infinite value has the colour at the end of the scale.
+void add_field(std::string& script, const std::string& name, const GridField& field, double low,
+               double high) {
+  const auto value = [&](std::size_t i, std::size_t j) {
+    return field.values[j * field.xs.size() + i];
+  };
+  script += "$" + name + " << e\n";
+  for (std::size_t j = 0; j < field.ys.size(); ++j) {
+    for (std::size_t i = 0; i < field.xs.size(); ++i)
+      script += number(field.xs[i]) + " " + number(field.ys[j]) + " " +
+                number(std::isinf(value(i, j)) ? (value(i, j) > 0 ? high : low) : value(i, j)) +
+                "\n";
+    script += "\n";
+  }
+  script += "e\n";
+}
+
+}  // namespace
+
+std::string map_script(const MapFigure& figure, const std::string& style,
+                       const std::string& drawing) {
+  std::string script =
+      "# Written by springfold; `gnuplot " + figure.name + ".gp` draws it again.\n";
+  const auto assign = [&script](const std::string& name, const std::string& value) {
+    script += name + " = " + value + "\n";
+  };
+  assign("figure_name", gnuplot_text(figure.name));
+  assign("figure_title", gnuplot_text(figure.title));
+  assign("x_title", gnuplot_text(figure.x_title));
+  assign("y_title", gnuplot_text(figure.y_title));
+  assign("value_title", gnuplot_text(figure.value_title));
+  assign("value_low", shortest(figure.low));
+  assign("value_high", shortest(figure.high));
+  std::string levels;
+  for (const double level : figure.levels)
+    levels += (levels.empty() ? "" : " ") + rounded(level, 6);
+  assign("levels", gnuplot_text(levels));
+  assign("panels", std::to_string(figure.panels.size()));
+  const auto& xs = figure.panels.front().field.xs;
+  const auto& ys = figure.panels.front().field.ys;
+  assign("x_low", shortest(std::min(xs.front(), xs.back())));
+  assign("x_high", shortest(std::max(xs.front(), xs.back())));
+  assign("y_low", shortest(std::min(ys.front(), ys.back())));
+  assign("y_high", shortest(std::max(ys.front(), ys.back())));
+  bool edge = false, activation = false, unstable = false;
+  script += "array panel_title[" + std::to_string(figure.panels.size()) + "]\n";
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const MapPanel& panel = figure.panels[i];
+    const std::string k = std::to_string(i + 1);
+    script += "panel_title[" + k + "] = " + gnuplot_text(panel.title) + "\n";
+    add_field(script, "field_" + k, panel.field, figure.low, figure.high);
+    add_block(script, "contours_" + k, panel.contours);
+    add_block(script, "edge_" + k, panel.edge);
+    add_block(script, "activation_" + k, panel.activation);
+    add_block(script, "unstable_" + k, panel.unstable);
+    edge = edge || !panel.edge.empty();
+    activation = activation || !panel.activation.empty();
+    unstable = unstable || !panel.unstable.empty();
+  }
+  assign("has_edge", edge ? "1" : "0");
+  assign("has_activation", activation ? "1" : "0");
+  assign("has_unstable", unstable ? "1" : "0");
+  return script + "\n" + style + "\n" + drawing;
+}
+
+}  // namespace springfold::io
