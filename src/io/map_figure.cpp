@@ -72,11 +72,16 @@ class Plane {
   std::vector<GridField> distances() const {
     std::vector<GridField> fields;
     const statics::System system = statics::prepare(planned_.mechanism);
-    for (const statics::CoordinateSpring& spring : system.springs)
-      if (const auto column = column_of(result_, spring.name))
-        for (const double breakpoint : spring.law.breakpoints)
+    for (const statics::CoordinateSpring& spring : system.springs) {
+      const auto column = column_of(result_, spring.name);
+      const auto& breakpoints = spring.law.breakpoints;
+      for (std::size_t b = 0; column && b < breakpoints.size(); ++b) {
+        const double breakpoint = breakpoints[b];
+        if (spring.law.segments[b].stiffness != spring.law.segments[b + 1].stiffness)
           fields.push_back(
               field([=](const analysis::Sample& s) { return s.values[*column] - breakpoint; }));
+      }
+    }
     return fields;
   }
 
@@ -141,7 +146,7 @@ void set_colours(const MapPlotSpec& spec, MapFigure& figure) {
   figure.high = -figure.low;
   for (const MapPanel& panel : figure.panels)
     for (const double v : panel.field.values)
-      if (!std::isnan(v))
+      if (std::isfinite(v))
         figure.low = std::min(figure.low, v), figure.high = std::max(figure.high, v);
   if (spec.range) std::tie(figure.low, figure.high) = *spec.range;
   if (!(figure.low < figure.high)) {

@@ -263,9 +263,9 @@ TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
                        "and one of \"branches\", \"equilibria\", \"LP\", \"BP\", \"SA\", \"CL\", "
                        "\"KB\", \"KS\", "
                        "\"TP\", \"FM\", \"UZ\", "
-                       "\"EP\" or \"UR\"",
+                       "\"EP\", \"SC\" or \"UR\"",
                        "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "
-                       "an event such as \"LP1\", or the code of an event and `near`",
+                       "an event such as \"LP1\", or the code of an event or \"row\" and `near`",
                        "expected.toml:12:7: value[2].run: got 3, need the number of a run of "
                        "\"Q2\", which has 2",
                        "expected.toml:13:12: value[2].expected: got \"1/0\" = inf, need a "
