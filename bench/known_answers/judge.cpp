@@ -81,22 +81,24 @@ struct Matching {
     }
   }
 
-  /// A touch has multiplicity two: it may stand for two folds in one cluster.
-  void pairs_of_folds() {
+  /// A touch has multiplicity two: it may stand for two folds or branch points in one cluster.
+  void pairs_in_touches() {
     for (std::size_t j = 0; j < hits.size(); ++j) {
       if (hits[j]->kind != HitKind::touch) continue;
-      std::vector<std::size_t> folds;
+      std::vector<std::size_t> pair;
       for (std::size_t i = 0; i < draw.answers.size(); ++i) {
         const Answer& a = draw.answers[i];
         const bool open = verdict.answers[i].outcome == Outcome::missed ||
                           verdict.answers[i].outcome == Outcome::mislabelled;
-        if (a.kind == AnswerKind::fold && open && a.separation < may_be_cluster &&
+        const bool simple = a.kind == AnswerKind::fold ||
+                            (a.kind == AnswerKind::branch_point && a.multiplicity == 1);
+        if (simple && open && a.separation < may_be_cluster &&
             off(a, *hits[j]) < may_be_cluster * std::max(1.0, draw.size))
-          folds.push_back(i);
+          pair.push_back(i);
       }
-      if (folds.size() != 2) continue;
+      if (pair.size() != 2) continue;
       explained[j] = true;
-      for (const std::size_t i : folds) {
+      for (const std::size_t i : pair) {
         answered[i] = true;
         verdict.answers[i].outcome = Outcome::cluster;
       }
@@ -217,7 +219,7 @@ Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followe
   matching.answered.resize(draw.answers.size());
   matching.explained.resize(matching.hits.size());
   matching.match();
-  matching.pairs_of_folds();
+  matching.pairs_in_touches();
   matching.false_events();
   excuse(problem, draw, followed, matching.answered, verdict);
   return verdict;

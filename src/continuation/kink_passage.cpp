@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bordered_test.hpp"
 #include "kink_half_branches.hpp"
 #include "kink_rays.hpp"
 #include "springfold/continuation/locate.hpp"
@@ -56,11 +57,15 @@ Hit* open_family(const CurvePoint& from, Curve& curve) {
 
 /// Does lambda stand still along the step? On a short one its rate must vanish to rounding, or an
 /// inflection would do; not so where it has been seen to stand still.
-bool stands_still(const CurvePoint& from, const CurvePoint* middle, const CurvePoint& to,
-                  bool seen) {
+bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
+                  const CurvePoint& to, bool seen) {
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
-  return rate <= (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical);
+  if (rate > (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical)) return false;
+  Linearisation at;
+  constexpr double many = 100;  // what is told from rounding is no standstill
+  return seen || !linearise(walker.problem, from.x, from.lambda, from.piece, at) ||
+         rate <= many * rate_noise(extended_matrix(at, walker.weights, from.tangent));
 }
 
 /// Negative eigenvalues of dF/dx + tau tau^T: within a family tau is in the kernel of dF/dx, and this
@@ -330,7 +335,7 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
     curve.log.push_back(
         {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
   const bool seen = progress.flat || open_family(begin, curve) != nullptr;
-  if (stands_still(begin, inside ? &*middle : nullptr, end, seen))
+  if (stands_still(walker, begin, inside ? &*middle : nullptr, end, seen))
     return family_events(walker, begin, end, middle, events, curve);
   Beside from{begin}, to{end};
   if (progress.clear_of > begin.s) {

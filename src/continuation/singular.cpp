@@ -1,20 +1,51 @@
 #include "singular.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "watched_step.hpp"
 
 namespace springfold::continuation {
 namespace {
 
+/// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
+/// that has the samples' rates and leads from one sample's lambda to the next.
+bool may_turn(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+  const CurvePoint& from = *samples.front();
+  const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
+  Matrix A(n, n);
+  Vector right(n);
+  for (Index i = 0; i < m; ++i) {
+    const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
+    const double u = (p.s - from.s) / arc.length();
+    for (Index k = 0; k < n; ++k) {
+      const auto power = static_cast<double>(k);
+      A(i, k) = std::pow(u, power);
+      if (i > 0) A(m + i - 1, k) = std::pow(u, power + 1) / (power + 1);
+    }
+    right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
+    if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
+  }
+  const Vector c = A.partialPivLu().solve(right);
+  constexpr int parts = 24;
+  constexpr double far = 0.3;  // from zero, compared with the largest rate
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int i = 0; i <= parts; ++i) {
+    double rate = 0;
+    for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
+    low = std::min(low, rate);
+    high = std::max(high, rate);
+  }
+  return !(low > far * high && high > 0) && !(high < far * low && low < 0);
+}
+
 /// Zeros of lambda's rate.
 WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
-  std::vector<double> rates;
   double scale = 0;
-  for (const CurvePoint* p : samples) rates.push_back(p->tangent.dlambda);
-  for (const double r : rates) scale = std::max(scale, std::abs(r));
-  if (!arc.walker().options.limit_points || !within_reach(rates)) return {};
+  for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
+  if (!arc.walker().options.limit_points || !may_turn(arc, samples)) return {};
   const auto E = arc.matrix(*samples[samples.size() / 2]);
   const double noise = std::max(rounding * scale, E ? rate_noise(*E) : scale);
   if (scale <= noise) return {.resolved = false};  // lambda stands still to rounding

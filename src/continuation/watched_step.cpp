@@ -195,7 +195,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
   tangent.dx /= length;
   tangent.dlambda /= length;
-  result.multiplicity = static_cast<int>(m);
+  result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;
   result.turns = turns_at(arc, place.at);
