@@ -39,7 +39,8 @@
 // and mirrored unknowns and in other units (x and the metric scaled, F not); the events must be the
 // same to 1e-8. "close": draws with gaps below 1e-3 or separations below 1e-4.
 //
-// A touch has multiplicity two and may stand for two folds that lie closer than 1e-4 of the size.
+// A touch has multiplicity two and may stand for two folds or branch points closer than 1e-4 of the
+// size.
 // Places may be off by 1e-10 and by what rounding of dF/dq explains (from the eigenvalue's slope
 // between the stored points around); among others closer than 1e-4, by a tenth of their separation.
 //
