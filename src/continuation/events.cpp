@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chebyshev.hpp"
 #include "singular.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "zeros.hpp"
@@ -15,12 +16,40 @@ struct Found {
   bool stops = false;
 };
 
+/// The curve's point from its points around it, where none can be computed: at a branch point.
+std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePoint& from,
+                                             const CurvePoint& to, double ds) {
+  const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
+  const Index n = from.x.size();
+  const auto curve = interpolate(
+      [&](double t) -> std::optional<Vector> {
+        const auto p = point_between(walker, from, to, t);
+        if (!p) return std::nullopt;
+        Vector u(n + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+  if (!curve) return std::nullopt;
+  const Vector u = (*curve)(ds), rate = curve->slope(ds);
+  CurvePoint point = from;
+  point.x = u.head(n);
+  point.lambda = u[n];
+  point.tangent = {rate.head(n), rate[n]};
+  const double length = std::sqrt(metric_product(walker.weights, point.tangent, point.tangent));
+  point.tangent.dx /= length;
+  point.tangent.dlambda /= length;
+  point.negative.reset();
+  point.s = from.s + ds;
+  return point;
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& samples,
                     const Event& event, std::vector<Found>& found) {
-  const CurvePoint& from = *samples.front();
-  const double h = samples.back()->s - from.s;
+  const CurvePoint &from = *samples.front(), &to = *samples.back();
+  const double h = to.s - from.s;
   std::vector<double> values;
   double scale = 0;
   for (const CurvePoint* sample : samples) {
@@ -32,7 +61,7 @@ bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& 
   const auto value = [&](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
     if (ds == h) return values.back();
-    const auto point = point_at(walker, from, ds);
+    const auto point = point_between(walker, from, to, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   constexpr double rounding = 1e-14, resolution = 1e-9;
@@ -48,7 +77,8 @@ bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& 
   bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
     if (zero.touches || !(zero.at > begin)) continue;
-    auto point = point_at(walker, from, zero.at);
+    auto point = point_between(walker, from, to, zero.at);
+    if (!point) point = interpolated_point(walker, from, to, zero.at);
     if (!point) return false;
     at_end = at_end || zero.at == h;
     add(std::move(*point), zero.before, zero.after);

@@ -198,5 +198,22 @@ TEST(Ends, ExactlyAtTheEndOfAStepAreNotPassed) {
   EXPECT_EQ(curve.hits[0].point.lambda, 0.5);
 }
 
+TEST(UserEvent, BesideABranchPointIsOnItsOwnBranch) {
+  // The bent branch of a perfect strut: points beside theta = 0 are easily mistaken for straight ones.
+  const ScalarProblem perfect = strut(0);
+  for (double off = 1e-1; off > 1e-10; off /= 4)
+    for (const double theta : {off, -off}) {
+      std::vector<Event> events{{"wanted", [theta](const CurvePoint& p) { return p.x[0] - theta; }},
+                                x_reaches(1)};
+      const Curve curve = follow(perfect, at(-1, 1 / std::sin(1.0), 1, 0), events);
+      ASSERT_EQ(curve.stop, StopReason::event) << theta;
+      const auto found = hits_of(curve, HitKind::user);
+      ASSERT_EQ(found.size(), 2u) << theta;
+      EXPECT_NEAR(found[0].point.x[0], theta, 1e-10);
+      EXPECT_NEAR(found[0].point.lambda, theta / std::sin(theta), 1e-6) << theta;
+      EXPECT_EQ(hits_of(curve, HitKind::branch_point).size(), 1u) << theta;
+    }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

@@ -12,6 +12,12 @@ namespace springfold::continuation {
 /// A point of the curve at distance ds from `from` along its tangent, without judging the step.
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
 
+/// The same on a step whose end is known: predicted by the cubic through both ends and their tangents,
+/// so that beside a branch point the corrector stays on the curve.
+/// @returns nothing also where the tangent found is not that of the cubic: another branch's
+std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
+                                        const CurvePoint& to, double ds);
+
 /// A zero of `value` on the curve between step lengths a and b from `from`.
 struct Located {
   CurvePoint point{};
