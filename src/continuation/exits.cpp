@@ -199,6 +199,25 @@ Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& d
   return result;
 }
 
+/// Factors that bring the largest entry of every row and column near one.
+struct Equilibration {
+  Vector rows{}, columns{};
+};
+
+/// Stiff and soft members differ by many orders of magnitude; that alone makes nothing singular (Ruiz 2001).
+Equilibration equilibrate(Matrix A) {
+  Equilibration scale{Vector::Ones(A.rows()), Vector::Ones(A.cols())};
+  for (int i = 0; i < 8; ++i) {
+    const auto factor = [](double largest) { return largest > 0 ? 1 / std::sqrt(largest) : 1; };
+    const Vector r = A.rowwise().maxCoeff().unaryExpr(factor);
+    const Vector c = A.colwise().maxCoeff().transpose().unaryExpr(factor);
+    A = r.asDiagonal() * A * c.asDiagonal();
+    scale.rows.array() *= r.array();
+    scale.columns.array() *= c.array();
+  }
+  return scale;
+}
+
 }  // namespace
 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
@@ -223,16 +242,19 @@ int corank_of(const Walker& walker, const CurvePoint& at) {
   if (!J) return -1;
   const Index n = J->rows();
   if (n == 0) return 0;
-  const Vector values = Eigen::BDCSVD<Matrix>(*J).singularValues();
-  double size = values[0];
+  Matrix sizes = J->cwiseAbs();
   const Vector aside = Vector::LinSpaced(n + 1, 0.7, 1.3).normalized();
   for (const double h : {-0.1, 0.1})
     if (const auto other = scaled_jacobian(walker, U + h * aside, root, at.piece))
-      size = std::max(size, (*other - *J).norm());
+      sizes = sizes.cwiseMax(1e-2 * (*other - *J).cwiseAbs());
+  const Equilibration scale = equilibrate(sizes);
+  const Vector values =
+      Eigen::BDCSVD<Matrix>(scale.rows.asDiagonal() * *J * scale.columns.asDiagonal())
+          .singularValues();
   constexpr double gap = 30;
   for (Index i = 0; i < n; ++i) {
-    const double above = i > 0 ? values[i - 1] : size;
-    if (values[i] <= 1e-6 * size && values[i] * gap < above) return static_cast<int>(n - i);
+    const double above = i > 0 ? values[i - 1] : 1;
+    if (values[i] <= 1e-6 && values[i] * gap < above) return static_cast<int>(n - i);
   }
   return 0;
 }

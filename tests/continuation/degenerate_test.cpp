@@ -42,5 +42,34 @@ TEST(Diagram, OfAPitchforkOfFourthOrderIsWholeAndHasNoFlatPoints) {
   }
 }
 
+/// A mode that buckles at lambda = 1 and a member that is stiffer by far.
+struct StiffAndSlender {
+  double stiffness = 1e10;
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, Vector& F) const {
+    F = Vector{{(1 - lambda) * x[0] + std::pow(x[0], 3), stiffness * x[1] - lambda}};
+    return true;
+  }
+  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    dF_dx = Vector{{1 - lambda + 3 * x[0] * x[0], stiffness}}.asDiagonal();
+    dF_dlambda = Vector{{-x[0], -1}};
+    return true;
+  }
+};
+
+TEST(Corank, IsNotRaisedByMembersOfVeryDifferentStiffness) {
+  for (const double stiffness : {1.0, 1e4, 1e8, 1e10}) {
+    const StiffAndSlender problem{stiffness};
+    const Walker walker{problem, Vector::Ones(2), {}};
+    const auto corank_at = [&](double lambda) {
+      return corank_of(walker, {.x = Vector{{0, lambda / stiffness}}, .lambda = lambda});
+    };
+    EXPECT_EQ(corank_at(0), 0) << stiffness;
+    EXPECT_EQ(corank_at(0.99), 0) << stiffness;
+    EXPECT_EQ(corank_at(1), 1) << stiffness;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

@@ -43,9 +43,9 @@ struct Exits {
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank);
 
 /// Corank of [dF/dx dF/dlambda] at a point that is located to about 1e-9: how many of its singular
-/// values, in the metric, are separated from the others by a gap and below 1e-6 of its size. The size
-/// is that of the matrix here or a tenth away, whichever is larger: here all of it may vanish.
-/// -1 outside the domain.
+/// values are below 1e-6 and separated from the others by a gap, after rows and columns have been
+/// divided by their sizes. Sizes are those of the matrix here or a hundredth of its change within a
+/// tenth, whichever is larger: here all of it may vanish. -1 outside the domain.
 int corank_of(const Walker& walker, const CurvePoint& at);
 
 }  // namespace springfold::continuation
