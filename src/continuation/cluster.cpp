@@ -120,6 +120,8 @@ std::optional<Hit> cluster_on_step(const Walker& walker,
   const auto& point = arc.point(place);
   hit.point = point ? *point : arc.point(place + radius * half).value_or(to);
   hit.point.negative.reset();
+  hit.s_before = std::min(hit.s_before, hit.point.s);
+  hit.s_after = std::max(hit.s_after, hit.point.s);
   if (from.negative && to.negative && std::abs(*to.negative - *from.negative) > hit.multiplicity)
     return std::nullopt;
   return hit;

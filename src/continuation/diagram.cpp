@@ -215,8 +215,9 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
     return !reached;
   };
   const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
-  const Curve way_back = trace(walker_.problem, back.x, back.lambda, {back.piece, back.tangent}, {},
-                               near.trace, not_too_far, hit_on_the_way);
+  const Curve way_back =
+      trace_in_own_units(walker_.problem, back.x, back.lambda, {back.piece, back.tangent}, {},
+                         near.trace, not_too_far, hit_on_the_way);
   // A kink ends the trace by itself.
   if (!reached && !way_back.hits.empty()) reached = is_junction_itself(way_back.hits.back());
   if (!reached) {
@@ -280,9 +281,9 @@ void Tracer::follow(const Task& task) {
   depth_ = task.depth;
   diagram_.branches.push_back(
       {.start = task.start, .junction = task.junction, .depth = task.depth});
-  Curve curve =
-      trace(walker_.problem, task.from.x, task.from.lambda, {task.from.piece, task.from.tangent},
-            events_, options_.trace, observer_, [this](const Hit& hit) { return at_hit(hit); });
+  Curve curve = trace_in_own_units(walker_.problem, task.from.x, task.from.lambda,
+                                   {task.from.piece, task.from.tangent}, events_, options_.trace,
+                                   observer_, [this](const Hit& hit) { return at_hit(hit); });
   // A kink with several ways out ends the trace by itself.
   Branch& branch = diagram_.branches[static_cast<std::size_t>(current_)];
   branch.curve = std::move(curve);

@@ -1,6 +1,7 @@
 #include "normalised.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "springfold/continuation/newton.hpp"
@@ -17,7 +18,7 @@ double unit_of(double weight) {
 
 /// How far beside the start the equations are looked at as well: at the start itself all their
 /// derivatives may vanish.
-constexpr double beside = 1.0 / 128;
+constexpr std::array<double, 3> beside{0, 1.0 / 128, 1.0 / 8};
 
 }  // namespace
 
@@ -35,7 +36,7 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
 
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
   double largest = 0;
-  for (const double d : {0.0, beside}) {
+  for (const double d : beside) {
     Linearisation at;
     if (!linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
     const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();

@@ -63,4 +63,9 @@ class Normalised {
   bool trivial_ = true;
 };
 
+/// trace() without a change of units: for callers that have changed them already.
+Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                         const std::vector<Event>& events, const TraceOptions& options,
+                         const StepObserver& observer, const HitObserver& at_hit);
+
 }  // namespace springfold::continuation

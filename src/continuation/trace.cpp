@@ -279,9 +279,16 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
             const StepObserver& observer, const HitObserver& at_hit) {
   assert(problems_in(options).empty());
   const Normalised own(problem, x, lambda, start.piece);
-  if (!own.trivial())
-    return own.outside(trace(own, own.inside(x), lambda, own.inside(start), own.inside(events),
-                             options, own.inside(observer), own.inside(at_hit)));
+  if (own.trivial())
+    return trace_in_own_units(problem, x, lambda, start, events, options, observer, at_hit);
+  return own.outside(trace_in_own_units(own, own.inside(x), lambda, own.inside(start),
+                                        own.inside(events), options, own.inside(observer),
+                                        own.inside(at_hit)));
+}
+
+Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                         const std::vector<Event>& events, const TraceOptions& options,
+                         const StepObserver& observer, const HitObserver& at_hit) {
   const Walker walker{problem, problem.metric(), options};
   CurvePoint first;
   first.x = x;

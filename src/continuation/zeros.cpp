@@ -16,6 +16,7 @@ template <class Function>
 double bisect(Function g, double a, double b) {
   const double ga = g(a), gb = g(b);
   if (ga == 0 || gb == 0) return ga == 0 ? a : b;
+  if (!((ga < 0 && gb > 0) || (ga > 0 && gb < 0))) return 0.5 * (a + b);  // not a number
   std::uintmax_t most = 100;
   const auto close = [=](double l, double r) {
     return std::abs(r - l) <= 1e-15 * std::max(std::abs(l), std::abs(r));
@@ -92,6 +93,7 @@ class Search {
     if (!result.resolved) return;  // nothing that follows would be believed
     if (!fit.polynomial || ++examined_ > most_intervals) return give_up();
     const Interpolant& p = *fit.polynomial;
+    if (!p.values.allFinite() || !std::isfinite(fit.error)) return give_up();
     const double scale = p.values.cwiseAbs().maxCoeff(), least = p.values.cwiseAbs().minCoeff();
     // Zero all along: a family, not a point; or a point too flat to be resolved.
     if (scale <= noise_) return depth > 0 ? give_up() : void();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace springfold::continuation {
 namespace {
@@ -32,6 +33,15 @@ TEST(Zeros, OfNoiseAreGivenUpSoon) {
   };
   EXPECT_FALSE(find_zeros(noise, 0, 1, 1e-6, 1e-7).resolved);
   EXPECT_LT(asked, 10000);
+}
+
+TEST(Zeros, OfAFunctionThatIsNotANumberSomewhereAreGivenUp) {
+  for (const double from : {0.05, 0.3, 0.62}) {
+    const auto f = [from](double t) -> std::optional<double> {
+      return t > from && t < from + 0.3 ? std::numeric_limits<double>::quiet_NaN() : t - 0.45;
+    };
+    EXPECT_FALSE(find_zeros(f, 0, 1, 1e-13, 1e-7).resolved) << from;
+  }
 }
 
 TEST(Zeros, OfAFunctionBelowTheNoiseAreNone) {
