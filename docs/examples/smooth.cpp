@@ -33,7 +33,7 @@ continuation::Event stop_at(double lambda) {
 int main() {
   const TwoModes modes;
   const auto diagram = continuation::trace_diagram(modes, {{.x = Vector::Zero(2), .lambda = 0.5}},
-                                                   {stop_at(0), stop_at(2)}, {});
+                                                   {stop_at(0.1), stop_at(2)}, {});
   for (const auto& junction : diagram.junctions)
     std::printf("lambda = %.9f: corank %d, %zu ways\n", junction.point.lambda,
                 junction.multiplicity, junction.ways.size());
