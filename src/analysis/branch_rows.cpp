@@ -200,6 +200,19 @@ std::optional<std::string> singular_chain(const Entry& before, const Entry& entr
   return std::nullopt;
 }
 
+/// From where on closures that were taken as redundant contradict each other.
+void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& evaluator,
+                           Branch& branch) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (evaluator.closure_gap(entries[i].point) <= allowed_closure_gap) continue;
+    const std::string row = std::to_string(i);
+    branch.forward = {"closures that were redundant at the start contradict each other at row " +
+                          row + ": the chains do not fit there; " + branch.forward.reason,
+                      false};
+    return;
+  }
+}
+
 }  // namespace
 
 std::string piece_text(const statics::System& system, const Piece& piece) {
@@ -294,6 +307,7 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
     branch.events.insert(before,
                          end_event(entries.back(), end, branch.forward, evaluator, quantities));
   }
+  refuse_contradictions(entries, evaluator, branch);
   append_log(backward, -1, branch.log);
   append_log(forward, 1, branch.log);
   return rows;

@@ -56,11 +56,8 @@ bool same_equilibrium(const statics::System& system, const Vector& a, const Vect
 double potential_of(const PathProblem& problem, const Vector& z) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return std::numeric_limits<double>::quiet_NaN();
-  double potential = spring_energy(system, z);
-  const Vector W = problem.inputs(0).W;
-  for (const auto& slice : system.body_slices)
-    potential -= W.segment(slice.W, slice.count).dot(z.segment(slice.t, slice.count));
-  return potential;
+  const statics::Inputs inputs = problem.inputs(0);
+  return spring_energy(system, z, inputs.rho) + load_potential(system, z, inputs);
 }
 
 /// Lowest potential first; rounding does not decide.

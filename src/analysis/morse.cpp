@@ -162,6 +162,8 @@ MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEqui
                        const std::vector<CountedEquilibrium>& distinct) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return does_not_apply("the load has no potential");
+  if (!problem.system(0).loads.empty() || !problem.system(0).line_springs.empty())
+    return does_not_apply("weights, loads at points and line springs are not counted");
   if (system.mechanism.bodies.size() != 1)
     return does_not_apply(
         "there are several bodies: the Euler characteristic of their "

@@ -127,7 +127,8 @@ const statics::System& PathProblem::turned_to_pose(const Vector& y, double lambd
 
 statics::Inputs PathProblem::inputs(double lambda) const {
   statics::Inputs in{rule_.rho_start + lambda * rule_.rho_rate,
-                     rule_.W_start + lambda * rule_.W_rate};
+                     rule_.W_start + lambda * rule_.W_rate,
+                     rule_.load_start + lambda * rule_.load_rate};
   if (rule_.family) {
     in.rho = system(lambda).commands;
     in.W = family_->second;
@@ -253,7 +254,7 @@ bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece
       auto [system, W] = rule_.family(l);
       if (!rotations_.empty()) turn_frames(statics::System{system}, frames(y), system);
       Vector r;
-      if (!equilibrium_residual(system, piece, z, {system.commands, W}, work_, r))
+      if (!equilibrium_residual(system, piece, z, {system.commands, W, rule_.load_start}, work_, r))
         return std::nullopt;
       return r;
     };
@@ -263,6 +264,8 @@ bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece
   } else {
     rate = A_.middleCols(t_, d_) * rule_.t_rate + dR_drho_ * rule_.rho_rate;
     if (!rule_.W_rate.isZero(0)) rate += load_columns(present, z) * rule_.W_rate;
+    if (!rule_.load_rate.isZero(0))
+      rate += statics::load_rate(present, z, inputs(lambda).rho, rule_.load_rate);
   }
   if (rotations_.empty()) {
     dF_dy = plain;

@@ -13,7 +13,7 @@ namespace springfold::analysis {
 /// What lambda does. The pose t of one body, the commands and the loads are
 ///
 ///     t = t_start + lambda t_rate + N y_t,   rho = rho_start + lambda rho_rate,
-///     W = W_start + lambda W_rate,
+///     W = W_start + lambda W_rate,   factors of loads = load_start + lambda load_rate,
 ///
 /// where y_t are the pose coordinates that stay free (all for load control, none for pose control).
 struct PathRule {
@@ -22,11 +22,12 @@ struct PathRule {
   Matrix N{};  ///< d x (free pose coordinates), orthonormal columns
   Vector rho_start{}, rho_rate{};
   Vector W_start{}, W_rate{};
+  Vector load_start{}, load_rate{};  ///< factors of the mechanism's loads
   /// Control mode parameter: system and load as functions of lambda; otherwise empty.
   std::function<std::pair<statics::System, Vector>(double)> family{};
   double family_step = 0x1p-8;  ///< difference step in lambda for the derivative by the parameter
   bool quaternions = true;  ///< for free rotations of spatial bodies, instead of rotation vectors
-  bool symmetric = true;    ///< no external moments on spatial bodies
+  bool symmetric = true;    ///< all loads have a potential
   double length = 1;        ///< unit of lengths, for the names of switches
 };
 

@@ -1,18 +1,14 @@
 #include "quantities.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "resting.hpp"
-#include "start.hpp"
+#include "setup.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 using Kind = QuantityDefinition::Kind;
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 bool along_translation(const Vector& direction, Index lengths) {
   return direction.size() > 0 && !direction.head(lengths).isZero(0);
@@ -21,6 +17,43 @@ bool along_translation(const Vector& direction, Index lengths) {
 bool has_force(ControlMode control) {
   return control == ControlMode::load || control == ControlMode::pose ||
          control == ControlMode::mixed;
+}
+
+/// Positions of named points of chains, lengths and forces of line springs.
+void add_points(const statics::System& system, const Scales& scales,
+                std::vector<QuantityDefinition>& list) {
+  const auto& bodies = system.mechanism.bodies;
+  const bool is_planar = std::all_of(bodies.begin(), bodies.end(), [](const model::Body& body) {
+    return translations(body.task_space) == 2;
+  });
+  for (std::size_t i = 0; i < system.points.size(); ++i) {
+    if (system.points[i].name.empty()) continue;
+    for (Index axis = 0; axis < (is_planar ? 2 : 3); ++axis)
+      list.push_back({Kind::point, 3 * static_cast<Index>(i) + axis,
+                      system.points[i].name + "." + "xyz"[axis], Unit::length, scales.length});
+  }
+  for (std::size_t i = 0; i < system.line_springs.size(); ++i) {
+    const std::string& name = system.mechanism.line_springs[i].name;
+    const auto entry = static_cast<Index>(i);
+    list.push_back({Kind::spring_length, entry, name + ".length", Unit::length, scales.length});
+    list.push_back({Kind::spring_force, entry, name + ".force", Unit::force, scales.force});
+  }
+}
+
+/// Loads without potential: eigenvalues and determinant of the tangent stiffness in place of counts.
+void add_tangents(const statics::System& system, const Scales& scales,
+                  std::vector<QuantityDefinition>& list) {
+  const double stiffness = scales.force / scales.length;
+  for (Index i = 0; i < 3; ++i)
+    list.push_back(
+        {Kind::tangent_eigenvalue, i, "T_eig" + std::to_string(i + 1), Unit::stiffness, stiffness});
+  for (Index i = 0; i < 3; ++i)
+    list.push_back(
+        {Kind::tangent_imaginary, i, "T_imag" + std::to_string(i + 1), Unit::stiffness, stiffness});
+  // Row i of the matrix is an energy per unknown i, column j again per unknown j.
+  double scale = 1;
+  for (const double unit : unknown_scales(system, scales)) scale *= scales.moment() / (unit * unit);
+  list.push_back({Kind::tangent_determinant, 0, "T_det", Unit::none, scale});
 }
 
 }  // namespace
@@ -33,7 +66,13 @@ bool is_continuous(const QuantityDefinition& q) {
     case Kind::unknown:
     case Kind::command:
     case Kind::energy:
+    case Kind::point:
+    case Kind::spring_length:
+    case Kind::spring_force:
       return true;
+    case Kind::tangent_eigenvalue:
+    case Kind::tangent_imaginary:
+    case Kind::tangent_determinant:
     case Kind::arc_length:
     case Kind::stiffness:
     case Kind::eigenvalue:
@@ -69,6 +108,7 @@ Unit lambda_unit_of(const Study& study, const statics::System& system) {
   const bool moves = along_translation(study.direction, lengths);
   switch (study.control) {
     case ControlMode::load:
+      if (study.direction.size() == 0) return Unit::none;  // a factor of the loads
       return moves ? Unit::force : Unit::moment;
     case ControlMode::pose:
     case ControlMode::mixed:
@@ -124,227 +164,15 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
   }
   for (Index i = 0; i < system.first_pose; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) add_unknown(i);
+  add_points(system, scales, list);
   for (Index i = 0; i < std::min<Index>(3, system.load_size); ++i)
     list.push_back({Kind::eigenvalue, i, "K_eig" + std::to_string(i + 1), Unit::stiffness,
                     scales.force / scales.length});
   list.push_back({Kind::index_pose, 0, "index_pose", Unit::none, 1});
   list.push_back({Kind::index_force, 0, "index_force", Unit::none, 1});
   list.push_back({Kind::index, 0, "index", Unit::none, 1});
+  if (!non_conservative_loads(system.mechanism, study).empty()) add_tangents(system, scales, list);
   list.push_back({Kind::energy, 0, "energy", Unit::energy, scales.moment()});
-  return list;
-}
-
-Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scales& scales)
-    : problem_{problem}, control_{study.control}, scales_{scales} {
-  const auto body = static_cast<std::size_t>(study.body - 1);
-  const statics::System& system = problem.layout();
-  first_pose_ = system.first_pose;
-  t_ = system.body_slices[body].t;
-  d_ = system.body_slices[body].count;
-  measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
-  conjugate_ = problem.rule().t_rate;
-  if (!conjugate_.isZero(0)) {
-    // t_rate carries lambda's scale; the force goes with a unit displacement.
-    conjugate_ /= measured_.dot(conjugate_);
-  }
-}
-
-/// What the drive adds to the constant load, along the direction.
-double Evaluator::force(const continuation::CurvePoint& point) const {
-  if (control_ == ControlMode::load) {
-    const double unit = measured_.dot(problem_.rule().W_rate);
-    return point.lambda * unit;
-  }
-  statics::Workspace work;
-  Vector r;
-  equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
-                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
-                       r);
-  return conjugate_.dot(r.segment(t_, d_));
-}
-
-double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
-                        const Turns* turns) const {
-  switch (q.kind) {
-    case Kind::arc_length:
-      return point.s;
-    case Kind::lambda:
-      return q.scale * point.lambda;
-    case Kind::deflection:
-      return q.scale * measured_.dot(problem_.expand(point.x, point.lambda, turns).segment(t_, d_) -
-                                     problem_.rule().t_start);
-    case Kind::force:
-      return q.scale * force(point);
-    case Kind::unknown:
-      if (q.entry < first_pose_) return q.scale * point.x[q.entry];
-      return q.scale * problem_.expand(point.x, point.lambda, turns)[q.entry];
-    case Kind::command:
-      return q.scale * problem_.inputs(point.lambda).rho[q.entry];
-    case Kind::energy:
-      return q.scale *
-             spring_energy(problem_.system(point.lambda), problem_.expand(point.x, point.lambda));
-    case Kind::index:
-      return point.negative ? static_cast<double>(*point.negative - problem_.closures())
-                            : undefined;
-    case Kind::stiffness:
-    case Kind::eigenvalue:
-    case Kind::index_pose:
-    case Kind::index_force: {
-      const auto at = assemble(point);
-      return at ? from_matrix(q, point, *at, turns) : undefined;
-    }
-  }
-  return undefined;
-}
-
-std::optional<Evaluator::Assembled> Evaluator::assemble(
-    const continuation::CurvePoint& point) const {
-  Assembled at;
-  const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
-  Vector r;
-  if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, r,
-                          at.A))
-    return std::nullopt;
-  at.platform = statics::platform_stiffness(system, at.A);
-  if (problem_.symmetric())
-    at.stability = statics::stability(system, at.A);
-  else
-    at.platform.eigenvalues.resize(0);  // counts and signs mean nothing without a potential
-  return at;
-}
-
-double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::CurvePoint& point,
-                              const Assembled& at, const Turns* turns) const {
-  const auto count = [](const std::optional<Index>& n) {
-    return n ? static_cast<double>(*n) : undefined;
-  };
-  switch (q.kind) {
-    case Kind::stiffness: {
-      if (at.platform.K.size() == 0) return undefined;
-      const Index first = t_ - problem_.system(point.lambda).first_pose;
-      return q.scale * measured_.dot(at.platform.K.block(first, first, d_, d_) * measured_);
-    }
-    case Kind::eigenvalue:
-      return q.entry < at.platform.eigenvalues.size() &&
-                     std::isfinite(at.platform.eigenvalues[q.entry])
-                 ? q.scale * at.platform.eigenvalues[q.entry]
-                 : undefined;
-    case Kind::index_pose:
-      return count(at.stability.pose_controlled);
-    case Kind::index_force:
-      return count(at.stability.force_controlled);
-    default:
-      return value(q, point, turns);
-  }
-}
-
-std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
-                                      const continuation::CurvePoint& point,
-                                      const Turns* turns) const {
-  const auto at = assemble(point);
-  std::vector<double> values;
-  values.reserve(quantities.size());
-  for (const QuantityDefinition& q : quantities)
-    values.push_back(at ? from_matrix(q, point, *at, turns) : undefined);
-  raise_indices(quantities, point, values);
-  return values;
-}
-
-void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
-                              const continuation::CurvePoint& point,
-                              std::vector<double>& values) const {
-  for (Piece& piece : pieces_around(problem_, point)) {
-    if (piece == point.piece) continue;
-    continuation::CurvePoint beside = point;
-    beside.piece = std::move(piece);
-    beside.negative.reset();
-    count_negative(problem_, beside);
-    const auto at = assemble(beside);
-    for (std::size_t i = 0; at && i < quantities.size(); ++i) {
-      const Kind kind = quantities[i].kind;
-      if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
-        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, nullptr));
-    }
-  }
-}
-
-std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quantities,
-                                     const continuation::CurvePoint& point,
-                                     const Turns* turns) const {
-  const double dlambda = point.tangent.dlambda;
-  const Vector dz = problem_.expand_rate(point.x, point.tangent.dx, dlambda, turns);
-  std::vector<double> rates;
-  for (const QuantityDefinition& q : quantities) {
-    double rate = undefined;
-    if (q.kind == Kind::arc_length) rate = 1;
-    if (q.kind == Kind::lambda) rate = dlambda;
-    if (q.kind == Kind::deflection) rate = measured_.dot(dz.segment(t_, d_));
-    if (q.kind == Kind::unknown) rate = dz[q.entry];
-    if (q.kind == Kind::command && !problem_.rule().family)
-      rate = dlambda * problem_.rule().rho_rate[q.entry];
-    if (q.kind == Kind::force) rate = force_rate(point);
-
-    rates.push_back(q.scale * rate);
-  }
-  return rates;
-}
-
-double Evaluator::force_rate(const continuation::CurvePoint& point) const {
-  const double dlambda = point.tangent.dlambda;
-  if (control_ == ControlMode::load) return dlambda * measured_.dot(problem_.rule().W_rate);
-  statics::Workspace work;
-  Vector r;
-  Matrix A;
-  if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
-                          problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
-                          work, r, A))
-    return undefined;
-  const Matrix rows = A.middleRows(t_, d_);
-  const Vector dz = problem_.local_rate(point.x, point.tangent.dx, dlambda);
-  const double rate = conjugate_.dot(rows * dz);
-  return std::abs(rate) > 1e-14 * rows.norm() ? rate : 0;
-}
-
-Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
-  if (!at || at->platform.K.size() == 0) return {};
-  const statics::System& system = problem_.system(point.lambda);
-  Vector pose(system.load_size), wrench(system.load_size);
-  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
-    const model::TaskSpace space = system.mechanism.bodies[b].task_space;
-    pose.segment(system.body_slices[b].W, system.body_slices[b].count) =
-        pose_scales(space, scales_);
-    wrench.segment(system.body_slices[b].W, system.body_slices[b].count) =
-        wrench_scales(space, scales_);
-  }
-  return wrench.asDiagonal() * in_world_axes(system, at->z, at->platform.K) *
-         pose.cwiseInverse().asDiagonal();
-}
-
-std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
-  if (!at) return {};
-  std::vector<Index> ranks;
-  for (const statics::ChainSlice& slice : problem_.system(point.lambda).chain_slices) {
-    const Matrix J = at->A.block(slice.F, slice.x, slice.F_count, slice.x_count);
-    const Vector values = J.jacobiSvd().singularValues();
-    ranks.push_back((values.array() > 1e-7 * std::max(1.0, J.norm())).count());
-  }
-  return ranks;
-}
-
-std::vector<Matrix> Evaluator::chain_stiffnesses(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
-  if (!at) return {};
-  const statics::System& system = problem_.system(point.lambda);
-  std::vector<Matrix> list;
-  for (std::size_t i = 0; i < system.chains.size(); ++i) {
-    const model::TaskSpace space = system.chains[i].space;
-    const auto K = statics::chain_stiffness(system, i, at->A, at->work);
-    list.push_back(K ? Matrix(wrench_scales(space, scales_).asDiagonal() * *K *
-                              pose_scales(space, scales_).cwiseInverse().asDiagonal())
-                     : Matrix());
-  }
   return list;
 }
 

@@ -28,6 +28,12 @@ struct QuantityDefinition {
     index_force,
     index,  ///< of the study's control mode
     energy,
+    point,                ///< entry / 3: which of the system's points; entry % 3: its x, y or z
+    spring_length,        ///< of a line spring
+    spring_force,         ///< with which a line spring pulls
+    tangent_eigenvalue,   ///< of the reduced tangent stiffness, loads without potential: real part
+    tangent_imaginary,    ///< imaginary part
+    tangent_determinant,  ///< zero at critical states
   };
   Kind kind = Kind::lambda;
   Index entry = 0;  ///< unknown, command, eigenvalue: which one
@@ -52,6 +58,9 @@ Unit lambda_unit_of(const Study& study, const statics::System& system);
 /// The part of the direction along which deflection and stiffness are measured: its translation,
 /// or, if that is zero, its rotation; the rest set to zero.
 Vector measured_direction(const Study& study, model::TaskSpace space);
+
+/// Gap in redundant closures above which a state is no equilibrium of the mechanism [-].
+inline constexpr double allowed_closure_gap = 1e-9;
 
 /// Evaluates quantities at points of one path. Dimensionless inside, physical values out.
 class Evaluator {
@@ -78,8 +87,14 @@ class Evaluator {
   /// d(force)/ds along the branch, dimensionless; zero if it is below rounding.
   double force_rate(const continuation::CurvePoint& point) const;
 
-  /// K_Sigma at a point, physical units, world axes; empty if undefined.
+  /// Stiffness of the study's body, all others free (K_Sigma where it is the only one), physical
+  /// units, world axes; empty if undefined.
   Matrix platform_stiffness(const continuation::CurvePoint& point) const;
+  /// Eigenvalues of the reduced tangent stiffness, real and imaginary parts [force/length].
+  std::vector<std::pair<double, double>> tangent_eigenvalues(
+      const continuation::CurvePoint& point) const;
+  /// How far the closures that were taken as redundant are violated [-].
+  double closure_gap(const continuation::CurvePoint& point) const;
   /// Rank of the closure of every chain in its own coordinates; empty where it is not defined.
   std::vector<Index> closure_ranks(const continuation::CurvePoint& point) const;
   /// K_ci of all chains, paper eq. (12); empty matrices where undefined.
@@ -90,6 +105,9 @@ class Evaluator {
     Vector z{};
     Matrix A{};
     statics::PlatformStiffness platform{};
+    Matrix body{};
+    std::vector<std::pair<double, double>> tangent{};
+    double determinant = 0;
     statics::Stability stability{};
     statics::Workspace work{};
   };
@@ -98,6 +116,7 @@ class Evaluator {
   /// Where springs rest at their threshold: the largest numbers of unstable modes of all sides.
   void raise_indices(const std::vector<QuantityDefinition>& quantities,
                      const continuation::CurvePoint& point, std::vector<double>& values) const;
+  double load_rate() const;  ///< of the study's wrench along the direction
   double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                      const Assembled& at, const Turns* turns) const;
 

@@ -111,8 +111,46 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
 void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
   const Vector extra = (first.inputs.W - setup.rule.W_start).segment(body.W, body.count);
-  setup.rule.W_start.segment(body.W, body.count) +=
-      setup.rule.N * (setup.rule.N.transpose() * extra);
+  const Vector held = setup.rule.N * (setup.rule.N.transpose() * extra);
+  setup.rule.W_start.segment(body.W, body.count) += held;
+  const bool is_spatial =
+      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space ==
+      model::TaskSpace::spatial;
+  if (is_spatial && held.tail(3).lpNorm<Eigen::Infinity>() > 1e-12 * held.norm())
+    setup.rule.symmetric = false;  // a moment about fixed axes holds it
+}
+
+void report_tangent(const Evaluator& evaluator, const Scales& scales, const CurvePoint& start,
+                    StartReport& report) {
+  report.tangent = evaluator.tangent_eigenvalues(start);
+  double largest = scales.force / scales.length;  // the mechanism's own scale of stiffness
+  for (const auto& [real, imaginary] : report.tangent)
+    largest = std::max(largest, std::hypot(real, imaginary));
+  report.zero_modes = static_cast<int>(
+      std::count_if(report.tangent.begin(), report.tangent.end(), [largest](const auto& value) {
+        return std::hypot(value.first, value.second) <= 1e-11 * largest;
+      }));
+}
+
+/// The start violates closures that were taken as redundant.
+void refuse_contradiction(const Evaluator& evaluator, const CurvePoint& start,
+                          StartReport& report) {
+  if (evaluator.closure_gap(start) <= allowed_closure_gap) return;
+  report.found = false;
+  report.message =
+      "the redundant closures contradict each other under this load: a rigid mechanism "
+      "would have to give way; give one of the chains an elasticity";
+}
+
+RedundantClosures redundant_closures(const Setup& setup) {
+  const statics::Redundancy& from = setup.redundancy;
+  RedundantClosures to{.count = static_cast<int>(from.count),
+                       .of = static_cast<int>(setup.system.closure_count())};
+  for (const std::size_t chain : from.chains)
+    to.chains.push_back(setup.system.mechanism.chains[chain].name);
+  to.smallest_kept = from.smallest_kept;
+  to.largest_dropped = from.largest_dropped;
+  return to;
 }
 
 }  // namespace
@@ -133,7 +171,9 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
   for (const QuantityDefinition& q : quantities) result.quantities.push_back({q.name, q.unit});
 
+  result.non_conservative = non_conservative_loads(mechanism, study);
   const statics::FirstEquilibrium first = find_start(setup, study, result.start);
+  result.start.redundant = redundant_closures(setup);
   if (study.kind == StudyKind::equilibria) {
     setup.rule.t_start = Vector::Zero(setup.rule.t_rate.size());
     setup.rule.rho_start = first.inputs.rho;
@@ -151,6 +191,9 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
     start.lambda = setup.lambda_start;
     start.piece = first.piece;
     count_negative(problem, start);
+    refuse_contradiction(evaluator, start, result.start);
+    if (!result.start.found) return result;
+    report_tangent(evaluator, setup.scales, start, result.start);
     result.start.stiffness = evaluator.platform_stiffness(start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
     if (study.kind == StudyKind::equilibrium)

@@ -31,9 +31,23 @@ bool slides(const model::Chain& chain, const model::CoupledSpring& spring, std::
   return std::get<Joint>(chain.elements[spring.elements[i]]).kind == JointKind::prismatic;
 }
 
+/// Lengths of points, loads and line springs.
+template <class Visit>
+void for_each_point_length(const model::Mechanism& mechanism, const Visit& visit) {
+  for (const model::Body& body : mechanism.bodies)
+    if (body.mass != 0) visit(body.centre.norm());
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::ChainPoint& point : chain.points) visit(point.at.norm());
+  for (const model::Load& load : mechanism.loads) visit(load.on.at.norm());
+  for (const model::LineSpring& spring : mechanism.line_springs)
+    for (const double length : {spring.from.at.norm(), spring.to.at.norm(), spring.free})
+      visit(length);
+}
+
 double largest_length(const model::Mechanism& mechanism) {
   double largest = 0;
   const auto add = [&largest](double length) { largest = std::max(largest, std::abs(length)); };
+  for_each_point_length(mechanism, add);
   for (const model::Body& body : mechanism.bodies)
     for (Index i = 0; i < model::translations(body.task_space); ++i) add(body.pose[i]);
   for (const model::Chain& chain : mechanism.chains) {
@@ -88,6 +102,20 @@ model::SpringLaw scaled(const model::SpringLaw& law, double coordinate, double t
   return std::visit(Visitor{coordinate, torque}, law);
 }
 
+/// Sizes of loads and weights as forces: they set the scale where there is no spring.
+std::vector<double> load_forces(const model::Mechanism& mechanism, double length) {
+  std::vector<double> forces;
+  for (const model::Load& load : mechanism.loads)
+    forces.push_back(load.vector.norm() / (load.kind == model::LoadKind::force ? 1 : length));
+  const double gravity = mechanism.gravity.norm();
+  for (const model::Body& body : mechanism.bodies) forces.push_back(std::abs(body.mass) * gravity);
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::ChainPoint& point : chain.points)
+      forces.push_back(std::abs(point.mass) * gravity);
+  std::erase(forces, 0.0);
+  return forces;
+}
+
 }  // namespace
 
 Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load) {
@@ -108,6 +136,9 @@ Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load
         if (k > 0)
           forces.push_back(slides(chain, spring, i) ? k * scales.length : k / scales.length);
       }
+  for (const model::LineSpring& spring : mechanism.line_springs)
+    if (spring.stiffness > 0) forces.push_back(spring.stiffness * scales.length);
+  if (forces.empty()) forces = load_forces(mechanism, scales.length);
   if (forces.empty() && constant_load.size() > 0) forces.push_back(constant_load.norm());
   if (forces.empty()) return scales;
   const auto middle = forces.begin() + static_cast<std::ptrdiff_t>((forces.size() - 1) / 2);
@@ -138,6 +169,18 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
     }
     for (model::CoupledSpring& spring : chain.coupled_springs)
       make_dimensionless(chain, scales, spring);
+    for (model::ChainPoint& point : chain.points) point.at /= scales.length;
+  }
+  m.gravity /= scales.force;
+  for (model::Body& body : m.bodies) body.centre /= scales.length;
+  for (model::Load& load : m.loads) {
+    load.on.at /= scales.length;
+    load.vector /= load.kind == model::LoadKind::force ? scales.force : scales.moment();
+  }
+  for (model::LineSpring& spring : m.line_springs) {
+    for (model::Anchor* end : {&spring.from, &spring.to}) end->at /= scales.length;
+    spring.stiffness *= scales.length / scales.force;
+    spring.free /= scales.length;
   }
   return m;
 }

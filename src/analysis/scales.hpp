@@ -14,7 +14,7 @@ struct Scales {
 };
 
 /// Length: the largest length in the mechanism; force: the median spring stiffness times it (the
-/// constant load's size where there is no spring).
+/// median size of loads and weights, then the constant load's, where there is no spring).
 Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load);
 
 /// The mechanism with lengths / scales.length and forces / scales.force.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "quantities.hpp"
+#include "spring_origins.hpp"
 #include "springfold/core/scaling.hpp"
 
 namespace springfold::analysis {
@@ -34,6 +35,27 @@ double lambda_scale_for(const Vector& rate, const Vector& units) {
   return 1 / power_of_two_near(rate.cwiseQuotient(units).lpNorm<Eigen::Infinity>());
 }
 
+/// Loads that grow with lambda, each in units of the scales: the largest entry of any.
+double largest_load_rate(const model::Mechanism& dimensionless) {
+  double largest = 0;
+  for (const model::Load& load : dimensionless.loads)
+    if (load.with_lambda) largest = std::max(largest, load.vector.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+/// Factors of the mechanism's loads, constant part and rate.
+void set_load_factors(Setup& setup) {
+  const auto& loads = setup.system.mechanism.loads;
+  const auto n = static_cast<Index>(loads.size());
+  setup.rule.load_start = Vector::Ones(n);
+  setup.rule.load_rate = Vector::Zero(n);
+  for (Index i = 0; i < n; ++i)
+    if (loads[static_cast<std::size_t>(i)].with_lambda) {
+      setup.rule.load_start[i] = 0;
+      setup.rule.load_rate[i] = setup.lambda_scale;
+    }
+}
+
 Vector body_load(const statics::System& system, const Study& study, const Vector& load,
                  const Scales& scales) {
   Vector W = Vector::Zero(system.load_size);
@@ -54,7 +76,8 @@ double parameter_scale(const Study& study, double start) {
   return power_of_two_near(size);
 }
 
-void set_control(const Study& study, const ParameterFamily* family, Setup& setup) {
+void set_control(const Study& study, const ParameterFamily* family, const Origins& origins,
+                 Setup& setup) {
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
   const Index d = dimension(space);
@@ -65,7 +88,11 @@ void set_control(const Study& study, const ParameterFamily* family, Setup& setup
   switch (study.control) {
     case ControlMode::load: {
       const Vector units = wrench_scales(space, setup.scales);
-      setup.lambda_scale = lambda_scale_for(study.direction, units);
+      double largest = largest_load_rate(setup.system.mechanism);
+      if (study.direction.size() > 0)
+        largest = std::max(largest, study.direction.cwiseQuotient(units).lpNorm<Eigen::Infinity>());
+      setup.lambda_scale = 1 / power_of_two_near(largest);
+      if (study.direction.size() == 0) break;
       rule.W_rate.segment(setup.system.body_slices[b].W, d) =
           study.direction.cwiseQuotient(units) * setup.lambda_scale;
       break;
@@ -95,9 +122,12 @@ void set_control(const Study& study, const ParameterFamily* family, Setup& setup
       setup.lambda_start = family->value / setup.lambda_scale;
       const Scales scales = setup.scales;
       const double unit = setup.lambda_scale;
-      rule.family = [family, study, scales, unit](double lambda) {
+      const Index redundant = setup.system.redundant;
+      rule.family = [family, study, scales, unit, redundant, origins](double lambda) {
         const Situation now = family->at(unit * lambda);
-        statics::System system = statics::prepare(dimensionless(now.mechanism, scales));
+        statics::System system =
+            statics::prepare(with_origins(dimensionless(now.mechanism, scales), origins));
+        system.redundant = redundant;
         Vector W = body_load(system, study, now.constant_load, scales);
         return std::pair{std::move(system), std::move(W)};
       };
@@ -108,17 +138,49 @@ void set_control(const Study& study, const ParameterFamily* family, Setup& setup
 
 }  // namespace
 
+std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanism,
+                                                const Study& study) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
+    model::Load load = mechanism.loads[i];
+    // A parameter may make a load of what is zero at the start.
+    if (study.control == ControlMode::parameter && load.vector.isZero(0)) load.vector.setOnes();
+    if (is_conservative(mechanism, load)) continue;
+    const std::string kind = load.kind == model::LoadKind::force ? "force" : "moment";
+    list.push_back((load.follows ? "follower " : "fixed-axis ") + kind + " " +
+                   (load.name.empty() ? std::to_string(i + 1) : load.name));
+  }
+  const auto body = static_cast<std::size_t>(study.body - 1);
+  if (mechanism.bodies[body].task_space != model::TaskSpace::spatial) return list;
+  const bool drives = study.kind == StudyKind::force_deflection &&
+                      study.control == ControlMode::load && study.direction.size() > 0 &&
+                      !study.direction.tail(3).isZero(0);
+  const bool loads = study.constant_load.size() > 0 && !study.constant_load.tail(3).isZero(0);
+  if (drives || loads) list.push_back("fixed-axis moment on " + mechanism.bodies[body].name);
+  return list;
+}
+
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family) {
   Setup setup;
   setup.scales = scales_for(mechanism, study.constant_load);
   setup.system = statics::prepare(dimensionless(mechanism, setup.scales));
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
+  Vector z = statics::guess(setup.system);
+  if (study.start.pose.size() > 0)
+    z.segment(setup.system.body_slices[b].t, dimension(space)) =
+        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
+  auto origins = spring_origins(setup.system.mechanism, study, setup.system, z);
+  setup.origins_found = origins.has_value();
+  if (!origins) origins = Origins{};
+  setup.system = statics::prepare(with_origins(setup.system.mechanism, *origins));
+  setup.redundancy = statics::redundant_closures(setup.system, z, setup.system.commands);
+  setup.system.redundant = setup.redundancy.count;
   setup.rule.body = study.body;
   setup.rule.length = setup.scales.length;
   setup.rule.W_start = body_load(setup.system, study, study.constant_load, setup.scales);
   if (study.kind == StudyKind::force_deflection) {
-    set_control(study, family, setup);
+    set_control(study, family, *origins, setup);
   } else {
     setup.rule.t_rate = Vector::Zero(dimension(space));
     setup.rule.rho_rate = Vector::Zero(setup.system.commands.size());
@@ -128,10 +190,8 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
   const ControlMode free = traces ? study.control : ControlMode::load;
   setup.rule.N = free_directions(free, study.direction, prescribed_coordinates(study, space),
                                  dimension(space));
-  if (space == model::TaskSpace::spatial)
-    for (const Vector* load : {&setup.rule.W_start, &setup.rule.W_rate})
-      if (!load->segment(setup.system.body_slices[b].W + 3, 3).isZero(0))
-        setup.rule.symmetric = false;
+  set_load_factors(setup);
+  setup.rule.symmetric = non_conservative_loads(mechanism, study).empty();
   return setup;
 }
 

@@ -16,7 +16,7 @@ statics::StartProblem problem_of(const Setup& setup, const Study& study) {
   problem.attempts = study.start.attempts;
   problem.seed = study.start.seed;
   problem.z = statics::guess(setup.system);
-  problem.inputs = {setup.system.commands, setup.rule.W_start};
+  problem.inputs = {setup.system.commands, setup.rule.W_start, setup.rule.load_start};
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
   const model::TaskSpace space =
       setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
@@ -131,6 +131,12 @@ statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, Sta
                                         : first_equilibrium(setup.system, problem);
   report = report_of(first, study);
   report_move(setup, study, problem, first, report);
+  if (!setup.origins_found) {
+    report.found = false;
+    report.message =
+        "the chains cannot be closed in the start pose, from which springs with origin "
+        "= \"start\" are counted: check the poses, lengths and initial coordinates";
+  }
   return first;
 }
 

@@ -10,12 +10,34 @@
 namespace springfold::analysis {
 namespace {
 
-void check_direction(const Study& study, const model::Body& body,
+/// Loads with lambda need one that moves in units of its own.
+void check_loads(const Study& study, const model::Mechanism& mechanism,
+                 std::vector<std::string>& problems) {
+  const bool traces = study.kind != StudyKind::equilibrium;
+  for (const model::Load& load : mechanism.loads)
+    if (load.with_lambda && (!traces || study.control == ControlMode::parameter))
+      problems.push_back(
+          "loads: scale = \"lambda\" needs a study that drives one of load, pose, "
+          "mixed, actuator");
+  const auto in_chain = [](const model::Anchor& anchor) { return anchor.chain >= 0; };
+  bool loaded_chains = !mechanism.line_springs.empty();
+  for (const model::Load& load : mechanism.loads) loaded_chains |= in_chain(load.on);
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::ChainPoint& point : chain.points)
+      loaded_chains |= point.mass != 0 && !mechanism.gravity.isZero(0);
+  if (loaded_chains && study.start.solver == StartSolver::fixed_point)
+    problems.push_back(
+        "start.solver: the paper's fixed-point iteration knows wrenches at the ends "
+        "of chains only, no loads, masses and line springs within them");
+}
+
+void check_direction(const Study& study, const model::Body& body, bool some_load_grows,
                      std::vector<std::string>& problems) {
   const Index d = dimension(body.task_space), lengths = translations(body.task_space);
   const bool needed = study.control == ControlMode::load || study.control == ControlMode::pose ||
                       study.control == ControlMode::mixed;
   if (study.direction.size() == 0) {
+    if (study.control == ControlMode::load && some_load_grows) return;
     if (needed && study.kind == StudyKind::force_deflection)
       problems.push_back("direction: this control mode needs one");
     return;
@@ -176,8 +198,12 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   if (study.constant_load.size() != 0 &&
       (study.constant_load.size() != d || !study.constant_load.allFinite()))
     problems.push_back("load: need " + std::to_string(d) + " finite numbers");
-  check_direction(study, body, problems);
+  const bool some_load_grows = std::any_of(
+      mechanism.loads.begin(), mechanism.loads.end(),
+      [](const model::Load& load) { return load.with_lambda && !load.vector.isZero(0); });
+  check_direction(study, body, some_load_grows, problems);
   check_prescribed(study, body, problems);
+  check_loads(study, mechanism, problems);
   check_start(study, mechanism, body, problems);
   check_control(study, mechanism, problems);
   const TraceSettings& t = study.trace;

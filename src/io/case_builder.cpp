@@ -43,6 +43,18 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
     const BodyDraft& at = draft.bodies[body->number - 1];
     return problems.add(at.place, at.key, rest_of(view.substr(body->length)), when);
   }
+  const auto load = numbered(view, "load");  // the mechanism's first, then the study's own
+  if (load && load->number <= draft.loads.size() + study.loads.size()) {
+    const bool own = load->number > draft.loads.size();
+    const LoadDraft& at =
+        own ? study.loads[load->number - 1 - draft.loads.size()] : draft.loads[load->number - 1];
+    return problems.add(at.place, at.key, rest_of(view.substr(load->length)), when);
+  }
+  const auto spring = numbered(view, "spring");
+  if (spring && spring->number <= draft.springs.size()) {
+    const LineSpringDraft& at = draft.springs[spring->number - 1];
+    return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
+  }
   const auto chain = numbered(view, "chain");
   if (!chain || chain->number > draft.chains.size())
     return problems.add(study.place, study.key, text, when);
@@ -113,6 +125,8 @@ class Builder {
     const std::vector<double> of_mechanism =
         draft_->mechanism.numbers.values(draft_->book, parameters).values;
     planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);
+    for (model::Load& load : build_loads(study.loads, numbers))
+      planned.mechanism.loads.push_back(std::move(load));
     const auto body = static_cast<std::size_t>(study.body - 1);
     planned.plan =
         build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);

@@ -10,14 +10,15 @@ namespace {
 
 constexpr std::size_t most_parameters = 1000;
 
-const std::vector<std::string> case_keys{"title", "include", "units", "parameters", "body",
-                                         "chain", "study",   "plot",  "map_plot",   "expected"};
+const std::vector<std::string> case_keys{"title", "include",  "units",   "parameters", "gravity",
+                                         "body",  "chain",    "spring",  "load",       "study",
+                                         "plot",  "map_plot", "expected"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
                             Reading& reading) {
   std::vector<Item> items;
-  const bool mechanism = name == "body" || name == "chain";
+  const bool mechanism = name != "study" && name != "plot";
   for (const Document& document : documents) {
     const Node* node = document.root.find(name);
     if (!node || (document.included && !mechanism)) continue;
@@ -153,6 +154,13 @@ CaseDraft read_case(const std::vector<Document>& documents,
   for (const char* name : {"body", "chain", "study"}) require_table(documents, name, problems);
   read_bodies(bodies, draft.mechanism, reading);
   read_chains(chains, draft.mechanism, reading);
+  for (const Document& document : documents)  // the case's own comes last and counts
+    if (const Node* gravity = document.root.find("gravity"))
+      read_gravity({gravity, "gravity"}, draft.mechanism, reading);
+  read_line_springs(tables_of(documents, "spring", reading), draft.mechanism, reading);
+  const Index only_body = draft.mechanism.bodies.size() == 1 ? 1 : 0;
+  draft.mechanism.loads = read_loads(tables_of(documents, "load", reading), draft.mechanism,
+                                     only_body, draft.mechanism.numbers, reading);
   draft.studies = read_studies(studies, draft.mechanism, reading);
   const std::vector<Item> plots = tables_of(documents, "plot", reading);
   draft.plots = read_plots(plots, draft.studies, reading);

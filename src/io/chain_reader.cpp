@@ -29,10 +29,13 @@ std::string pose_need(TaskSpace space) {
 bool is_taken(const std::string& name, const MechanismDraft& draft) {
   const auto has_name = [&name](const auto& thing) { return thing.name == name; };
   return name == "base" || std::any_of(draft.bodies.begin(), draft.bodies.end(), has_name) ||
-         std::any_of(draft.chains.begin(), draft.chains.end(), has_name);
+         std::any_of(draft.chains.begin(), draft.chains.end(), has_name) ||
+         std::any_of(draft.springs.begin(), draft.springs.end(), has_name);
 }
 
-std::string read_name(const TableReader& table, const MechanismDraft& draft, Reading& reading) {
+}  // namespace
+
+std::string read_own_name(const TableReader& table, const MechanismDraft& draft, Reading& reading) {
   const std::optional<std::string> name = table.required_text("name", "a name");
   if (!name) return {};
   const Item at{table.find("name"), table.key_of("name")};
@@ -40,16 +43,17 @@ std::string read_name(const TableReader& table, const MechanismDraft& draft, Rea
   if (is_taken(*name, draft))
     reading.problems.add(at.node->place, at.key,
                          "\"" + *name +
-                             "\" is already taken: bodies and chains need different "
+                             "\" is already taken: bodies, chains and springs need different "
                              "names, and \"base\" is the fixed body");
   return *name;
 }
 
-/// Also where the task space is unusable, so that one mistake does not cause others.
 bool is_planar(const BodyDraft& body) {
   return body.pose.empty() || body.task_space == TaskSpace::xy ||
          body.task_space == TaskSpace::planar;
 }
+
+namespace {
 
 std::vector<NumberId> read_pose(const TableReader& table, TaskSpace space, NumberTable& numbers,
                                 Reading& reading) {
@@ -106,15 +110,21 @@ std::optional<Index> body_number(const std::string& name, const Item& at,
 
 void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
-    const TableReader table{*item.node, item.key, {"name", "task_space", "pose"}, reading};
+    const TableReader table{
+        *item.node, item.key, {"name", "task_space", "pose", "mass", "com"}, reading};
     BodyDraft body{.place = item.node->place, .key = item.key};
-    body.name = read_name(table, draft, reading);
+    body.name = read_own_name(table, draft, reading);
     table.require("task_space", choices(space_words));
     body.task_space = spaces[table.choice("task_space", space_words, 3)];
     const Node* space = table.find("task_space");
     const bool known_space = space && std::find(space_words.begin(), space_words.end(),
                                                 space->text) != space_words.end();
     if (known_space) body.pose = read_pose(table, body.task_space, draft.numbers, reading);
+    if (table.has("mass")) body.mass = read_mass(table, draft.numbers, reading);
+    if (const Node* com = table.find("com"))
+      body.centre = read_vector3({com, table.key_of("com")}, is_planar(body), reading.units.length,
+                                 draft.numbers, reading);
+    if (table.has("com")) table.require("mass", "the mass of the body, whose centre this is");
     draft.bodies.push_back(std::move(body));
   }
 }
@@ -124,7 +134,7 @@ void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading
     const TableReader table{
         *item.node, item.key, {"name", "from", "from_at", "to", "to_at", "elements"}, reading};
     ChainDraft chain{.place = item.node->place, .key = item.key};
-    chain.name = read_name(table, draft, reading);
+    chain.name = read_own_name(table, draft, reading);
     read_ends(table, draft, chain, reading);
     const auto body = static_cast<std::size_t>(chain.to);
     const bool planar = body > draft.bodies.size() || is_planar(draft.bodies[body - 1]);
@@ -133,7 +143,7 @@ void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading
         *frame = read_frame({node, table.key_of(name)}, planar, draft.numbers, reading);
     const std::string need = "a list of { joint = ... }, { rigid = ... } and { elastic = ... }";
     const Node* elements = table.require("elements", need);
-    chain.elements = read_elements(table.list("elements", need), planar, draft.numbers, reading);
+    read_elements(table.list("elements", need), planar, draft.numbers, chain, reading);
     if (elements && elements->kind == Node::Kind::array && elements->items.empty())
       reading.problems.add(elements->place, table.key_of("elements"),
                            "got an empty list, need at least one element");

@@ -176,11 +176,44 @@ class JointReader {
 };
 
 void read_rigid(const Item& item, bool planar, NumberTable& numbers, Reading& reading,
-                std::vector<ElementDraft>& elements) {
-  const TableReader table{*item.node, item.key, {"rigid"}, reading};
+                ChainDraft& chain) {
+  const TableReader table{*item.node, item.key, {"rigid", "mass", "com"}, reading};
   const FrameDraft frame =
       read_frame({table.find("rigid"), table.key_of("rigid")}, planar, numbers, reading);
-  elements.push_back({frame, item.node->place, item.key});
+  if (table.has("mass")) {  // in the middle of the link unless said otherwise
+    PointDraft point{.elements_before = chain.elements.size(), .at = frame.at, .factor = 0.5};
+    point.mass = read_mass(table, numbers, reading);
+    if (const Node* com = table.find("com")) {
+      point.at =
+          read_vector3({com, table.key_of("com")}, planar, reading.units.length, numbers, reading);
+      point.factor = 1;
+    }
+    chain.points.push_back(std::move(point));
+  } else if (table.has("com")) {
+    table.require("mass", "the mass of the link, whose centre this is");
+  }
+  chain.elements.push_back({frame, item.node->place, item.key});
+}
+
+/// `{ point = "knee", at = [...], mass = ... }`.
+void read_point(const Item& item, bool planar, NumberTable& numbers, Reading& reading,
+                ChainDraft& chain) {
+  const TableReader table{*item.node, item.key, {"point", "at", "mass"}, reading};
+  PointDraft point{.elements_before = chain.elements.size()};
+  point.name = table.text("point").value_or("");
+  const Item name{table.find("point"), table.key_of("point")};
+  const bool usable = !point.name.empty() && is_plain_name(point.name, name, reading);
+  const auto has_name = [&point](const PointDraft& other) { return other.name == point.name; };
+  if (usable && std::any_of(chain.points.begin(), chain.points.end(), has_name))
+    reading.problems.add(name.node->place, name.key,
+                         "\"" + point.name +
+                             "\" is already the name of another point of this chain, need "
+                             "different names");
+  if (const Node* at = table.find("at"))
+    point.at =
+        read_vector3({at, table.key_of("at")}, planar, reading.units.length, numbers, reading);
+  if (table.has("mass")) point.mass = read_mass(table, numbers, reading);
+  chain.points.push_back(std::move(point));
 }
 
 /// Which of the keys that say what an element is stands there; reports none and several.
@@ -202,9 +235,14 @@ std::optional<std::string> kind_of(const Item& item, Reading& reading) {
 
 }  // namespace
 
-std::vector<ElementDraft> read_elements(const std::vector<Item>& items, bool planar,
-                                        NumberTable& numbers, Reading& reading) {
-  std::vector<ElementDraft> elements;
+NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& reading) {
+  const std::string unit = reading.units.force + " per unit of gravity";
+  return table.number("mass", {Range::non_negative, unit}, numbers, 0);
+}
+
+void read_elements(const std::vector<Item>& items, bool planar, NumberTable& numbers,
+                   ChainDraft& chain, Reading& reading) {
+  std::vector<ElementDraft>& elements = chain.elements;
   std::set<std::string> names;
   int joints = 0, links = 0;
   const auto claim = [&](const Item& item, const std::string& own) {
@@ -217,10 +255,14 @@ std::vector<ElementDraft> read_elements(const std::vector<Item>& items, bool pla
   };
   for (const Item& item : items) {
     if (!is_table(item, "{ joint = ... }, { rigid = ... } or { elastic = ... }", reading)) continue;
+    if (item.node->find("point")) {
+      read_point(item, planar, numbers, reading, chain);
+      continue;
+    }
     const std::optional<std::string> kind = kind_of(item, reading);
     if (!kind) continue;
     if (*kind == "rigid") {
-      read_rigid(item, planar, numbers, reading, elements);
+      read_rigid(item, planar, numbers, reading, chain);
     } else if (*kind == "elastic") {
       const std::string name = "e" + std::to_string(++links);
       ElasticDraft link = read_elastic(item, name, planar, numbers, reading);
@@ -233,7 +275,6 @@ std::vector<ElementDraft> read_elements(const std::vector<Item>& items, bool pla
         elements.push_back({std::move(draft), item.node->place, item.key});
     }
   }
-  return elements;
 }
 
 }  // namespace springfold::io

@@ -1,24 +1,18 @@
 #include "mechanism_reader.hpp"
 
 namespace springfold::io {
-namespace {
-
-/// Three numbers, or two in the plane (z = 0).
-std::vector<NumberId> read_point(const Item& item, bool planar, NumberTable& numbers,
-                                 Reading& reading) {
+std::vector<NumberId> read_vector3(const Item& item, bool planar, const std::string& unit,
+                                   NumberTable& numbers, Reading& reading) {
   const std::string need = planar ? "[x, y] or [x, y, z]" : "[x, y, z]";
   const std::vector<Item> items = list_items(item, need, reading);
   const bool fits = items.size() == 3 || (planar && items.size() == 2);
   if (item.node->kind == Node::Kind::array && !fits)
     reading.problems.add(item.node->place, item.key,
                          "got " + described(*item.node) + ", need " + need);
-  std::vector<NumberId> ids =
-      read_numbers(items, {Range::finite, reading.units.length}, numbers, reading);
+  std::vector<NumberId> ids = read_numbers(items, {Range::finite, unit}, numbers, reading);
   ids.resize(std::min<std::size_t>(ids.size(), 3));
   return ids;
 }
-
-}  // namespace
 
 AxisDraft read_axis(const Item& item, NumberTable& numbers, Reading& reading) {
   static const std::string need = "\"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" or [x, y, z]";
@@ -46,7 +40,7 @@ FrameDraft read_frame(const Item& item, bool planar, NumberTable& numbers, Readi
   FrameDraft frame;
   if (item.node->kind != Node::Kind::table) {
     if (item.node->kind == Node::Kind::array)
-      frame.at = read_point(item, planar, numbers, reading);
+      frame.at = read_vector3(item, planar, reading.units.length, numbers, reading);
     else
       reading.problems.add(
           item.node->place, item.key,
@@ -55,7 +49,8 @@ FrameDraft read_frame(const Item& item, bool planar, NumberTable& numbers, Readi
   }
   const TableReader table{*item.node, item.key, {"at", "rotate"}, reading};
   if (const Node* at = table.find("at"))
-    frame.at = read_point({at, table.key_of("at")}, planar, numbers, reading);
+    frame.at =
+        read_vector3({at, table.key_of("at")}, planar, reading.units.length, numbers, reading);
   const Node* rotate = table.find("rotate");
   const Item rotation{rotate, table.key_of("rotate")};
   if (!rotate || !is_table(rotation, "{ axis = ..., angle = ... }", reading)) return frame;

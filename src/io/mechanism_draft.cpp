@@ -115,6 +115,9 @@ model::Joint joint_of(const JointDraft& from, const Numbers& numbers) {
   model::Joint joint{.name = from.name, .kind = from.kind, .role = from.role};
   joint.axis = direction_of(from.axis, numbers);
   if (from.spring) joint.spring = law_of(*from.spring, numbers);
+  if (from.spring)
+    joint.spring_from_start =
+        std::visit([](const auto& spring) { return spring.from_start; }, *from.spring);
   joint.initial = numbers[from.initial];
   if (from.command) joint.command = numbers[*from.command];
   return joint;
@@ -131,6 +134,28 @@ void add_element(const ElementDraft& draft, const Numbers& numbers, model::Chain
              draft.content);
 }
 
+/// None, two or three numbers.
+model::Vec3<double> vec3_of(const std::vector<NumberId>& ids, const Numbers& numbers) {
+  model::Vec3<double> v = model::Vec3<double>::Zero();
+  for (std::size_t i = 0; i < ids.size(); ++i) v[static_cast<Index>(i)] = numbers[ids[i]];
+  return v;
+}
+
+model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
+  return {.body = draft.body,
+          .chain = draft.chain,
+          .point = draft.point,
+          .at = vec3_of(draft.at, numbers)};
+}
+
+model::ChainPoint point_of(const PointDraft& draft, std::size_t elements_before,
+                           const Numbers& numbers) {
+  return {.name = draft.name,
+          .elements_before = elements_before,
+          .at = draft.factor * vec3_of(draft.at, numbers),
+          .mass = draft.mass ? numbers[*draft.mass] : 0};
+}
+
 }  // namespace
 
 std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers) {
@@ -141,6 +166,18 @@ std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<d
     origins.resize(chain.elements.size(), i);
   }
   return origins;
+}
+
+std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts, const Numbers& numbers) {
+  std::vector<model::Load> loads;
+  for (const LoadDraft& draft : drafts)
+    loads.push_back({.name = draft.name,
+                     .on = anchor_of(draft.on, numbers),
+                     .kind = draft.kind,
+                     .follows = draft.follows,
+                     .with_lambda = draft.with_lambda,
+                     .vector = vec3_of(draft.vector, numbers)});
+  return loads;
 }
 
 Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers) {
@@ -154,15 +191,34 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
   mechanism.bodies.reserve(draft.bodies.size());
   mechanism.chains.reserve(draft.chains.size());
   for (const BodyDraft& body : draft.bodies)
-    mechanism.bodies.push_back({body.name, body.task_space, vector_of(body.pose, numbers)});
+    mechanism.bodies.push_back({.name = body.name,
+                                .task_space = body.task_space,
+                                .pose = vector_of(body.pose, numbers),
+                                .mass = body.mass ? numbers[*body.mass] : 0,
+                                .centre = vec3_of(body.centre, numbers)});
   for (const ChainDraft& from : draft.chains) {
     model::Chain chain{.name = from.name, .from = from.from, .to = from.to};
     chain.from_attachment = pose_of(from.from_at, numbers);
     chain.to_attachment = pose_of(from.to_at, numbers);
     chain.elements.reserve(from.elements.size());
-    for (const ElementDraft& element : from.elements) add_element(element, numbers, chain);
+    std::vector<std::size_t> first;  // of the model's elements, per element of the draft
+    for (const ElementDraft& element : from.elements) {
+      first.push_back(chain.elements.size());
+      add_element(element, numbers, chain);
+    }
+    first.push_back(chain.elements.size());
+    for (const PointDraft& point : from.points)
+      chain.points.push_back(point_of(point, first[point.elements_before], numbers));
     mechanism.chains.push_back(std::move(chain));
   }
+  mechanism.gravity = vec3_of(draft.gravity, numbers);
+  mechanism.loads = build_loads(draft.loads, numbers);
+  for (const LineSpringDraft& spring : draft.springs)
+    mechanism.line_springs.push_back({.name = spring.name,
+                                      .from = anchor_of(spring.from, numbers),
+                                      .to = anchor_of(spring.to, numbers),
+                                      .stiffness = numbers[spring.stiffness],
+                                      .free = numbers[spring.free]});
   return mechanism;
 }
 

@@ -25,24 +25,30 @@ struct FrameDraft {
   std::optional<NumberId> angle{};  ///< [rad]; none: no rotation
 };
 
+/// from_start: coordinates are counted from that of the start pose.
 struct LinearDraft {
   NumberId stiffness = 0, free = 0;
+  bool from_start = false;
 };
 struct OneSidedDraft {
   NumberId stiffness = 0, from = 0;
   model::OneSidedSpring::Side side = model::OneSidedSpring::Side::above;
+  bool from_start = false;
 };
 struct PiecewiseLinearDraft {
   std::vector<NumberId> breakpoints{}, stiffnesses{};
   NumberId free = 0, preload = 0;
+  bool from_start = false;
 };
 /// Free play between low and high, a linear spring outside.
 struct GapDraft {
   NumberId stiffness = 0, low = 0, high = 0;
+  bool from_start = false;
 };
 /// A linear spring everywhere, a second one added below low and above high.
 struct StopsDraft {
   NumberId stiffness = 0, free = 0, stop_stiffness = 0, low = 0, high = 0;
+  bool from_start = false;
 };
 using SpringDraft =
     std::variant<LinearDraft, OneSidedDraft, PiecewiseLinearDraft, GapDraft, StopsDraft>;
@@ -89,11 +95,46 @@ struct ElementDraft {
   std::string key{};
 };
 
+/// A named point of a chain, or the mass of a rigid link.
+struct PointDraft {
+  std::string name{};
+  std::size_t elements_before = 0;
+  std::vector<NumberId> at{};  ///< x, y, z; empty: none
+  double factor = 1;           ///< of `at`: 1/2 for the middle of a link
+  std::optional<NumberId> mass{};
+};
+
+/// Where something acts: on a body, or on a point of a chain.
+struct AnchorDraft {
+  Index body = 0, chain = -1;
+  std::size_t point = 0;
+  std::vector<NumberId> at{};
+};
+
+struct LoadDraft {
+  std::string name{};
+  AnchorDraft on{};
+  model::LoadKind kind = model::LoadKind::force;
+  std::vector<NumberId> vector{};  ///< x, y, z
+  bool follows = false, with_lambda = false;
+  Place place{};
+  std::string key{};
+};
+
+struct LineSpringDraft {
+  std::string name{};
+  AnchorDraft from{}, to{};
+  NumberId stiffness = 0, free = 0;
+  Place place{};
+  std::string key{};
+};
+
 struct ChainDraft {
   std::string name{};
   Index from = 0, to = 1;
   FrameDraft from_at{}, to_at{};
   std::vector<ElementDraft> elements{};
+  std::vector<PointDraft> points{};
   Place place{};
   std::string key{};
 };
@@ -102,6 +143,8 @@ struct BodyDraft {
   std::string name{};
   model::TaskSpace task_space = model::TaskSpace::spatial;
   std::vector<NumberId> pose{};
+  std::optional<NumberId> mass{};
+  std::vector<NumberId> centre{};
   Place place{};
   std::string key{};
 };
@@ -110,6 +153,9 @@ struct MechanismDraft {
   NumberTable numbers{};  ///< all numbers of the mechanism
   std::vector<BodyDraft> bodies{};
   std::vector<ChainDraft> chains{};
+  std::vector<NumberId> gravity{};
+  std::vector<LineSpringDraft> springs{};
+  std::vector<LoadDraft> loads{};  ///< of all studies
 };
 
 /// @param numbers  values of draft.numbers, as many as these
@@ -117,6 +163,10 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
 
 /// For every element of the chain's model, the place of the element of the draft that it comes from.
 std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers);
+
+/// @param numbers  values of the table that the draft's ids belong to
+std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts,
+                                     const std::vector<double>& numbers);
 
 /// The numbers with these ids.
 Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers);

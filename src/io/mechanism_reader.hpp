@@ -21,9 +21,33 @@ JointUnits units_of(model::JointKind kind, const UnitLabels& labels);
 void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
 void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
 
-/// `elements` of one chain. @param planar  rigid links may have two entries
-std::vector<ElementDraft> read_elements(const std::vector<Item>& elements, bool planar,
-                                        NumberTable& numbers, Reading& reading);
+/// `elements` of one chain, into chain.elements and chain.points.
+/// @param planar  rigid links may have two entries
+void read_elements(const std::vector<Item>& elements, bool planar, NumberTable& numbers,
+                   ChainDraft& chain, Reading& reading);
+
+/// `gravity`, [[spring]] and [[load]] tables. All chains must be read before.
+void read_gravity(const Item& item, MechanismDraft& draft, Reading& reading);
+void read_line_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
+
+/// @param body      the body on which a load acts that does not say where; 0: it must say
+/// @param numbers   the table that its numbers belong to
+std::vector<LoadDraft> read_loads(const std::vector<Item>& tables, const MechanismDraft& draft,
+                                  Index body, NumberTable& numbers, Reading& reading);
+
+/// `mass`: >= 0.
+NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& reading);
+
+/// A name of a body, chain or spring that is not taken yet; reports others.
+std::string read_own_name(const TableReader& table, const MechanismDraft& draft, Reading& reading);
+
+/// Three numbers, or two in the plane (z = 0).
+std::vector<NumberId> read_vector3(const Item& item, bool planar, const std::string& unit,
+                                   NumberTable& numbers, Reading& reading);
+
+/// Does the body live in the plane? Also where its task space is unusable, so that one mistake does
+/// not cause others.
+bool is_planar(const BodyDraft& body);
 
 /// One `{ elastic = ... }`. @param plane  the body moves in the plane: directions Tx, Ty, Rz
 ElasticDraft read_elastic(const Item& item, const std::string& default_name, bool plane,

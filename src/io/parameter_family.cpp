@@ -24,8 +24,10 @@ struct Family {
     update(parameter_updates, variables, variables);
     update(mechanism_updates, variables, numbers);
     update(load_updates, variables, study_numbers);
-    return {build_mechanism(draft->mechanism, numbers),
-            vector_of(draft->studies[study].load, study_numbers)};
+    model::Mechanism built = build_mechanism(draft->mechanism, numbers);
+    for (model::Load& own : build_loads(draft->studies[study].loads, study_numbers))
+      built.loads.push_back(std::move(own));
+    return {std::move(built), vector_of(draft->studies[study].load, study_numbers)};
   }
 };
 

@@ -12,6 +12,7 @@ struct SpringReader {
 
   TableReader table(std::vector<std::string> keys) const {
     keys.insert(keys.begin(), "law");
+    keys.insert(keys.end(), "origin");
     return {*item.node, item.key, keys, reading};
   }
   NumberId stiffness(const TableReader& t, const std::string& name) const {
@@ -22,6 +23,18 @@ struct SpringReader {
   }
   NumberId free(const TableReader& t) const {
     return t.number("free", {Range::finite, units.coordinate}, numbers, 0);
+  }
+
+  /// `origin`: are coordinates those of the joint, or counted from where it stands at the start?
+  SpringDraft placed(SpringDraft spring) const {
+    const Node* origin = item.node->find("origin");
+    if (!origin) return spring;
+    const bool from_start = origin->kind == Node::Kind::text && origin->text == "start";
+    if (!from_start && !(origin->kind == Node::Kind::text && origin->text == "joint"))
+      reading.problems.add(origin->place, item.key + ".origin",
+                           "got " + described(*origin) + ", need \"joint\" or \"start\"");
+    std::visit([from_start](auto& law) { law.from_start = from_start; }, spring);
+    return spring;
   }
 
   SpringDraft linear() const {
@@ -99,11 +112,11 @@ std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
   }
   const SpringReader reader{item, units_of(kind, reading.units), numbers, reading};
   if (law->kind == Node::Kind::text) {
-    if (law->text == "linear") return reader.linear();
-    if (law->text == "one_sided") return reader.one_sided();
-    if (law->text == "piecewise_linear") return reader.piecewise_linear();
-    if (law->text == "gap") return reader.gap();
-    if (law->text == "stops") return reader.stops();
+    if (law->text == "linear") return reader.placed(reader.linear());
+    if (law->text == "one_sided") return reader.placed(reader.one_sided());
+    if (law->text == "piecewise_linear") return reader.placed(reader.piecewise_linear());
+    if (law->text == "gap") return reader.placed(reader.gap());
+    if (law->text == "stops") return reader.placed(reader.stops());
   }
   std::string near = nearest(law->text, laws);
   if (!near.empty()) near = ", did you mean \"" + near + "\"?";

@@ -39,7 +39,8 @@ struct StudyDraft {
   Index body = 1;
   std::vector<NumberId> direction{};  ///< d or none
   std::vector<std::string> prescribed{};
-  std::vector<NumberId> load{};  ///< d or none
+  std::vector<NumberId> load{};    ///< d or none
+  std::vector<LoadDraft> loads{};  ///< beside those of the mechanism
   std::vector<RateDraft> actuators{};
   std::optional<std::size_t> parameter{};  ///< control mode parameter
   analysis::StartSolve start_solve = analysis::StartSolve::pose;

@@ -21,10 +21,10 @@ const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator"
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
-const std::vector<std::string> study_keys{"name",      "kind",   "control",   "body", "direction",
-                                          "load",      "start",  "until",     "mark", "actuators",
-                                          "parameter", "set",    "vary",      "path", "trace",
-                                          "branches",  "search", "prescribed"};
+const std::vector<std::string> study_keys{
+    "name",  "kind",  "control",  "body",      "direction", "load", "loads",
+    "start", "until", "mark",     "actuators", "parameter", "set",  "vary",
+    "path",  "trace", "branches", "search",    "prescribed"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {
@@ -54,6 +54,11 @@ std::vector<std::string> actuator_names(const MechanismDraft& mechanism) {
   return names;
 }
 
+bool grows(const std::vector<LoadDraft>& loads) {
+  return std::any_of(loads.begin(), loads.end(),
+                     [](const LoadDraft& load) { return load.with_lambda; });
+}
+
 class StudyReader {
  public:
   StudyReader(const Item& item, const MechanismDraft& mechanism, Reading& reading)
@@ -78,6 +83,8 @@ class StudyReader {
       draft_.commands = read_commands(draft_.kind, table_,
                                       mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)],
                                       actuator_names(mechanism_), draft_.numbers, reading_);
+    draft_.loads = read_loads(table_.tables("loads"), mechanism_, body_known_ ? draft_.body : 0,
+                              draft_.numbers, reading_);
     read_control(traces);
     read_start();
     read_until();
@@ -150,7 +157,9 @@ class StudyReader {
                                      "lambda is measured along it");
     const ControlMode mode = draft_.control;
     const bool needs_direction = mode != ControlMode::actuator && mode != ControlMode::parameter;
-    if (traces && needs_direction)
+    const bool load_grows =
+        mode == ControlMode::load && (grows(mechanism_.loads) || grows(draft_.loads));
+    if (traces && needs_direction && !load_grows)
       table_.require("direction", "a direction such as [1, 0]: control = \"" +
                                       table_.find("control")->text + "\" moves along it");
     read_actuators(traces);

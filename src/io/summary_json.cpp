@@ -129,11 +129,22 @@ Json chain_stiffnesses(const std::vector<Matrix>& matrices, const PlannedRun* pl
   return json;
 }
 
+Json json_of(const analysis::RedundantClosures& redundant) {
+  return {{"count", redundant.count},
+          {"of", redundant.of},
+          {"chains", redundant.chains},
+          {"smallest_kept", redundant.smallest_kept},
+          {"largest_dropped", redundant.largest_dropped}};
+}
+
 Json json_of(const StudyResult& result, const PlannedRun* planned) {
   const analysis::StartReport& start = result.start;
   Json ways = Json::array();
   for (const auto& way : start.ways)
     ways.push_back({{"branch", way.branch}, {"rates", by_quantity(result, way.rates)}});
+  Json tangent = Json::array();
+  for (const auto& [real, imaginary] : start.tangent)
+    tangent.push_back({{"real", real}, {"imaginary", imaginary}});
   return {{"found", start.found},
           {"method", start.method},
           {"message", start.message},
@@ -146,6 +157,9 @@ Json json_of(const StudyResult& result, const PlannedRun* planned) {
           {"moved_most", start.moved_most},
           {"situation", start.situation},
           {"ways", ways},
+          {"tangent_eigenvalues", tangent},
+          {"zero_modes", start.zero_modes},
+          {"redundant_closures", json_of(start.redundant)},
           {"stiffness", json_of(start.stiffness)},
           {"chain_stiffnesses", chain_stiffnesses(start.chain_stiffnesses, planned)}};
 }
@@ -160,6 +174,8 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
     const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
     json["quantities"].push_back({{"name", quantity.name}, {"unit", unit}});
   }
+  json["conservative"] = result.non_conservative.empty();
+  json["non_conservative"] = result.non_conservative;
   json["start"] = json_of(result, planned);
   json["event_counts"] = Json(event_counts(result));
   json["branches"] = Json::array();

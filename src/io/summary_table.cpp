@@ -114,6 +114,45 @@ std::string way_lines(const Case& the_case, const StudyResult& result) {
   return text;
 }
 
+/// What symmetric theory cannot say here, and what closures say twice.
+std::string caution_lines(const StudyResult& result) {
+  std::string text;
+  if (!result.non_conservative.empty()) {
+    std::string loads;
+    for (const auto& load : result.non_conservative) loads += (loads.empty() ? "" : ", ") + load;
+    text += line("load", "NON-CONSERVATIVE: " + loads);
+    text += line("",
+                 "no potential: unstable modes are not counted; static bifurcations are zeros of "
+                 "det T");
+    text += line("",
+                 "(T: tangent stiffness, not symmetric); flutter is a matter of masses and not "
+                 "examined");
+    std::string values;
+    for (const auto& [real, imaginary] : result.start.tangent)
+      values += (values.empty() ? "" : ", ") + rounded(real, digits) +
+                (imaginary == 0 ? ""
+                                : (imaginary < 0 ? " - " : " + ") +
+                                      rounded(std::abs(imaginary), digits) + "i");
+    if (!values.empty()) text += line("", "eigenvalues of T: " + values);
+  }
+  const int zeros = result.start.zero_modes;
+  if (zeros > 0)
+    text += line("singular", "the stiffness is singular: " + counted(zeros, "motion") +
+                                 " without stiffness (neutral equilibrium)");
+  const analysis::RedundantClosures& redundant = result.start.redundant;
+  if (redundant.count == 0) return text;
+  std::string chains;
+  for (const auto& chain : redundant.chains) chains += (chains.empty() ? "" : ", ") + chain;
+  text +=
+      line("redundant", std::to_string(redundant.count) + " of " +
+                            counted(redundant.of, "closure equation") + ", among chains " + chains);
+  return text + line("",
+                     "statics does not determine their wrenches: those of smallest norm are "
+                     "shown; singular values " +
+                         rounded(redundant.largest_dropped, 2) + " dropped, " +
+                         rounded(redundant.smallest_kept, 2) + " kept");
+}
+
 std::string stiffness_lines(const Matrix& stiffness) {
   if (stiffness.size() == 0) return line("stiffness", "not defined at this point");
   const int shown = stiffness.rows() <= 3 ? digits : 6;
@@ -327,6 +366,7 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   const double index = value_at(result, first, first.start_row, "index");
   text += line("index", std::isnan(index) ? "not defined at this point" : rounded(index, digits));
   text += way_lines(the_case, result);
+  text += caution_lines(result);
   text += stiffness_lines(result.start.stiffness);
   for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
   return text + diagram_lines(result, plan_of(the_case, result));

@@ -59,6 +59,20 @@ std::vector<bool> check_coupled(const Chain& chain, const std::string& where,
   return coupled;
 }
 
+void check_points(const Chain& chain, const std::string& where,
+                  std::vector<std::string>& problems) {
+  std::set<std::string> names;
+  for (const ChainPoint& point : chain.points) {
+    const std::string at = where + ".points[\"" + point.name + "\"]: ";
+    if (point.elements_before > chain.elements.size())
+      problems.push_back(at + "lies behind the end of the chain");
+    if (!point.name.empty() && !names.insert(point.name).second)
+      problems.push_back(at + "the name is used twice");
+    if (!point.at.allFinite() || !std::isfinite(point.mass))
+      problems.push_back(at + "need finite numbers");
+  }
+}
+
 void check_chain(const Mechanism& mechanism, const Chain& chain, const std::string& where,
                  std::vector<std::string>& problems) {
   const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
@@ -67,13 +81,6 @@ void check_chain(const Mechanism& mechanism, const Chain& chain, const std::stri
       chain.from >= 0 && chain.from <= bodies && chain.to >= 0 && chain.to <= bodies;
   if (!ends_exist) return say("from, to: no such body");
   if (chain.from == chain.to) say("from, to: the chain must join two different bodies");
-  if (chain.from > 0 && chain.to > 0) {
-    const auto space = [&](Index b) {
-      return mechanism.bodies[static_cast<std::size_t>(b - 1)].task_space;
-    };
-    if (space(chain.from) != space(chain.to))
-      say("from, to: both moving bodies need the same task space");
-  }
   if (chain.elements.empty()) say("elements: a chain needs at least one element");
   for (const Pose<double>* pose : {&chain.from_attachment, &chain.to_attachment})
     if (!pose->p.allFinite() || !is_rotation(pose->R)) say("attachment: need a rigid motion");
@@ -92,6 +99,70 @@ void check_chain(const Mechanism& mechanism, const Chain& chain, const std::stri
     if (!T.p.allFinite() || !is_rotation(T.R))
       problems.push_back(element + ": rigid: need a rigid motion");
   }
+  check_points(chain, where, problems);
+}
+
+bool is_planar(TaskSpace space) { return space == TaskSpace::xy || space == TaskSpace::planar; }
+
+/// @param turns  the point must have axes of its own
+void check_anchor(const Mechanism& mechanism, const Anchor& anchor, bool turns,
+                  const std::string& where, std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  if (!anchor.at.allFinite()) say("at: need finite numbers");
+  if (anchor.chain >= 0) {
+    const auto chain = static_cast<std::size_t>(anchor.chain);
+    if (chain >= mechanism.chains.size() || anchor.point >= mechanism.chains[chain].points.size())
+      say("no such point of a chain");
+    return;
+  }
+  if (anchor.body < 0 || anchor.body > static_cast<Index>(mechanism.bodies.size()))
+    return say("no such body");
+  if (anchor.body == 0) return;
+  const TaskSpace space = mechanism.bodies[static_cast<std::size_t>(anchor.body - 1)].task_space;
+  const bool is_point = space == TaskSpace::xy || space == TaskSpace::xyz;
+  if (is_point && !anchor.at.isZero(0))
+    say("at: a body that is a point has no other points, need none");
+  if (is_point && turns)
+    say("a body that is a point does not turn: moments and loads that follow it have no meaning");
+  if (space == TaskSpace::planar && anchor.at[2] != 0) say("at: need a point in the plane, z = 0");
+}
+
+void check_load(const Mechanism& mechanism, const Load& load, const std::string& where,
+                std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  const bool moment = load.kind == LoadKind::moment;
+  const std::string key = moment ? "moment" : "force";
+  check_anchor(mechanism, load.on, moment || load.follows, where, problems);
+  if (!load.vector.allFinite()) say(key + ": need finite numbers");
+  if (load.on.chain >= 0) return;
+  if (load.on.body == 0) return say("on: the base does not move, need a moving body or a point");
+  if (load.on.body < 0 || load.on.body > static_cast<Index>(mechanism.bodies.size())) return;
+  const Body& body = mechanism.bodies[static_cast<std::size_t>(load.on.body - 1)];
+  if (!is_planar(body.task_space)) return;
+  if (moment && !load.vector.head(2).isZero(0)) say("moment: in the plane it is about z");
+  if (!moment && load.vector[2] != 0) say("force: in the plane it has no z component");
+}
+
+void check_line_spring(const Mechanism& mechanism, const LineSpring& spring,
+                       const std::string& where, std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  check_anchor(mechanism, spring.from, false, where + ": from", problems);
+  check_anchor(mechanism, spring.to, false, where + ": to", problems);
+  if (!(spring.stiffness >= 0) || !std::isfinite(spring.stiffness))
+    say("stiffness: need a finite number >= 0");
+  if (!(spring.free >= 0) || !std::isfinite(spring.free)) say("free: need a finite number >= 0");
+  const bool grounded =
+      spring.from.chain < 0 && spring.from.body == 0 && spring.to.chain < 0 && spring.to.body == 0;
+  if (grounded) say("from, to: one of both must be able to move");
+}
+
+void check_loads(const Mechanism& mechanism, std::vector<std::string>& problems) {
+  if (!mechanism.gravity.allFinite()) problems.push_back("gravity: need finite numbers");
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i)
+    check_load(mechanism, mechanism.loads[i], "load[" + std::to_string(i + 1) + "]", problems);
+  for (std::size_t i = 0; i < mechanism.line_springs.size(); ++i)
+    check_line_spring(mechanism, mechanism.line_springs[i], "spring[" + std::to_string(i + 1) + "]",
+                      problems);
 }
 
 }  // namespace
@@ -109,6 +180,11 @@ std::vector<std::string> problems_in(const Mechanism& mechanism) {
     if (body.pose.size() != dimension(body.task_space) || !body.pose.allFinite())
       problems.push_back(where + ": pose: need " + std::to_string(dimension(body.task_space)) +
                          " finite numbers");
+    if (!std::isfinite(body.mass) || !body.centre.allFinite())
+      problems.push_back(where + ": mass, com: need finite numbers");
+    if (body.mass != 0)
+      check_anchor(mechanism, {.body = static_cast<Index>(b + 1), .at = body.centre}, false,
+                   where + ": com", problems);
   }
   names.clear();
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
@@ -118,12 +194,21 @@ std::vector<std::string> problems_in(const Mechanism& mechanism) {
       problems.push_back(where + ": name: \"" + chain.name + "\" is used twice");
     check_chain(mechanism, chain, where, problems);
   }
+  check_loads(mechanism, problems);
   return problems;
 }
 
 TaskSpace task_space_of(const Mechanism& mechanism, const Chain& chain) {
-  const Index moving = chain.to > 0 ? chain.to : chain.from;
-  return mechanism.bodies[static_cast<std::size_t>(moving - 1)].task_space;
+  const auto space_of = [&](Index body) {
+    return mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
+  };
+  if (chain.from == 0) return space_of(chain.to);
+  if (chain.to == 0) return space_of(chain.from);
+  const TaskSpace a = space_of(chain.from), b = space_of(chain.to);
+  if (a == b) return a;
+  const auto is_point = [](TaskSpace s) { return s == TaskSpace::xy || s == TaskSpace::xyz; };
+  if (!is_point(a) && !is_point(b)) return TaskSpace::spatial;
+  return is_planar(a) && is_planar(b) ? TaskSpace::xy : TaskSpace::xyz;
 }
 
 bool has_coordinate(const Joint& joint) {
@@ -139,6 +224,12 @@ CompiledChain compile(const Mechanism& mechanism, const Chain& chain) {
   compiled.space = task_space_of(mechanism, chain);
   compiled.from_moves = chain.from > 0;
   compiled.to_moves = chain.to > 0;
+  const auto space_of = [&](Index body) {
+    return body > 0 ? mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space
+                    : compiled.space;
+  };
+  compiled.from_space = space_of(chain.from);
+  compiled.to_space = space_of(chain.to);
   compiled.to_attachment = chain.to_attachment;
   Pose<double> pending = chain.from_attachment;
   for (const Element& element : chain.elements) {

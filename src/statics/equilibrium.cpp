@@ -1,23 +1,14 @@
 #include <cassert>
 
+#include "gauge.hpp"
+#include "places.hpp"
+#include "point_terms.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::statics {
 namespace {
 
 using model::TaskSpace;
-
-/// Where each variable of a chain's closure stands: index in z, or -1, and index in rho, or -1.
-struct Place {
-  Index z = -1, rho = -1;
-};
-
-Place place_of(const ChainSlice& slice, const model::CompiledChain& chain, Index variable) {
-  if (variable < chain.first_joint()) return {slice.from + variable, -1};
-  if (variable >= chain.first_to()) return {slice.to + variable - chain.first_to(), -1};
-  const auto j = static_cast<std::size_t>(variable - chain.first_joint());
-  return {slice.joint_coordinate[j], slice.joint_command[j]};
-}
 
 void gather(const System& system, std::size_t i, const Vector& z, const Vector& rho,
             Workspace& work) {
@@ -121,6 +112,8 @@ bool equilibrium_residual(const System& system, const Piece& piece, const Vector
     scatter_residual(system, i, work, residual);
   }
   add_loads(system, z, inputs.W, residual, nullptr);
+  add_point_terms(system, z, inputs, work, residual, nullptr, nullptr);
+  add_gauge(system, z, work, residual, nullptr, nullptr);
   return residual.allFinite();
 }
 
@@ -142,6 +135,8 @@ bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& 
     scatter_matrix(system, i, work, A, dR_drho);
   }
   add_loads(system, z, inputs.W, residual, &A);
+  add_point_terms(system, z, inputs, work, residual, &A, dR_drho);
+  add_gauge(system, z, work, residual, &A, dR_drho);
   return residual.allFinite() && A.allFinite();
 }
 

@@ -18,82 +18,193 @@ Matrix chain_block(const System& system, std::size_t i, const Matrix& A_full) {
   return A_full.block(s.x, s.x, n, n);
 }
 
-/// Unstable modes of a chain with its ends held; dependent closure rows do not count as closures.
-std::optional<Index> chain_index(const System& system, std::size_t i, const Matrix& A_full) {
-  const ChainSlice& s = system.chain_slices[i];
-  const Matrix A = chain_block(system, i, A_full);
+/// Unstable modes of a block of coordinates and wrenches; dependent closures count once.
+/// @param J  closure rows, columns of the coordinates
+std::optional<Index> block_index(const Matrix& A, const Matrix& J) {
   const auto inertia = inertia_of(A);
   if (!inertia) return std::nullopt;
-  if (inertia->zero == 0) return inertia->negative - s.F_count;
+  if (inertia->zero == 0) return inertia->negative - J.rows();
   Index rank = 0;
-  if (s.x_count > 0) {
-    Eigen::ColPivHouseholderQR<Matrix> qr(A.bottomLeftCorner(s.F_count, s.x_count));
+  if (J.cols() > 0) {
+    Eigen::ColPivHouseholderQR<Matrix> qr(J);
     qr.setThreshold(1e-10);
     rank = qr.rank();
   }
-  if (inertia->zero != s.F_count - rank) return std::nullopt;  // the chain itself is critical
+  if (inertia->zero != J.rows() - rank) return std::nullopt;  // the block itself is critical
   return inertia->negative - rank;
 }
 
+/// Unstable modes of a chain with its ends held.
+std::optional<Index> chain_index(const System& system, std::size_t i, const Matrix& A_full) {
+  const ChainSlice& s = system.chain_slices[i];
+  const Matrix A = chain_block(system, i, A_full);
+  return block_index(A, A.bottomLeftCorner(s.F_count, s.x_count));
+}
+
+/// Which unknowns are wrenches and which are motions.
+struct Split {
+  std::vector<Index> motions{}, wrenches{};
+};
+
+/// @param end  unknowns before it only
+Split split_of(const System& system, Index end) {
+  Split split;
+  for (Index i = 0; i < end; ++i)
+    (system.is_wrench[static_cast<std::size_t>(i)] ? split.wrenches : split.motions).push_back(i);
+  return split;
+}
+
+/// Unstable modes of all chains together, all bodies held: where they are coupled.
+std::optional<Index> chains_index(const System& system, const Matrix& A_full) {
+  const Index n = system.first_pose;
+  const Matrix A = A_full.topLeftCorner(n, n);
+  const Split split = split_of(system, n);
+  return block_index(A, A(split.wrenches, split.motions));
+}
+
+Vector real_eigenvalues(const Matrix& M, bool symmetric) {
+  if (symmetric)
+    return Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly)
+        .eigenvalues();
+  Vector real = Eigen::EigenSolver<Matrix>(M, false).eigenvalues().real();
+  std::sort(real.begin(), real.end());
+  return real;
+}
+
+std::optional<Matrix> solve(const Matrix& A, const Matrix& B, bool symmetric) {
+  if (symmetric) return solve_symmetric(A, B);
+  if (!A.allFinite()) return std::nullopt;
+  const Eigen::FullPivLU<Matrix> lu(A);
+  if (!lu.isInvertible()) return std::nullopt;
+  return Matrix(lu.solve(B));
+}
+
+/// Pose block of A^-1: the compliance of all bodies.
+std::optional<Matrix> compliance(const System& system, const Matrix& A_full, bool symmetric) {
+  const Index nt = system.load_size, t = system.first_pose;
+  Matrix unit = Matrix::Zero(system.size, nt);
+  unit.middleRows(t, nt).setIdentity();
+  const auto X = solve(A_full, unit, symmetric);
+  if (!X) return std::nullopt;
+  return Matrix(X->middleRows(t, nt));
+}
+
+/// K_Sigma - dW/dt as a sum over the chains; nothing where one of them is rigid or buckles, or where
+/// chains couple otherwise than through bodies.
+std::optional<Matrix> sum_of_chains(const System& system, const Matrix& A_full, bool symmetric) {
+  if (system.chains_coupled || system.redundant > 0) return std::nullopt;
+  const Index nt = system.load_size, t = system.first_pose;
+  Matrix K = A_full.block(t, t, nt, nt);
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    const ChainSlice& s = system.chain_slices[i];
+    const Index n = s.x_count + s.F_count;
+    const auto X = solve(chain_block(system, i, A_full), A_full.block(s.x, t, n, nt), symmetric);
+    if (!X) return std::nullopt;
+    K -= A_full.block(t, s.x, nt, n) * *X;
+  }
+  return symmetric ? Matrix(0.5 * (K + K.transpose())) : K;
+}
+
 }  // namespace
+
+Matrix without_gauge(const Matrix& A_full, const Workspace& work) {
+  if (work.gauge.size() == 0) return A_full;
+  return A_full + work.gauge.transpose() * work.gauge;
+}
 
 std::optional<Matrix> chain_stiffness(const System& system, std::size_t chain, const Matrix& A_full,
                                       const Workspace& work) {
   const ChainSlice& s = system.chain_slices[chain];
   const Index n = s.x_count + s.F_count, t = s.to >= 0 ? s.to : s.from;
-  const Matrix B = A_full.block(s.x, t, n, s.F_count);
-  const auto X = solve_symmetric(chain_block(system, chain, A_full), B);
+  const model::CompiledChain& compiled = system.chains[chain];
+  const Index count = s.to >= 0 ? compiled.to_count() : compiled.first_joint();
+  const Matrix A = without_gauge(A_full, work);
+  const Matrix B = A.block(s.x, t, n, count);
+  const auto X = solve_symmetric(chain_block(system, chain, A), B);
   if (!X) return std::nullopt;
-  const Index first = s.to >= 0 ? system.chains[chain].first_to() : 0;
-  const Matrix D = -work.closures[chain].H.block(first, first, s.F_count, s.F_count);
+  const Index first = s.to >= 0 ? compiled.first_to() : 0;
+  const Matrix D = -work.closures[chain].H.block(first, first, count, count);
   return Matrix(D - B.transpose() * *X);
 }
 
-PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full) {
+PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full, bool symmetric) {
   PlatformStiffness result;
-  const Index nt = system.load_size, t = system.first_pose;
-  Matrix K = A_full.block(t, t, nt, nt);
-  bool defined = true;
-  for (std::size_t i = 0; i < system.chains.size() && defined; ++i) {
-    const ChainSlice& s = system.chain_slices[i];
-    const Index n = s.x_count + s.F_count;
-    const Matrix B = A_full.block(s.x, t, n, nt);
-    const auto X = solve_symmetric(chain_block(system, i, A_full), B);
-    defined = X.has_value();
-    if (defined) K -= B.transpose() * *X;
-  }
-  if (defined) {
-    result.K = 0.5 * (K + K.transpose());
-    result.eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Matrix>(result.K, Eigen::EigenvaluesOnly).eigenvalues();
+  if (const auto K = sum_of_chains(system, A_full, symmetric)) {
+    result.K = *K;
+    result.eigenvalues = real_eigenvalues(result.K, symmetric);
     return result;
   }
   // Rigid chains: the compliance, the pose block of the inverse, exists where the sum does.
-  Matrix unit = Matrix::Zero(system.size, nt);
-  unit.middleRows(t, nt).setIdentity();
-  const auto X = solve_symmetric(A_full, unit);
-  if (!X) return result;
-  const Matrix C = X->middleRows(t, nt);
-  const Vector c =
-      Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (C + C.transpose()), Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const auto C = compliance(system, A_full, symmetric);
+  if (!C) return result;
+  const Vector c = real_eigenvalues(*C, symmetric);
   const double largest = c.cwiseAbs().maxCoeff();
-  result.eigenvalues.resize(nt);
-  for (Index i = 0; i < nt; ++i)
+  result.eigenvalues.resize(c.size());
+  for (Index i = 0; i < c.size(); ++i)
     result.eigenvalues[i] =
         std::abs(c[i]) > 1e-12 * largest ? 1 / c[i] : std::numeric_limits<double>::infinity();
   std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
   return result;
 }
 
-Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K) {
+Matrix body_stiffness(const System& system, const Matrix& A_full, const PlatformStiffness& platform,
+                      Index body, bool symmetric) {
+  const BodySlice& b = system.body_slices[static_cast<std::size_t>(body - 1)];
+  const bool alone = b.count == system.load_size;
+  if (platform.K.size() > 0 && alone) return platform.K;
+  if (const auto C = compliance(system, A_full, symmetric)) {
+    Eigen::FullPivLU<Matrix> lu(C->block(b.W, b.W, b.count, b.count));
+    lu.setThreshold(1e-12);
+    if (!lu.isInvertible()) return {};
+    const Matrix K = lu.inverse();
+    return symmetric ? Matrix(0.5 * (K + K.transpose())) : K;
+  }
+  if (platform.K.size() == 0) return {};
+  std::vector<Index> own, other;  // A is singular: eliminate the other bodies
+  for (Index i = 0; i < system.load_size; ++i)
+    (i >= b.W && i < b.W + b.count ? own : other).push_back(i);
+  const auto X = solve(platform.K(other, other), platform.K(other, own), symmetric);
+  if (!X) return {};
+  return platform.K(own, own) - platform.K(own, other) * *X;
+}
+
+Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work) {
+  const Split split = split_of(system, system.size);
+  const Matrix J = without_gauge(A_full, work)(split.wrenches, split.motions);
+  Eigen::ColPivHouseholderQR<Matrix> qr(J.transpose());
+  qr.setThreshold(1e-10);
+  const Index n = J.cols(), rank = J.rows() > 0 ? qr.rank() : 0;
+  const Matrix Q = qr.householderQ() * Matrix::Identity(n, n);
+  const Matrix Z = Q.rightCols(n - rank);
+  return Z.transpose() * without_gauge(A_full, work)(split.motions, split.motions) * Z;
+}
+
+std::vector<std::pair<double, double>> eigenvalues_of(const Matrix& T) {
+  std::vector<std::pair<double, double>> values;
+  if (T.rows() == 0 || !T.allFinite()) return values;
+  const Eigen::EigenSolver<Matrix> solver(T, false);
+  for (const auto& value : solver.eigenvalues()) values.emplace_back(value.real(), value.imag());
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double tangent_determinant(const System& system, const Matrix& A_full) {
+  const double sign = system.closure_count() % 2 == 0 ? 1 : -1;
+  return sign * A_full.partialPivLu().determinant();
+}
+
+Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K, Index body) {
   if (K.size() == 0) return K;
-  Matrix twist_to_pose = Matrix::Identity(system.load_size, system.load_size);
+  const Index first =
+      body > 0 ? system.body_slices[static_cast<std::size_t>(body - 1)].W : Index{0};
+  Matrix twist_to_pose = Matrix::Identity(K.rows(), K.rows());
   for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
     if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
-    const BodySlice& body = system.body_slices[b];
-    const model::Vec3<double> phi = z.segment(body.t + 3, 3);
-    twist_to_pose.block(body.W + 3, body.W + 3, 3, 3) = model::left_jacobian(phi).inverse();
+    if (body > 0 && body != static_cast<Index>(b) + 1) continue;
+    const BodySlice& slice = system.body_slices[b];
+    const model::Vec3<double> phi = z.segment(slice.t + 3, 3);
+    twist_to_pose.block(slice.W - first + 3, slice.W - first + 3, 3, 3) =
+        model::left_jacobian(phi).inverse();
   }
   return twist_to_pose.transpose() * K * twist_to_pose;
 }
@@ -143,12 +254,17 @@ std::optional<Index> unstable_modes(const Matrix& A, Index closures) {
   return inertia->negative - closures;
 }
 
-Stability stability(const System& system, const Matrix& A_full) {
+Stability stability(const System& system, const Matrix& A_full, const Workspace& work) {
   Stability result;
   result.force_controlled = unstable_modes(A_full, system.closure_count());
+  const Matrix plain = without_gauge(A_full, work);
+  if (system.chains_coupled) {
+    result.pose_controlled = chains_index(system, plain);
+    return result;
+  }
   Index sum = 0;
   for (std::size_t i = 0; i < system.chains.size(); ++i) {
-    const auto index = chain_index(system, i, A_full);
+    const auto index = chain_index(system, i, plain);
     if (!index) return result;
     sum += *index;
   }

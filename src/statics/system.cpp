@@ -86,6 +86,69 @@ void add_chain(System& system, const model::Chain& chain) {
   system.chains.push_back(compile(system.mechanism, chain));
 }
 
+/// The variables of a point: those of the body where its way begins, then joints of its chain.
+void place_point(const System& system, const model::Anchor& anchor, PointSlice& slice) {
+  const Index body = anchor.chain >= 0
+                         ? system.mechanism.chains[static_cast<std::size_t>(anchor.chain)].from
+                         : anchor.body;
+  const model::CompiledPoint& point = slice.point;
+  slice.body = body;
+  if (body > 0) {
+    const BodySlice& b = system.body_slices[static_cast<std::size_t>(body - 1)];
+    for (Index i = 0; i < b.count; ++i) slice.z.push_back(b.t + i);
+    slice.rho.assign(slice.z.size(), -1);
+  }
+  for (std::size_t j = 0; j < point.joints.size(); ++j) {
+    const ChainSlice& chain = system.chain_slices[static_cast<std::size_t>(anchor.chain)];
+    slice.z.push_back(chain.joint_coordinate[j]);
+    slice.rho.push_back(chain.joint_command[j]);
+  }
+}
+
+std::size_t add_point(System& system, const model::Anchor& anchor, std::string name) {
+  PointSlice slice{.name = std::move(name), .point = compile(system.mechanism, anchor)};
+  place_point(system, anchor, slice);
+  system.points.push_back(std::move(slice));
+  return system.points.size() - 1;
+}
+
+void add_weight(System& system, std::size_t point, double mass) {
+  system.loads.push_back({.point = point, .vector = mass * system.mechanism.gravity});
+}
+
+/// All chain points, so that named ones can be watched, then what acts on them and elsewhere.
+void add_points(System& system) {
+  const model::Mechanism& mechanism = system.mechanism;
+  const bool weighs = !mechanism.gravity.isZero(0);
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+    const auto& points = mechanism.chains[i].points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const std::string& own = points[p].name;
+      const std::size_t point = add_point(system, {.chain = static_cast<Index>(i), .point = p},
+                                          own.empty() ? own : mechanism.chains[i].name + "." + own);
+      if (weighs && points[p].mass != 0) add_weight(system, point, points[p].mass);
+    }
+  }
+  for (std::size_t b = 0; b < mechanism.bodies.size(); ++b) {
+    const model::Body& body = mechanism.bodies[b];
+    if (!weighs || body.mass == 0) continue;
+    const model::Anchor at{.body = static_cast<Index>(b + 1), .at = body.centre};
+    add_weight(system, add_point(system, at, ""), body.mass);
+  }
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
+    const model::Load& load = mechanism.loads[i];
+    const std::size_t point = add_point(system, load.on, "");
+    system.loads.push_back({point, load.kind, load.follows, static_cast<Index>(i), load.vector});
+  }
+  for (const model::LineSpring& spring : mechanism.line_springs) {
+    const std::size_t from = add_point(system, spring.from, "");
+    const std::size_t to = add_point(system, spring.to, "");
+    system.line_springs.push_back({from, to, spring.stiffness, spring.free});
+    system.chains_coupled |=
+        spring.from.chain >= 0 && spring.to.chain >= 0 && spring.from.chain != spring.to.chain;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> pose_names(TaskSpace space) {
@@ -127,6 +190,7 @@ System prepare(const model::Mechanism& mechanism) {
     system.chain_slices[i].from = pose_of(mechanism.chains[i].from);
     system.chain_slices[i].to = pose_of(mechanism.chains[i].to);
   }
+  add_points(system);
   return system;
 }
 
@@ -148,6 +212,14 @@ void turn_frames(const System& system, const std::vector<model::Mat3<double>>& r
       turn(ends.from, to.last, from.last);
     else
       turn(ends.from, to.joints.front().before, from.joints.front().before);
+  }
+  for (std::size_t i = 0; i < system.points.size(); ++i) {
+    const model::CompiledPoint& from = system.points[i].point;
+    model::CompiledPoint& to = turned.points[i].point;
+    if (from.joints.empty())
+      turn(system.points[i].body, to.last, from.last);
+    else
+      turn(system.points[i].body, to.joints.front().before, from.joints.front().before);
   }
 }
 
@@ -182,19 +254,6 @@ std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece) {
   for (std::size_t i = 0; i < spring.law.breakpoints.size(); ++i)
     if (piece[static_cast<std::size_t>(spring.first_switch) + i] > 0) ++segment;
   return segment;
-}
-
-double spring_energy(const System& system, const Vector& z) {
-  double energy = 0;
-  for (const CoordinateSpring& spring : system.springs) {
-    const double c = z[spring.coordinate];
-    energy += spring.law.energy(spring.law.segment_at(c), c);
-  }
-  for (const CoordinateGroup& group : system.coupled) {
-    const Vector q = z(group.coordinates) - group.free;
-    energy += 0.5 * q.dot(group.stiffness * q);
-  }
-  return energy;
 }
 
 }  // namespace springfold::statics

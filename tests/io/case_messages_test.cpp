@@ -147,9 +147,10 @@ TEST_F(CaseMessages, OfNamesNameTheNearestKnownOne) {
 }
 
 TEST_F(CaseMessages, OfDuplicateNamesComeWithTheSecondOne) {
-  EXPECT_THAT(after("name = \"leg_y\"", "name = \"leg_x\""),
-              ElementsAre("case.toml:21:8: chain[2].name: \"leg_x\" is already taken: bodies and "
-                          "chains need different names, and \"base\" is the fixed body"));
+  EXPECT_THAT(
+      after("name = \"leg_y\"", "name = \"leg_x\""),
+      ElementsAre("case.toml:21:8: chain[2].name: \"leg_x\" is already taken: bodies, "
+                  "chains and springs need different names, and \"base\" is the fixed body"));
   EXPECT_THAT(after("name = \"knee\"", "name = \"drive\""),
               ElementsAre("case.toml:17:45: chain[1].elements[2].name: \"drive\" is already the "
                           "name of another joint of this chain, need different names"));

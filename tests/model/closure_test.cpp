@@ -67,6 +67,53 @@ TEST_P(ClosureDerivatives, ContractedHessianAgreesWithTheComplexStepOfTheJacobia
   }
 }
 
+/// Ends in different task spaces: a point on a plate, a planar body in a spatial mechanism.
+TEST(ClosureBetweenTaskSpaces, HasExactDerivatives) {
+  constexpr TaskSpace spaces[] = {TaskSpace::xy, TaskSpace::planar, TaskSpace::xyz,
+                                  TaskSpace::spatial};
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 400; ++trial) {
+    const TaskSpace from = spaces[trial % 4], to = spaces[trial / 4 % 4];
+    Mechanism m;
+    m.bodies = {{"a", from, Vector::Zero(dimension(from))}, {"b", to, Vector::Zero(dimension(to))}};
+    m.chains = {{.name = "c", .from = 1, .to = 2, .elements = {RigidLink{}}}};
+    const TaskSpace space = compile(m, m.chains[0]).space;
+    // A planar closure is one of planar chains.
+    CompiledChain chain = random_chain(
+        random, space == TaskSpace::planar ? space : TaskSpace::spatial, true, true, trial % 4);
+    chain.space = space;
+    chain.from_space = from;
+    chain.to_space = to;
+    const VectorOf<double> v = random_variables(random, chain);
+    const VectorOf<double> F = random_vector(random, chain.dimension(), 2.0);
+    Closure<double> at;
+    evaluate_closure<double>(chain, v, &F, at);
+    for (Index j = 0; j < v.size(); ++j) {
+      VectorOf<Complex> w = v.cast<Complex>();
+      w[j] += Complex(0, tiny);
+      Closure<Complex> moved;
+      evaluate_closure<Complex>(chain, w, nullptr, moved);
+      EXPECT_LT((moved.e.imag() / tiny - at.J.col(j)).norm(), 1e-10 * (1 + at.J.norm()));
+      const Matrix J_rate = moved.J.imag() / tiny;
+      EXPECT_LT((J_rate.transpose() * F - at.H.col(j)).norm(), 1e-10 * (1 + at.H.norm()))
+          << "trial " << trial << ", variable " << j;
+    }
+  }
+}
+
+TEST(ClosureBetweenTaskSpaces, HoldsAPointAsAPointAndBodiesOfBothKindsAsBodiesInSpace) {
+  const auto closes_in = [](TaskSpace from, TaskSpace to) {
+    Mechanism m;
+    m.bodies = {{"a", from, Vector::Zero(dimension(from))}, {"b", to, Vector::Zero(dimension(to))}};
+    return task_space_of(m, {.name = "c", .from = 1, .to = 2});
+  };
+  EXPECT_EQ(closes_in(TaskSpace::xy, TaskSpace::planar), TaskSpace::xy);
+  EXPECT_EQ(closes_in(TaskSpace::planar, TaskSpace::xyz), TaskSpace::xyz);
+  EXPECT_EQ(closes_in(TaskSpace::spatial, TaskSpace::xy), TaskSpace::xyz);
+  EXPECT_EQ(closes_in(TaskSpace::planar, TaskSpace::spatial), TaskSpace::spatial);
+  EXPECT_EQ(closes_in(TaskSpace::planar, TaskSpace::planar), TaskSpace::planar);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     AllTaskSpaces, ClosureDerivatives,
     testing::Values(Shape{TaskSpace::xy, false, true}, Shape{TaskSpace::xy, true, false},

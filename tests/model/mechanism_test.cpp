@@ -80,14 +80,6 @@ TEST(MechanismProblems, WantEndsThatExistAndDiffer) {
               ElementsAre("chain[1]: from, to: the chain must join two different bodies"));
 }
 
-TEST(MechanismProblems, WantOneTaskSpaceOnBothMovingEnds) {
-  EXPECT_THAT(problems_after([](Mechanism& m) {
-                m.bodies.push_back({"other", TaskSpace::xy, Vector::Zero(2)});
-                m.chains[0].from = 2;
-              }),
-              ElementsAre("chain[1]: from, to: both moving bodies need the same task space"));
-}
-
 TEST(MechanismProblems, WantElementsInEveryChain) {
   EXPECT_THAT(problems_after([](Mechanism& m) { m.chains[0].elements.clear(); }),
               ElementsAre("chain[1]: elements: a chain needs at least one element"));

@@ -34,7 +34,7 @@ inline CompiledChain random_chain(std::mt19937& random, TaskSpace space, bool fr
                                   bool to_moves, int joints) {
   const bool in_plane = space == TaskSpace::xy || space == TaskSpace::planar;
   CompiledChain chain;
-  chain.space = space;
+  chain.space = chain.from_space = chain.to_space = space;
   chain.from_moves = from_moves;
   chain.to_moves = to_moves;
   chain.last = random_pose(random, in_plane);

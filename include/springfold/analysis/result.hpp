@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "springfold/core/types.hpp"
@@ -126,6 +127,15 @@ struct WayOut {
   int branch = 0;               ///< number of the branch along it; 0: not followed
 };
 
+/// Closure equations that say again what others say already.
+struct RedundantClosures {
+  int count = 0;                      ///< dependent equations
+  int of = 0;                         ///< all closure equations
+  std::vector<std::string> chains{};  ///< names of those whose equations take part
+  double smallest_kept = 0;           ///< singular values of the closures, relative to the largest:
+  double largest_dropped = 0;         ///< the gap between independent and dependent ones
+};
+
 /// How the start point was found.
 struct StartReport {
   bool found = false;
@@ -135,13 +145,20 @@ struct StartReport {
   int iterations = 0;                   ///< of the solver in the successful attempt
   std::vector<int> chain_iterations{};  ///< paper's iteration: per chain
   double residual = 0;  ///< largest scaled residual of the equilibrium equations [-]
-  Matrix stiffness{};   ///< K_Sigma at the start, d x d, world axes; empty if undefined
+  /// Stiffness of the study's body at the start, all other bodies free, d x d, world axes: K_Sigma
+  /// where it is the only one; empty if undefined.
+  Matrix stiffness{};
   std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
   double guess_residual = 0;   ///< the same residual at the guess, with the wrenches that suit best
   double moved = 0;            ///< largest change of a coordinate or pose from the guess [-]
   std::string moved_most{};    ///< name of that coordinate
   std::string situation{};     ///< "a branch point"; empty: an ordinary point of a curve
   std::vector<WayOut> ways{};  ///< all ways that leave it, where it is not an ordinary point
+  /// Eigenvalues of the tangent stiffness reduced to the mechanism's freedoms, real and imaginary
+  /// parts, ascending [force/length].
+  std::vector<std::pair<double, double>> tangent{};
+  int zero_modes = 0;  ///< of them: zero to rounding, motions without stiffness
+  RedundantClosures redundant{};
 };
 
 /// One of several equilibria at the same load.
@@ -185,7 +202,9 @@ struct StudyResult {
   std::vector<Branch> branches{};     ///< empty if no start was found; kind equilibrium: one sample
   std::vector<Junction> junctions{};  ///< where branches meet, if more than one was asked for
   std::vector<Search> searches{};     ///< one per lambda that was searched
-  std::vector<std::string> doubts{};  ///< what may be missing in the diagram, in words
+  /// Loads without potential, in words; then no count of unstable modes is given.
+  std::vector<std::string> non_conservative{};
+  std::vector<std::string> doubts{};             ///< what may be missing in the diagram, in words
   std::optional<EquilibriaReport> equilibria{};  ///< kind equilibria; it has no branches
   double seconds = 0;  ///< CPU time used; never part of reproducible output
 };

@@ -17,7 +17,8 @@ struct CompiledChain {
     Vec3<double> axis = Vec3<double>::UnitZ();
     bool revolute = true;
   };
-  TaskSpace space = TaskSpace::spatial;
+  TaskSpace space = TaskSpace::spatial;                                      ///< in which it closes
+  TaskSpace from_space = TaskSpace::spatial, to_space = TaskSpace::spatial;  ///< of the end bodies
   bool from_moves = false, to_moves = true;  ///< whether the ends are moving bodies
   std::vector<JointStep> joints{};
   Pose<double> last{};           ///< rigid transform behind the last joint
@@ -27,10 +28,9 @@ struct CompiledChain {
   Index joint_count() const { return static_cast<Index>(joints.size()); }
   /// Variables of the closure in this order: (pose of `from` if it moves, joint displacements,
   /// pose of `to` if it moves).
-  Index variable_count() const {
-    return joint_count() + (from_moves ? dimension() : 0) + (to_moves ? dimension() : 0);
-  }
-  Index first_joint() const { return from_moves ? dimension() : 0; }
+  Index variable_count() const { return first_to() + to_count(); }
+  Index first_joint() const { return from_moves ? springfold::model::dimension(from_space) : 0; }
+  Index to_count() const { return to_moves ? springfold::model::dimension(to_space) : 0; }
   Index first_to() const { return first_joint() + joint_count(); }
 };
 
@@ -140,8 +140,11 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
                       Closure<S>& out) {
   const TaskSpace space = chain.space;
   const Index d = chain.dimension(), n = chain.variable_count(), nj = chain.joint_count();
+  const Index from_count = chain.first_joint(), to_count = chain.to_count();
   assert(v.size() == n);
   const Index lengths = translations(space);
+  const Index from_lengths = translations(chain.from_space);
+  const Index to_lengths = translations(chain.to_space);
   auto& motions = out.motions;
   motions.assign(static_cast<std::size_t>(n), {});
 
@@ -149,14 +152,14 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   Pose<S> frame;
   detail::BodyFrame<S> front, end;
   if (chain.from_moves) {
-    front = detail::body_frame<S>(space, v, F != nullptr);
+    front = detail::body_frame<S>(chain.from_space, v, F != nullptr);
     frame = front.pose;
-    for (Index i = 0; i < d; ++i) {
+    for (Index i = 0; i < from_count; ++i) {
       auto& m = motions[static_cast<std::size_t>(i)];
-      if (i < lengths)
+      if (i < from_lengths)
         m.dp = Vec3<S>::Unit(i);
       else
-        m.spin = detail::pose_spin(space, front, i);
+        m.spin = detail::pose_spin(chain.from_space, front, i);
       m.origin = front.pose.p;
       m.group = -1;
     }
@@ -180,7 +183,7 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   frame = frame * chain.last.cast<S>();
   Pose<S> attachment = chain.to_attachment.cast<S>();
   if (chain.to_moves) {
-    end = detail::body_frame<S>(space, v.tail(d), F != nullptr);
+    end = detail::body_frame<S>(chain.to_space, v.tail(to_count), F != nullptr);
     attachment = end.pose * attachment;
   }
 
@@ -204,17 +207,17 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
     m.omega = m.spin;
     const bool turns =
         i < chain.first_joint()
-            ? i >= lengths
+            ? i >= from_lengths
             : chain.joints[static_cast<std::size_t>(i - chain.first_joint())].revolute;
     if (turns) m.dp = cross<S>(m.spin, Vec3<S>(frame.p - m.origin));
   }
   const Vec3<S> arm = chain.to_moves ? Vec3<S>(attachment.p - end.pose.p) : Vec3<S>::Zero();
-  for (Index i = 0; chain.to_moves && i < d; ++i) {
+  for (Index i = 0; i < to_count; ++i) {
     auto& m = motions[static_cast<std::size_t>(chain.first_to() + i)];
     m.of_end_body = true;
     m.group = -2;
-    m.spin = detail::pose_spin(space, end, i);
-    m.dp = i < lengths ? Vec3<S>(-Vec3<S>::Unit(i)) : Vec3<S>(-cross<S>(m.spin, arm));
+    m.spin = detail::pose_spin(chain.to_space, end, i);
+    m.dp = i < to_lengths ? Vec3<S>(-Vec3<S>::Unit(i)) : Vec3<S>(-cross<S>(m.spin, arm));
     m.omega = -(E * m.spin);
   }
   out.J.resize(d, n);
@@ -243,7 +246,8 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
       const auto& b = motions[static_cast<std::size_t>(k)];
       const bool one_body = a.group == b.group && a.group < 0;
       S value(0);
-      if (one_body && space == TaskSpace::spatial) {
+      const TaskSpace body_space = a.of_end_body ? chain.to_space : chain.from_space;
+      if (one_body && body_space == TaskSpace::spatial) {
         if (j - (a.of_end_body ? chain.first_to() : 0) >= 3) {  // both of one rotation vector
           const auto& body = a.of_end_body ? end : front;
           const Index first = (a.of_end_body ? chain.first_to() : 0) + 3;

@@ -65,11 +65,22 @@ struct Joint {
   JointRole role = JointRole::passive;
   /// preloaded: needed; compliant: needed unless a coupled spring acts on it; actuated: drive stiffness
   std::optional<SpringLaw> spring{};
-  double initial = 0;  ///< guess of the free coordinate (theta for a drive spring)
-  double command = 0;  ///< actuated joints: rho
+  bool spring_from_start = false;  ///< coordinates of `spring` are counted from the coordinate that
+                                   ///< the joint has in the study's start pose
+  double initial = 0;              ///< guess of the free coordinate (theta for a drive spring)
+  double command = 0;              ///< actuated joints: rho
 };
 
 using Element = std::variant<RigidLink, Joint>;
+
+/// A point that a chain carries: fixed in the frame behind its first `elements_before` elements.
+/// Loads and springs may act there.
+struct ChainPoint {
+  std::string name{};                      ///< unique in its chain; empty: only its mass matters
+  std::size_t elements_before = 0;         ///< 0: in the frame where the chain begins
+  Vec3<double> at = Vec3<double>::Zero();  ///< in that frame [length]
+  double mass = 0;                         ///< weight = mass * gravity acts there
+};
 
 /// An edge of the graph. Its elements lead from a frame fixed in body `from` to a frame fixed in
 /// body `to`.
@@ -81,6 +92,7 @@ struct Chain {
   Pose<double> to_attachment{};    ///< end of the chain in the frame of `to`
   std::vector<Element> elements{};
   std::vector<CoupledSpring> coupled_springs{};  ///< of its compliant joints
+  std::vector<ChainPoint> points{};
 };
 
 /// A moving body. `pose` is where it is to be looked for first.
@@ -89,20 +101,62 @@ struct Body {
   TaskSpace task_space = TaskSpace::spatial;
   /// (x, y), (x, y, phi), (x, y, z) or (x, y, z, rotation vector) in the base frame
   Vector pose{};
+  double mass = 0;                             ///< weight = mass * gravity acts at `centre`
+  Vec3<double> centre = Vec3<double>::Zero();  ///< centre of mass in the body's frame [length]
+};
+
+/// Where a load or a line spring acts: a point fixed in a body, or one fixed to a point of a chain.
+struct Anchor {
+  Index body = 0;         ///< body number, 0 is the base; without meaning if `chain` is set
+  Index chain = -1;       ///< number of the chain, or -1: on a body
+  std::size_t point = 0;  ///< of the chain: number in Chain::points
+  Vec3<double> at = Vec3<double>::Zero();  ///< in the frame of the body or the point [length]
+};
+
+enum class LoadKind { force, moment };
+
+/// A force or moment at a point. Without `follows` its direction is fixed in the base frame, with it
+/// in the frame that the point belongs to.
+struct Load {
+  std::string name{};
+  Anchor on{};
+  LoadKind kind = LoadKind::force;
+  bool follows = false;
+  bool with_lambda = false;  ///< the load is lambda times the vector; otherwise constant
+  Vec3<double> vector = Vec3<double>::Zero();  ///< [force] or [moment]
+};
+
+/// A straight linear spring between two points, which pulls with stiffness (length - free). With
+/// free = 0 it is a zero-free-length spring, whose energy is smooth at length zero too.
+struct LineSpring {
+  std::string name{};
+  Anchor from{}, to{};
+  double stiffness = 0;  ///< [force/length]
+  double free = 0;       ///< length without force [length]
 };
 
 /// Bodies (without the base) and chains. Body number b of a chain is bodies[b - 1].
 struct Mechanism {
   std::vector<Body> bodies{};
   std::vector<Chain> chains{};
+  Vec3<double> gravity = Vec3<double>::Zero();  ///< [force/mass], base frame
+  std::vector<Load> loads{};
+  std::vector<LineSpring> line_springs{};
 };
 
 /// Every rule that the mechanism breaks, as sentences; empty when usable.
 std::vector<std::string> problems_in(const Mechanism& mechanism);
 
-/// Task space in which the chain closes: that of its moving end (both ends have the same, if both
-/// move). @pre problems_in(mechanism).empty()
+/// Task space in which the chain closes: that of its moving end. Where both ends move, a point (xy,
+/// xyz) is held as a point, and the space has three dimensions if one of the ends' has.
+/// @pre problems_in(mechanism).empty()
 TaskSpace task_space_of(const Mechanism& mechanism, const Chain& chain);
+
+/// Has the load a potential, whatever the mechanism does: dead forces, and loads whose point can
+/// turn only about axes of one direction so that they stay constant. Fixed-axis and follower moments
+/// on planar bodies are of this kind; a moment on a spatial body or a follower force is not.
+/// @pre problems_in(mechanism).empty()
+bool is_conservative(const Mechanism& mechanism, const Load& load);
 
 /// Has the joint an unknown coordinate: everything but an actuated joint without drive spring.
 bool has_coordinate(const Joint& joint);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "springfold/statics/system.hpp"
 
@@ -31,6 +33,10 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
                                             const Piece& piece, const Vector& z,
                                             const Inputs& inputs);
 
+/// The derivative of the equilibrium's gradient alone: what equilibrium_matrix adds for redundant
+/// closures is taken away again. @param work  as equilibrium_matrix left it
+Matrix without_gauge(const Matrix& A_full, const Workspace& work);
+
 /// K_Sigma - dW/dt of all bodies together.
 struct PlatformStiffness {
   Matrix K{};            ///< load_size x load_size, pose coordinates; empty when a chain is rigid
@@ -38,12 +44,39 @@ struct PlatformStiffness {
                          ///< empty when the mechanism itself is singular and K unknown
 };
 
-/// @param A_full  matrix of equilibrium_matrix at the state
-PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full);
+/// @param A_full     matrix of equilibrium_matrix at the state
+/// @param symmetric  false: loads without potential act; K is not symmetric then, and the real parts
+///                   of its eigenvalues are given
+PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full,
+                                     bool symmetric = true);
+
+/// Stiffness of one body, all other bodies free: K_bb - K_bo K_oo^-1 K_ob, or, where chains are
+/// rigid, the inverse of its compliance.
+/// @param platform  as platform_stiffness gave it for A_full
+/// @returns count x count in pose coordinates; empty where it is not defined
+Matrix body_stiffness(const System& system, const Matrix& A_full, const PlatformStiffness& platform,
+                      Index body, bool symmetric = true);
+
+/// Tangent stiffness of the whole mechanism, reduced to the motions that joints and closures allow:
+///
+///     T = Z^T H Z,   A = | H  -J^T |,   Z: orthonormal basis of the motions with J Z = 0
+///                        | -J   0  |
+///
+/// Its size is the number of degrees of freedom. It is singular exactly at critical states, with
+/// and without a potential.
+Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work = {});
+
+/// Real and imaginary parts of the eigenvalues of T, by real parts, then imaginary parts.
+std::vector<std::pair<double, double>> eigenvalues_of(const Matrix& T);
+
+/// det T times the positive factor det(J J^T): zero where T is singular, and of its sign. For a
+/// serial chain with free end it is the determinant of the stiffness in joint coordinates.
+double tangent_determinant(const System& system, const Matrix& A_full);
 
 /// K in pose coordinates -> K in world axes: rotation vectors' derivatives replaced by twists.
 /// Exact where no external moment acts.
-Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K);
+/// @param body  K is that of this body alone; 0: of all bodies
+Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K, Index body = 0);
 
 /// Numbers of unstable modes. Empty where the closure equations are dependent or the state is
 /// critical, so that the count is not defined.
@@ -53,8 +86,9 @@ struct Stability {
 };
 
 /// By Haynsworth's additivity: index = n_minus(KKT matrix) - number of independent closures.
-/// @param A_full  matrix of equilibrium_matrix at the state
-Stability stability(const System& system, const Matrix& A_full);
+/// @param A_full, work  as equilibrium_matrix left them at the state; work may be left out where no
+///                      closures are redundant
+Stability stability(const System& system, const Matrix& A_full, const Workspace& work = {});
 
 /// Unstable modes of a reduced KKT matrix with `closures` multipliers among its unknowns; empty if
 /// an eigenvalue is zero.

@@ -8,6 +8,7 @@
 #include "springfold/core/types.hpp"
 #include "springfold/model/closure.hpp"
 #include "springfold/model/mechanism.hpp"
+#include "springfold/model/point.hpp"
 
 namespace springfold::statics {
 
@@ -47,6 +48,30 @@ struct Switch {
   std::size_t spring = 0;  ///< number of the spring
 };
 
+/// A point at which something acts, and where its variables stand.
+struct PointSlice {
+  std::string name{};  ///< "leg.knee"; empty: not named in the case
+  Index body = 0;      ///< where the way to it begins, 0: at the base
+  model::CompiledPoint point{};
+  std::vector<Index> z{};    ///< per variable: its unknown in z, or -1
+  std::vector<Index> rho{};  ///< per variable: its command in rho, or -1
+};
+
+/// A load or weight at a point.
+struct PointLoad {
+  std::size_t point = 0;
+  model::LoadKind kind = model::LoadKind::force;
+  bool follows = false;
+  Index number = -1;  ///< among the mechanism's loads, or -1: a weight
+  model::Vec3<double> vector = model::Vec3<double>::Zero();
+};
+
+/// A line spring between two points.
+struct PointSpring {
+  std::size_t from = 0, to = 0;
+  double stiffness = 0, free = 0;
+};
+
 /// Immutable; share it between threads, give each its own Workspace.
 struct System {
   model::Mechanism mechanism{};
@@ -56,6 +81,15 @@ struct System {
   std::vector<CoordinateSpring> springs{};
   std::vector<CoordinateGroup> coupled{};
   std::vector<Switch> switches{};
+  std::vector<PointSlice> points{};  ///< the chains' named ones first, in order
+  std::vector<PointLoad> loads{};
+  std::vector<PointSpring> line_springs{};
+  /// A line spring joins two chains: they do not couple through bodies alone, and sums over chains
+  /// are no use.
+  bool chains_coupled = false;
+  /// Closure equations that depend on the others in every assembled state, see redundancy.hpp. Of
+  /// the wrenches that they leave undetermined the equilibrium takes those of smallest norm.
+  Index redundant = 0;
   std::vector<std::string>
       coordinate_names{};                    ///< per entry of z; wrenches "leg.Fx", poses "tool.x"
   std::vector<bool> is_length{};             ///< per entry of z: unknown is a length, not an angle;
@@ -99,8 +133,9 @@ void turn_frames(const System& system, const std::vector<model::Mat3<double>>& r
 
 /// Everything that the equilibrium depends on besides z.
 struct Inputs {
-  Vector rho{};  ///< commands of the actuated joints
-  Vector W{};    ///< load_size: external wrench on every body, world axes, at the body's origin
+  Vector rho{};    ///< commands of the actuated joints
+  Vector W{};      ///< load_size: external wrench on every body, world axes, at the body's origin
+  Vector loads{};  ///< per load of the mechanism a factor; empty: all 1
 };
 
 /// Storage that evaluations reuse.
@@ -108,6 +143,9 @@ struct Workspace {
   std::vector<model::Closure<double>> closures{};
   std::vector<Vector> variables{};
   std::vector<Vector> wrenches{};
+  std::vector<model::PointMotion<double>> points{};
+  Matrix gauge{};  ///< redundant closures: A = the derivative of the gradient - gauge^T gauge
+  Vector undetermined{};  ///< redundant closures: zero where they do not contradict each other
 };
 
 /// Gradient of the Lagrangian L = sum U_i - work - sum F_i . e_i (paper eq. (4), (5)):
@@ -116,19 +154,43 @@ struct Workspace {
 ///     row F_i:  -e_i                  closure
 ///     row t_b:  sum F_i - W_b         balance of every body (as generalised forces of t_b)
 ///
+/// Loads, weights and line springs at points add their generalised forces to the rows x_i and t_b.
+/// Redundant closures add terms that are zero where e = 0 and the wrenches have the smallest norm.
+///
 /// @param piece  which smooth continuation of the springs to use
 /// @returns false when the result is not finite
 bool equilibrium_residual(const System& system, const Piece& piece, const Vector& z,
                           const Inputs& inputs, Workspace& work, Vector& residual);
 
-/// The same and its derivatives: A = d residual/dz, symmetric but for external moments on spatial
-/// bodies, and optionally the columns d residual/d rho (size x number of commands).
+/// The same and its derivatives: A = d residual/dz, symmetric where all loads have a potential, and optionally the columns d residual/d rho (size x number of commands).
 bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& z,
                         const Inputs& inputs, Workspace& work, Vector& residual, Matrix& A,
                         Matrix* dR_drho = nullptr);
 
-/// Spring energy in the state z, each spring in its own segment.
+/// Spring energy in the state z, each spring in its own segment; line springs included.
+/// @param rho  commands
+double spring_energy(const System& system, const Vector& z, const Vector& rho);
+/// The same with the commands that the mechanism gives.
 double spring_energy(const System& system, const Vector& z);
+
+/// Minus the work of weights and loads from the world's origin and zero angles: their potential,
+/// where all of them have one.
+double load_potential(const System& system, const Vector& z, const Inputs& inputs);
+
+/// Position of a point in the state z [length].
+model::Vec3<double> position_of(const System& system, std::size_t point, const Vector& z,
+                                const Vector& rho);
+
+/// Length of a line spring in the state z, and the force with which it pulls.
+struct LineSpringState {
+  double length = 0, force = 0;
+};
+LineSpringState line_spring_state(const System& system, std::size_t spring, const Vector& z,
+                                  const Vector& rho);
+
+/// d residual/d(factors) times `rates`: minus the generalised forces of the mechanism's loads, each
+/// times its rate. @returns size entries
+Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates);
 
 /// Columns d residual/dW: minus the generalised force of a unit wrench component on each body,
 /// size x load_size.

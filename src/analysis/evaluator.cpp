@@ -1,0 +1,288 @@
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "quantities.hpp"
+#include "resting.hpp"
+#include "start.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using Kind = QuantityDefinition::Kind;
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scales& scales)
+    : problem_{problem}, control_{study.control}, scales_{scales} {
+  const auto body = static_cast<std::size_t>(study.body - 1);
+  const statics::System& system = problem.layout();
+  first_pose_ = system.first_pose;
+  t_ = system.body_slices[body].t;
+  d_ = system.body_slices[body].count;
+  measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
+  conjugate_ = problem.rule().t_rate;
+  if (!conjugate_.isZero(0)) {
+    // t_rate carries lambda's scale; the force goes with a unit displacement.
+    conjugate_ /= measured_.dot(conjugate_);
+  }
+}
+
+double Evaluator::load_rate() const {
+  if (measured_.size() == 0) return 0;
+  return measured_.dot(problem_.rule().W_rate.segment(t_ - first_pose_, d_));
+}
+
+/// What the drive adds to the constant load, along the direction.
+double Evaluator::force(const continuation::CurvePoint& point) const {
+  if (control_ == ControlMode::load) return point.lambda * load_rate();
+  statics::Workspace work;
+  Vector r;
+  equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
+                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
+                       r);
+  return conjugate_.dot(r.segment(t_, d_));
+}
+
+double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
+                        const Turns* turns) const {
+  switch (q.kind) {
+    case Kind::arc_length:
+      return point.s;
+    case Kind::lambda:
+      return q.scale * point.lambda;
+    case Kind::deflection:
+      return q.scale * measured_.dot(problem_.expand(point.x, point.lambda, turns).segment(t_, d_) -
+                                     problem_.rule().t_start);
+    case Kind::force:
+      return q.scale * force(point);
+    case Kind::unknown:
+      if (q.entry < first_pose_) return q.scale * point.x[q.entry];
+      return q.scale * problem_.expand(point.x, point.lambda, turns)[q.entry];
+    case Kind::command:
+      return q.scale * problem_.inputs(point.lambda).rho[q.entry];
+    case Kind::energy:
+      return q.scale * spring_energy(problem_.system(point.lambda),
+                                     problem_.expand(point.x, point.lambda),
+                                     problem_.inputs(point.lambda).rho);
+    case Kind::point:
+      return q.scale * statics::position_of(problem_.system(point.lambda),
+                                            static_cast<std::size_t>(q.entry / 3),
+                                            problem_.expand(point.x, point.lambda),
+                                            problem_.inputs(point.lambda).rho)[q.entry % 3];
+    case Kind::spring_length:
+    case Kind::spring_force: {
+      const auto state = statics::line_spring_state(
+          problem_.system(point.lambda), static_cast<std::size_t>(q.entry),
+          problem_.expand(point.x, point.lambda), problem_.inputs(point.lambda).rho);
+      return q.scale * (q.kind == Kind::spring_length ? state.length : state.force);
+    }
+    case Kind::index:
+      return point.negative ? static_cast<double>(*point.negative - problem_.closures())
+                            : undefined;
+    case Kind::stiffness:
+    case Kind::eigenvalue:
+    case Kind::tangent_eigenvalue:
+    case Kind::tangent_imaginary:
+    case Kind::tangent_determinant:
+    case Kind::index_pose:
+    case Kind::index_force: {
+      const auto at = assemble(point);
+      return at ? from_matrix(q, point, *at, turns) : undefined;
+    }
+  }
+  return undefined;
+}
+
+std::optional<Evaluator::Assembled> Evaluator::assemble(
+    const continuation::CurvePoint& point) const {
+  Assembled at;
+  const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
+  Vector r;
+  if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, r,
+                          at.A))
+    return std::nullopt;
+  at.platform = statics::platform_stiffness(system, at.A, problem_.symmetric());
+  at.body = statics::body_stiffness(system, at.A, at.platform, problem_.rule().body,
+                                    problem_.symmetric());
+  if (problem_.symmetric()) {
+    at.stability = statics::stability(system, at.A, at.work);
+  } else {
+    at.tangent = statics::eigenvalues_of(statics::tangent_stiffness(system, at.A, at.work));
+    at.determinant = statics::tangent_determinant(system, at.A);
+  }
+  return at;
+}
+
+double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::CurvePoint& point,
+                              const Assembled& at, const Turns* turns) const {
+  const auto count = [](const std::optional<Index>& n) {
+    return n ? static_cast<double>(*n) : undefined;
+  };
+  switch (q.kind) {
+    case Kind::stiffness: {
+      if (at.body.size() == 0) return undefined;
+      return q.scale * measured_.dot(at.body * measured_);
+    }
+    case Kind::tangent_eigenvalue:
+    case Kind::tangent_imaginary: {
+      const auto i = static_cast<std::size_t>(q.entry);
+      if (i >= at.tangent.size()) return undefined;
+      const auto& [real, imaginary] = at.tangent[i];
+      return q.scale * (q.kind == Kind::tangent_eigenvalue ? real : imaginary);
+    }
+    case Kind::tangent_determinant:
+      return q.scale * at.determinant;
+    case Kind::eigenvalue:
+      return q.entry < at.platform.eigenvalues.size() &&
+                     std::isfinite(at.platform.eigenvalues[q.entry])
+                 ? q.scale * at.platform.eigenvalues[q.entry]
+                 : undefined;
+    case Kind::index_pose:
+      return count(at.stability.pose_controlled);
+    case Kind::index_force:
+      return count(at.stability.force_controlled);
+    default:
+      return value(q, point, turns);
+  }
+}
+
+std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
+                                      const continuation::CurvePoint& point,
+                                      const Turns* turns) const {
+  const auto at = assemble(point);
+  std::vector<double> values;
+  values.reserve(quantities.size());
+  for (const QuantityDefinition& q : quantities)
+    values.push_back(at ? from_matrix(q, point, *at, turns) : undefined);
+  raise_indices(quantities, point, values);
+  return values;
+}
+
+void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
+                              const continuation::CurvePoint& point,
+                              std::vector<double>& values) const {
+  for (Piece& piece : pieces_around(problem_, point)) {
+    if (piece == point.piece) continue;
+    continuation::CurvePoint beside = point;
+    beside.piece = std::move(piece);
+    beside.negative.reset();
+    count_negative(problem_, beside);
+    const auto at = assemble(beside);
+    for (std::size_t i = 0; at && i < quantities.size(); ++i) {
+      const Kind kind = quantities[i].kind;
+      if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
+        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, nullptr));
+    }
+  }
+}
+
+std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quantities,
+                                     const continuation::CurvePoint& point,
+                                     const Turns* turns) const {
+  const double dlambda = point.tangent.dlambda;
+  const Vector dz = problem_.expand_rate(point.x, point.tangent.dx, dlambda, turns);
+  std::vector<double> rates;
+  for (const QuantityDefinition& q : quantities) {
+    double rate = undefined;
+    if (q.kind == Kind::arc_length) rate = 1;
+    if (q.kind == Kind::lambda) rate = dlambda;
+    if (q.kind == Kind::deflection) rate = measured_.dot(dz.segment(t_, d_));
+    if (q.kind == Kind::unknown) rate = dz[q.entry];
+    if (q.kind == Kind::command && !problem_.rule().family)
+      rate = dlambda * problem_.rule().rho_rate[q.entry];
+    if (q.kind == Kind::force) rate = force_rate(point);
+
+    rates.push_back(q.scale * rate);
+  }
+  return rates;
+}
+
+double Evaluator::force_rate(const continuation::CurvePoint& point) const {
+  const double dlambda = point.tangent.dlambda;
+  if (control_ == ControlMode::load) return dlambda * load_rate();
+  statics::Workspace work;
+  Vector r;
+  Matrix A;
+  if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
+                          problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
+                          work, r, A))
+    return undefined;
+  const Matrix rows = A.middleRows(t_, d_);
+  const Vector dz = problem_.local_rate(point.x, point.tangent.dx, dlambda);
+  double rate = conjugate_.dot(rows * dz);
+  if (!problem_.rule().load_rate.isZero(0))  // loads that grow with lambda
+    rate += dlambda * conjugate_.dot(statics::load_rate(problem_.turned(point.x, point.lambda),
+                                                        problem_.local(point.x, point.lambda),
+                                                        problem_.inputs(point.lambda).rho,
+                                                        problem_.rule().load_rate)
+                                         .segment(t_, d_));
+  return std::abs(rate) > 1e-14 * rows.norm() ? rate : 0;
+}
+
+Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  if (!at || at->body.size() == 0) return {};
+  const statics::System& system = problem_.system(point.lambda);
+  const Index body = problem_.rule().body;
+  const model::TaskSpace space =
+      system.mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
+  return wrench_scales(space, scales_).asDiagonal() * in_world_axes(system, at->z, at->body, body) *
+         pose_scales(space, scales_).cwiseInverse().asDiagonal();
+}
+
+std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
+    const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  if (!at) return {};
+  const statics::System& system = problem_.system(point.lambda);
+  auto values = statics::eigenvalues_of(statics::tangent_stiffness(system, at->A, at->work));
+  for (auto& [real, imaginary] : values) {
+    real *= scales_.force / scales_.length;
+    imaginary *= scales_.force / scales_.length;
+  }
+  return values;
+}
+
+double Evaluator::closure_gap(const continuation::CurvePoint& point) const {
+  if (problem_.layout().redundant == 0) return 0;
+  statics::Workspace work;
+  Vector r;
+  equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
+                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
+                       r);
+  return work.undetermined.lpNorm<Eigen::Infinity>();
+}
+
+std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  if (!at) return {};
+  const Matrix plain = statics::without_gauge(at->A, at->work);
+  std::vector<Index> ranks;
+  for (const statics::ChainSlice& slice : problem_.system(point.lambda).chain_slices) {
+    const Matrix J = plain.block(slice.F, slice.x, slice.F_count, slice.x_count);
+    const Vector values = J.jacobiSvd().singularValues();
+    ranks.push_back((values.array() > 1e-7 * std::max(1.0, J.norm())).count());
+  }
+  return ranks;
+}
+
+std::vector<Matrix> Evaluator::chain_stiffnesses(const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  if (!at) return {};
+  const statics::System& system = problem_.system(point.lambda);
+  std::vector<Matrix> list;
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    const model::CompiledChain& chain = system.chains[i];
+    const model::TaskSpace space = chain.to_moves ? chain.to_space : chain.from_space;
+    const auto K = statics::chain_stiffness(system, i, at->A, at->work);
+    list.push_back(K ? Matrix(wrench_scales(space, scales_).asDiagonal() * *K *
+                              pose_scales(space, scales_).cwiseInverse().asDiagonal())
+                     : Matrix());
+  }
+  return list;
+}
+
+}  // namespace springfold::analysis

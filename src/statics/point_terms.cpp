@@ -1,0 +1,213 @@
+#include "point_terms.hpp"
+
+#include <cassert>
+
+namespace springfold::statics {
+namespace {
+
+using model::LoadKind;
+using model::PointMotion;
+using model::Vec3;
+
+Vector variables_of(const PointSlice& slice, const Vector& z, const Vector& rho) {
+  Vector v(slice.point.variable_count());
+  for (Index k = 0; k < v.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    v[k] = (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
+  }
+  return v;
+}
+
+void evaluate(const System& system, std::size_t point, const Vector& z, const Vector& rho,
+              PointMotion<double>& out) {
+  const PointSlice& slice = system.points[point];
+  model::evaluate_point<double>(slice.point, variables_of(slice, z, rho), out);
+}
+
+/// The load in world axes.
+Vec3<double> vector_of(const PointLoad& load, const PointMotion<double>& at,
+                       const Vector& factors) {
+  const double factor = load.number < 0 || factors.size() == 0 ? 1 : factors[load.number];
+  const Vec3<double> vector = factor * load.vector;
+  return load.follows ? Vec3<double>(at.pose.R * vector) : vector;
+}
+
+/// Generalised forces, one per variable of the point.
+Vector forces_of(LoadKind kind, const PointMotion<double>& at, const Vec3<double>& vector) {
+  return (kind == LoadKind::force ? at.dp : at.spin).transpose() * vector;
+}
+
+/// d(generalised force j)/d(variable k).
+double force_rate(const PointLoad& load, const PointMotion<double>& at, const Vec3<double>& vector,
+                  Index j, Index k) {
+  const bool force = load.kind == LoadKind::force;
+  double rate = vector.dot(force ? second_displacement(at, j, k) : spin_rate(at, j, k));
+  if (load.follows)
+    rate += model::cross<double>(at.spin.col(k), vector).dot((force ? at.dp : at.spin).col(j));
+  return rate;
+}
+
+/// Where variable k of a point counts in the derivatives.
+void add_derivative(const PointSlice& row, Index j, const PointSlice& column, Index k, double value,
+                    Matrix& A, Matrix* dR_drho) {
+  const Index r = row.z[static_cast<std::size_t>(j)];
+  const auto c = static_cast<std::size_t>(k);
+  if (r < 0) return;
+  if (column.z[c] >= 0) A(r, column.z[c]) += value;
+  if (dR_drho != nullptr && column.rho[c] >= 0) (*dR_drho)(r, column.rho[c]) += value;
+}
+
+void add_load(const System& system, const PointLoad& load, const PointMotion<double>& at,
+              const Vector& factors, Vector& residual, Matrix* A, Matrix* dR_drho) {
+  const PointSlice& slice = system.points[load.point];
+  const Vec3<double> vector = vector_of(load, at, factors);
+  const Vector Q = forces_of(load.kind, at, vector);
+  for (Index j = 0; j < Q.size(); ++j) {
+    const Index row = slice.z[static_cast<std::size_t>(j)];
+    if (row < 0) continue;
+    residual[row] -= Q[j];
+    for (Index k = 0; A != nullptr && k < Q.size(); ++k)
+      add_derivative(slice, j, slice, k, -force_rate(load, at, vector, j, k), *A, dR_drho);
+  }
+}
+
+/// Line spring with the vector d = p_to - p_from of length l, tension T = k (l - l0):
+///
+///     dU/dv_j = f . dd_j,  f = (T/l) d;      d2U = dd_j^T [ (T/l) I + (k - T/l) d d^T/l^2 ] dd_k
+///                                                  + f . d2d_jk
+///
+/// With l0 = 0, T/l = k and nothing is divided by l.
+class SpringTerm {
+ public:
+  SpringTerm(const System& system, const PointSpring& spring, const PointMotion<double>& from,
+             const PointMotion<double>& to)
+      : slices_{&system.points[spring.from], &system.points[spring.to]}, at_{&from, &to} {
+    const Vec3<double> d = to.pose.p - from.pose.p;
+    const double l = d.norm();
+    const double per_length =
+        spring.free == 0 ? spring.stiffness : spring.stiffness * (1 - spring.free / l);
+    force_ = per_length * d;
+    stiffness_ = per_length * model::Mat3<double>::Identity();
+    if (spring.free != 0)
+      stiffness_ += (spring.stiffness - per_length) * (d / l) * (d / l).transpose();
+  }
+
+  void add(Vector& residual, Matrix* A, Matrix* dR_drho) const {
+    for (const int a : {0, 1})
+      for (Index j = 0; j < at_[a]->dp.cols(); ++j) {
+        const Index row = slices_[a]->z[static_cast<std::size_t>(j)];
+        if (row < 0) continue;
+        residual[row] += sign(a) * force_.dot(at_[a]->dp.col(j));
+        if (A != nullptr) add_row(a, j, *A, dR_drho);
+      }
+  }
+
+ private:
+  static double sign(int end) { return end == 0 ? -1 : 1; }
+
+  void add_row(int a, Index j, Matrix& A, Matrix* dR_drho) const {
+    const Vec3<double> row = sign(a) * (stiffness_ * at_[a]->dp.col(j));
+    for (const int b : {0, 1})
+      for (Index k = 0; k < at_[b]->dp.cols(); ++k) {
+        double value = sign(b) * row.dot(at_[b]->dp.col(k));
+        if (a == b) value += sign(a) * force_.dot(second_displacement(*at_[a], j, k));
+        add_derivative(*slices_[a], j, *slices_[b], k, value, A, dR_drho);
+      }
+  }
+
+  const PointSlice* slices_[2];
+  const PointMotion<double>* at_[2];
+  Vec3<double> force_{};
+  model::Mat3<double> stiffness_{};
+};
+
+bool is_used(const System& system, std::size_t point) {
+  for (const PointLoad& load : system.loads)
+    if (load.point == point) return true;
+  for (const PointSpring& spring : system.line_springs)
+    if (spring.from == point || spring.to == point) return true;
+  return false;
+}
+
+}  // namespace
+
+void add_point_terms(const System& system, const Vector& z, const Inputs& inputs, Workspace& work,
+                     Vector& residual, Matrix* A, Matrix* dR_drho) {
+  if (system.loads.empty() && system.line_springs.empty()) return;
+  work.points.resize(system.points.size());
+  for (std::size_t i = 0; i < system.points.size(); ++i)
+    if (is_used(system, i)) evaluate(system, i, z, inputs.rho, work.points[i]);
+  for (const PointLoad& load : system.loads)
+    add_load(system, load, work.points[load.point], inputs.loads, residual, A, dR_drho);
+  for (const PointSpring& spring : system.line_springs)
+    SpringTerm(system, spring, work.points[spring.from], work.points[spring.to])
+        .add(residual, A, dR_drho);
+}
+
+Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates) {
+  assert(rates.size() == static_cast<Index>(system.mechanism.loads.size()));
+  Vector rate = Vector::Zero(system.size);
+  PointMotion<double> at;
+  for (const PointLoad& load : system.loads) {
+    if (load.number < 0 || rates[load.number] == 0) continue;
+    evaluate(system, load.point, z, rho, at);
+    add_load(system, load, at, rates, rate, nullptr, nullptr);
+  }
+  return rate;
+}
+
+Vec3<double> position_of(const System& system, std::size_t point, const Vector& z,
+                         const Vector& rho) {
+  PointMotion<double> at;
+  evaluate(system, point, z, rho, at);
+  return at.pose.p;
+}
+
+LineSpringState line_spring_state(const System& system, std::size_t spring, const Vector& z,
+                                  const Vector& rho) {
+  const PointSpring& s = system.line_springs[spring];
+  const double length =
+      (position_of(system, s.to, z, rho) - position_of(system, s.from, z, rho)).norm();
+  return {length, s.stiffness * (length - s.free)};
+}
+
+double spring_energy(const System& system, const Vector& z, const Vector& rho) {
+  double energy = 0;
+  for (const CoordinateSpring& spring : system.springs) {
+    const double c = z[spring.coordinate];
+    energy += spring.law.energy(spring.law.segment_at(c), c);
+  }
+  for (const CoordinateGroup& group : system.coupled) {
+    const Vector q = z(group.coordinates) - group.free;
+    energy += 0.5 * q.dot(group.stiffness * q);
+  }
+  for (std::size_t i = 0; i < system.line_springs.size(); ++i) {
+    const PointSpring& spring = system.line_springs[i];
+    const double stretch = line_spring_state(system, i, z, rho).length - spring.free;
+    energy += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+double spring_energy(const System& system, const Vector& z) {
+  return spring_energy(system, z, system.commands);
+}
+
+double load_potential(const System& system, const Vector& z, const Inputs& inputs) {
+  double potential = 0;
+  PointMotion<double> at;
+  for (const PointLoad& load : system.loads) {
+    evaluate(system, load.point, z, inputs.rho, at);
+    const Vec3<double> vector = vector_of(load, at, inputs.loads);
+    // A moment with a potential turns about axes of one direction, each by its own variable.
+    potential -= load.kind == LoadKind::force
+                     ? vector.dot(at.pose.p)
+                     : (at.spin.transpose() * vector)
+                           .dot(variables_of(system.points[load.point], z, inputs.rho));
+  }
+  for (const BodySlice& body : system.body_slices)
+    potential -= inputs.W.segment(body.W, body.count).dot(z.segment(body.t, body.count));
+  return potential;
+}
+
+}  // namespace springfold::statics
