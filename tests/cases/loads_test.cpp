@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
@@ -20,11 +21,12 @@ using testing::HasSubstr;
 struct Ran {
   Case read{};
   std::vector<StudyResult> results{};
-  const StudyResult& of(const std::string& study) const {
+  const StudyResult& of(const std::string& study) const& {
     for (const StudyResult& result : results)
       if (result.study == study) return result;
     throw std::out_of_range(study);
   }
+  StudyResult of(const std::string& study) && { return std::as_const(*this).of(study); }
 };
 
 Ran run(const std::string& text) {

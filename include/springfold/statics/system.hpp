@@ -162,7 +162,8 @@ struct Workspace {
 bool equilibrium_residual(const System& system, const Piece& piece, const Vector& z,
                           const Inputs& inputs, Workspace& work, Vector& residual);
 
-/// The same and its derivatives: A = d residual/dz, symmetric where all loads have a potential, and optionally the columns d residual/d rho (size x number of commands).
+/// The same and its derivatives: A = d residual/dz, symmetric where all loads have a potential, and
+/// optionally the columns d residual/d rho (size x number of commands).
 bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& z,
                         const Inputs& inputs, Workspace& work, Vector& residual, Matrix& A,
                         Matrix* dR_drho = nullptr);
