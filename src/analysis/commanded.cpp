@@ -293,7 +293,8 @@ CommandedValues command_values(const CommandSetup& setup, const std::vector<Vect
   statics::Stability stability;
   if (equilibrium_matrix(setup.system, state.piece, state.z, state.inputs, work, r, A)) {
     stiffness = body_stiffness(setup, state.z, A);
-    if (has_potential(setup.system, state.inputs)) stability = statics::stability(setup.system, A);
+    if (has_potential(setup.system, state.inputs))
+      stability = statics::stability(setup.system, A, work);
   }
   add_state_values(setup, state, r, values);
   add_stiffness(setup, directions, stiffness, values);
@@ -302,7 +303,7 @@ CommandedValues command_values(const CommandSetup& setup, const std::vector<Vect
   values.push_back(count(stability.force_controlled));
   values.push_back(count(stability.force_controlled));
   values.push_back(state.iterations);
-  values.push_back(setup.scales.moment() * spring_energy(setup.system, state.z));
+  values.push_back(setup.scales.moment() * spring_energy(setup.system, state.z, state.inputs.rho));
   result.index_force = stability.force_controlled;
   result.countable = has_potential(setup.system, state.inputs);
   assert(values.size() == command_columns(setup, directions).size());

@@ -5,6 +5,8 @@
 
 #include "commanded.hpp"
 #include "run_kinds.hpp"
+#include "springfold/model/point.hpp"
+#include "springfold/statics/redundancy.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -160,6 +162,42 @@ void check_workspace(const Study& study, const model::Body& body, Problems& prob
   if (!(w.up_to > 0) || !std::isfinite(w.up_to)) problems.push_back("up_to: need a number > 0");
 }
 
+/// What these kinds do not reckon with yet: they would give wrong numbers without a word.
+void check_mechanism(const Study& study, const model::Mechanism& mechanism, Problems& problems) {
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
+    model::Load load = mechanism.loads[i];
+    // A map's parameter may make a load of what is zero here.
+    if (study.kind == StudyKind::map && load.vector.isZero(0)) load.vector.setOnes();
+    const std::string which =
+        "load " + (load.name.empty() ? std::to_string(i + 1) : "\"" + load.name + "\"");
+    if (load.with_lambda)
+      problems.push_back("kind: " + which + " grows with lambda, which this kind does not have: " +
+                         "need constant loads");
+    else if (!is_conservative(mechanism, load))
+      problems.push_back("kind: " + which + " has no potential: this kind needs loads that have " +
+                         "one, such as forces of fixed direction");
+  }
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::Element& element : chain.elements)
+      if (const auto* joint = std::get_if<model::Joint>(&element);
+          joint && joint->spring_from_start)
+        problems.push_back("kind: spring of " + chain.name + "." + joint->name +
+                           " with origin = \"start\": this kind has no start pose, need the " +
+                           "spring's own origin");
+  const statics::System system =
+      statics::prepare(dimensionless(mechanism, scales_for(mechanism, {})));
+  const statics::Redundancy found =
+      redundant_closures(system, statics::guess(system), system.commands);
+  if (found.count == 0) return;
+  std::string chains;
+  for (const std::size_t chain : found.chains)
+    chains += (chains.empty() ? "" : ", ") + mechanism.chains[chain].name;
+  problems.push_back("kind: " + std::to_string(found.count) + " of " +
+                     std::to_string(system.closure_count()) +
+                     " closure equations are redundant, among chains " + chains +
+                     ": this kind needs independent ones; give one of the chains an elasticity");
+}
+
 }  // namespace
 
 std::vector<Quantity> columns_of(const Study& study, const model::Mechanism& mechanism) {
@@ -188,6 +226,7 @@ Problems problems_of_kind(const Study& study, const model::Mechanism& mechanism)
   if (study.kind == StudyKind::control) check_control(study, prescribed, d, problems);
   if (study.kind == StudyKind::map) check_map(study, d, problems);
   if (study.kind == StudyKind::workspace) check_workspace(study, body, problems);
+  check_mechanism(study, mechanism, problems);
   return problems;
 }
 

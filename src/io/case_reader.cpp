@@ -18,7 +18,7 @@ const std::vector<std::string> case_keys{"title", "include",  "units",   "parame
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
                             Reading& reading) {
   std::vector<Item> items;
-  const bool mechanism = name != "study" && name != "plot";
+  const bool mechanism = name == "body" || name == "chain" || name == "spring" || name == "load";
   for (const Document& document : documents) {
     const Node* node = document.root.find(name);
     if (!node || (document.included && !mechanism)) continue;

@@ -79,12 +79,13 @@ class StudyReader {
         table_.list("prescribed", "a list of pose coordinates such as [\"x\", \"rz\"]"), reading_);
     const std::string force = reading_.units.force, length = reading_.units.length;
     draft_.load = read_vector(table_, "load", force, force + "*" + length);
-    if (analysis::is_of_commands(draft_.kind) && body_known_)
+    if (!analysis::is_of_commands(draft_.kind))
+      draft_.loads = read_loads(table_.tables("loads"), mechanism_, body_known_ ? draft_.body : 0,
+                                draft_.numbers, reading_);
+    else if (body_known_)
       draft_.commands = read_commands(draft_.kind, table_,
                                       mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)],
                                       actuator_names(mechanism_), draft_.numbers, reading_);
-    draft_.loads = read_loads(table_.tables("loads"), mechanism_, body_known_ ? draft_.body : 0,
-                              draft_.numbers, reading_);
     read_control(traces);
     read_start();
     read_until();

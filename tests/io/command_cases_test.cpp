@@ -173,5 +173,28 @@ TEST_F(CommandCases, SayWhatIsWrongInAFigureOfMaps) {
               ElementsAre(HasSubstr("need a study of kind \"map\" with at least two axes")));
 }
 
+TEST_F(CommandCases, LoadsThatGrowOrHaveNoPotentialAreRefused) {
+  const std::string study = "kind = \"control\"\ntargets = [[0, 0]]\n[[load]]\n";
+  EXPECT_THAT(about(study + "force = [1, 0]"), IsEmpty());
+  EXPECT_THAT(about(study + "force = [1, 0]\nscale = \"lambda\""),
+              ElementsAre(HasSubstr("load 1 grows with lambda, which this kind does not have")));
+  std::string follows = text(study + "name = \"F\"\non = \"a.p\"\nforce = [1, 0]\nfollows = true");
+  follows.replace(follows.find("{ rigid = [-1, 0] }"), 19,
+                  "{ rigid = [-1, 0] }, { point = \"p\" }");
+  EXPECT_THAT(messages(follows), ElementsAre(HasSubstr("load \"F\" has no potential")));
+}
+
+TEST_F(CommandCases, RedundantClosuresAreRefused) {
+  const std::string rod = R"([[chain]]
+name = "ROD"
+from_at = [-2, 0]
+elements = [ { joint = "revolute", axis = "z", name = "k" }, { rigid = [2, 0] }, { joint = "revolute", axis = "z", name = "e" } ]
+)";
+  std::string both;
+  for (const char* name : {"p", "q"}) both += std::string(rod).replace(rod.find("ROD"), 3, name);
+  EXPECT_THAT(about("kind = \"control\"\ntargets = [[0, 0]]\n" + both),
+              ElementsAre(HasSubstr("closure equations are redundant")));
+}
+
 }  // namespace
 }  // namespace springfold::io
