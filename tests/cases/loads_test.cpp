@@ -60,12 +60,12 @@ std::vector<double> lambdas(const StudyResult& result, EventKind kind) {
 
 /// Cranks of length 1 at the feet, all parallel, under a coupler; the first has a spring of 2.
 std::string cranks(const std::vector<double>& feet) {
-  std::string text = R"(
+  std::string text = R"toml(
 [[body]]
 name = "coupler"
 task_space = "planar"
 pose = ["cos(1)", "sin(1)", 0]
-)";
+)toml";
   for (std::size_t i = 0; i < feet.size(); ++i) {
     const std::string at = std::to_string(feet[i]);
     text +=
@@ -199,7 +199,7 @@ until = { lambda = [0, 6] }
 }
 
 TEST(Counterweights, BalanceABeam) {
-  const Ran ran = run(R"(
+  const Ran ran = run(R"toml(
 gravity = [0, -9.81]
 [[body]]
 name = "end"
@@ -212,7 +212,7 @@ elements = [{ joint = "revolute", axis = "z", name = "h", initial = 0.4 }, { poi
 [[study]]
 name = "balance"
 kind = "equilibrium"
-)");
+)toml");
   const StudyResult& result = ran.of("balance");
   EXPECT_TRUE(result.start.found);
   EXPECT_EQ(result.start.zero_modes, 1);
@@ -268,6 +268,7 @@ task_space = "xy"
 pose = [1, -1]
 [[chain]]
 name = "hinge"
+to = "arm"
 elements = [{ joint = "revolute", axis = "z", name = "h", role = "virtual", stiffness = 5 }, { rigid = [1, 0] }]
 [[chain]]
 name = "string"
