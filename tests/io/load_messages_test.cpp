@@ -88,10 +88,10 @@ TEST_F(LoadMessages, WantOneForceOrMoment) {
 
 TEST_F(LoadMessages, WantWordsForFollowsScaleAndOrigin) {
   EXPECT_THAT(after("scale = \"lambda\"", "follows = 1, scale = \"lambda\""),
-              ElementsAre("case.toml:26:39: study[1].loads[1].follows: got 1, need true or false"));
+              ElementsAre("case.toml:26:38: study[1].loads[1].follows: got 1, need true or false"));
   EXPECT_THAT(
       after("origin = \"start\"", "origin = \"strat\""),
-      ElementsAre("case.toml:11:106: chain[1].elements[1].spring.origin: got \"strat\", need "
+      ElementsAre("case.toml:11:118: chain[1].elements[1].spring.origin: got \"strat\", need "
                   "\"joint\" or \"start\""));
 }
 
