@@ -197,21 +197,17 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
   near.trace.maximum_points = 500;
   bool reached = false;
   std::vector<Hit> between_them;
-  // Rounding blurs the place of a multiple point; nothing else can be as near to it.
+  // Rounding blurs the place of a multiple point, and beside a degenerate one lambda is flat to
+  // rounding; nothing else can be as near.
   const auto is_junction_itself = [&](const Hit& hit) {
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
-    return length_of(walker_, between(walker_, junction.point, hit.point)) <=
-           std::max(options_.same_place * scale, 1e-3 * gap);
-  };
-  // Beside a degenerate point lambda is flat to rounding: that belongs to the point.
-  const auto belongs_to_junction = [&](const Hit& hit) {
-    const double scale = std::max(1.0, std::abs(junction.point.lambda));
-    return (hit.kind == HitKind::family || hit.kind == HitKind::unresolved) &&
-           std::abs(hit.point.lambda - junction.point.lambda) <= 1e-12 * scale;
+    const double distance = length_of(walker_, between(walker_, junction.point, hit.point));
+    const bool level = std::abs(hit.point.lambda - junction.point.lambda) <= 1e-12 * scale;
+    return distance <= std::max(options_.same_place * scale, (level ? 0.2 : 1e-3) * gap);
   };
   const auto hit_on_the_way = [&](const Hit& hit) {
     reached = is_junction_itself(hit);
-    if (!reached && !belongs_to_junction(hit)) between_them.push_back(hit);
+    if (!reached) between_them.push_back(hit);
     return !reached;
   };
   const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
