@@ -39,9 +39,10 @@ TargetPath::TargetPath(const CommandSetup& setup, const ControlPath& path) : cou
         setup.task.prescribed[static_cast<std::size_t>(k)] < translations(space) ? 1 : 0;
   ways_.push_back(0);
   for (int k = 1; k < count_; ++k) {
-    const double chord = translation.cwiseProduct(target(k + 1) - target(k)).norm();
-    const double arc = translation.cwiseProduct(axis_1_).norm() * std::abs(to_ - from_);
-    ways_.push_back(ways_.back() + (circle_ ? arc / (count_ - 1) : chord));
+    const double way =
+        circle_ ? translation.cwiseProduct(axis_1_).norm() * std::abs(to_ - from_) / (count_ - 1)
+                : translation.cwiseProduct(target(k + 1) - target(k)).norm();
+    ways_.push_back(ways_.back() + way);
   }
 }
 
