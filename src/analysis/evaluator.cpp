@@ -246,6 +246,11 @@ std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
   return values;
 }
 
+Index Evaluator::zero_modes(const continuation::CurvePoint& point) const {
+  const auto at = assemble(point);
+  return at ? statics::zero_modes(problem_.system(point.lambda), at->A) : 0;
+}
+
 double Evaluator::closure_gap(const continuation::CurvePoint& point) const {
   if (problem_.layout().redundant == 0) return 0;
   statics::Workspace work;

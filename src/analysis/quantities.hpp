@@ -93,6 +93,8 @@ class Evaluator {
   /// Eigenvalues of the reduced tangent stiffness, real and imaginary parts [force/length].
   std::vector<std::pair<double, double>> tangent_eigenvalues(
       const continuation::CurvePoint& point) const;
+  /// Motions without stiffness.
+  Index zero_modes(const continuation::CurvePoint& point) const;
   /// How far the closures that were taken as redundant are violated [-].
   double closure_gap(const continuation::CurvePoint& point) const;
   /// Rank of the closure of every chain in its own coordinates; empty where it is not defined.

@@ -120,16 +120,9 @@ void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, 
     setup.rule.symmetric = false;  // a moment about fixed axes holds it
 }
 
-void report_tangent(const Evaluator& evaluator, const Scales& scales, const CurvePoint& start,
-                    StartReport& report) {
+void report_tangent(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
   report.tangent = evaluator.tangent_eigenvalues(start);
-  double largest = scales.force / scales.length;  // the mechanism's own scale of stiffness
-  for (const auto& [real, imaginary] : report.tangent)
-    largest = std::max(largest, std::hypot(real, imaginary));
-  report.zero_modes = static_cast<int>(
-      std::count_if(report.tangent.begin(), report.tangent.end(), [largest](const auto& value) {
-        return std::hypot(value.first, value.second) <= 1e-11 * largest;
-      }));
+  report.zero_modes = static_cast<int>(evaluator.zero_modes(start));
 }
 
 /// The start violates closures that were taken as redundant.
@@ -193,7 +186,7 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
     count_negative(problem, start);
     refuse_contradiction(evaluator, start, result.start);
     if (!result.start.found) return result;
-    report_tangent(evaluator, setup.scales, start, result.start);
+    report_tangent(evaluator, start, result.start);
     result.start.stiffness = evaluator.platform_stiffness(start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
     if (study.kind == StudyKind::equilibrium)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exit_rays.hpp"
+#include "springfold/core/equilibration.hpp"
 #include "springfold/core/inertia.hpp"
 #include "words.hpp"
 
@@ -197,25 +198,6 @@ Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& d
     result.why = doubt;
   }
   return result;
-}
-
-/// Factors that bring the largest entry of every row and column near one.
-struct Equilibration {
-  Vector rows{}, columns{};
-};
-
-/// Stiff and soft members differ by many orders of magnitude; that alone makes nothing singular (Ruiz 2001).
-Equilibration equilibrate(Matrix A) {
-  Equilibration scale{Vector::Ones(A.rows()), Vector::Ones(A.cols())};
-  for (int i = 0; i < 8; ++i) {
-    const auto factor = [](double largest) { return largest > 0 ? 1 / std::sqrt(largest) : 1; };
-    const Vector r = A.rowwise().maxCoeff().unaryExpr(factor);
-    const Vector c = A.colwise().maxCoeff().transpose().unaryExpr(factor);
-    A = r.asDiagonal() * A * c.asDiagonal();
-    scale.rows.array() *= r.array();
-    scale.columns.array() *= c.array();
-  }
-  return scale;
 }
 
 }  // namespace

@@ -7,19 +7,25 @@
 #include <cmath>
 #include <limits>
 
+#include "springfold/core/equilibration.hpp"
+
 namespace springfold {
 namespace {
 
-/// A = L D L^T with 1x1 and 2x2 blocks in D; LAPACK's packing of it.
+/// S A S = L D L^T with 1x1 and 2x2 blocks in D; LAPACK's packing of it. S brings rows to one size.
 struct Factorisation {
   Matrix LD{};
   std::vector<lapack_int> pivots{};
+  Vector S{};
 };
 
 std::optional<Factorisation> factorise(const Matrix& A) {
   assert(A.rows() == A.cols());
   if (!A.allFinite()) return std::nullopt;
-  Factorisation f{A, std::vector<lapack_int>(static_cast<std::size_t>(A.rows()))};
+  Factorisation f{{},
+                  std::vector<lapack_int>(static_cast<std::size_t>(A.rows())),
+                  equilibrate(Matrix(A.selfadjointView<Eigen::Lower>())).rows};
+  f.LD = f.S.asDiagonal() * A * f.S.asDiagonal();
   const auto n = static_cast<lapack_int>(A.rows());
   // A positive return value means an exactly zero pivot: harmless here, D is still right.
   Vector work(A.rows());
@@ -76,13 +82,13 @@ std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B) {
     largest = std::max(largest, std::abs(v));
     smallest = std::min(smallest, std::abs(v));
   }
-  if (A.rows() > 0 && !(smallest > 1e-15 * largest)) return std::nullopt;
-  Matrix X = B;
+  if (A.rows() > 0 && !(smallest > 1e-13 * largest)) return std::nullopt;
+  Matrix X = f->S.asDiagonal() * B;
   const auto n = static_cast<lapack_int>(A.rows());
   if (n > 0)
     LAPACKE_dsytrs(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(), n,
                    f->pivots.data(), X.data(), n);
-  return X;
+  return Matrix(f->S.asDiagonal() * X);
 }
 
 }  // namespace springfold

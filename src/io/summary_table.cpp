@@ -154,7 +154,9 @@ std::string caution_lines(const StudyResult& result) {
 }
 
 std::string stiffness_lines(const Matrix& stiffness) {
-  if (stiffness.size() == 0) return line("stiffness", "not defined at this point");
+  if (stiffness.size() == 0)
+    return line("stiffness",
+                "not defined here: rigid in some direction, or a chain is critical by itself");
   const int shown = stiffness.rows() <= 3 ? digits : 6;
   // Eigenvalues of the symmetric part are real whatever rounding has left of asymmetry.
   const Matrix symmetric = (stiffness + stiffness.transpose()) / 2;

@@ -5,7 +5,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
+#include "springfold/core/equilibration.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::statics {
@@ -74,9 +76,28 @@ Vector real_eigenvalues(const Matrix& M, bool symmetric) {
 std::optional<Matrix> solve(const Matrix& A, const Matrix& B, bool symmetric) {
   if (symmetric) return solve_symmetric(A, B);
   if (!A.allFinite()) return std::nullopt;
-  const Eigen::FullPivLU<Matrix> lu(A);
+  const Equilibration scale = equilibrate(A);
+  const Eigen::FullPivLU<Matrix> lu(scale.rows.asDiagonal() * A * scale.columns.asDiagonal());
   if (!lu.isInvertible()) return std::nullopt;
-  return Matrix(lu.solve(B));
+  return Matrix(scale.columns.asDiagonal() * lu.solve(scale.rows.asDiagonal() * B));
+}
+
+/// Stiffness of some unknowns, all others in equilibrium: A_bb - A_bo A_oo^-1 A_ob. Nothing where the
+/// others are singular with these held: rigid, or critical.
+std::optional<Matrix> eliminated(const Matrix& A, const std::vector<Index>& own, bool symmetric) {
+  std::vector<Index> other;
+  for (Index i = 0; i < A.rows(); ++i)
+    if (std::find(own.begin(), own.end(), i) == own.end()) other.push_back(i);
+  const auto X = solve(A(other, other), A(other, own), symmetric);
+  if (!X) return std::nullopt;
+  const Matrix K = A(own, own) - A(own, other) * *X;
+  return symmetric ? Matrix(0.5 * (K + K.transpose())) : K;
+}
+
+std::vector<Index> range_of(Index first, Index count) {
+  std::vector<Index> range(static_cast<std::size_t>(count));
+  std::iota(range.begin(), range.end(), first);
+  return range;
 }
 
 /// Pose block of A^-1: the compliance of all bodies.
@@ -89,11 +110,13 @@ std::optional<Matrix> compliance(const System& system, const Matrix& A_full, boo
   return Matrix(X->middleRows(t, nt));
 }
 
-/// K_Sigma - dW/dt as a sum over the chains; nothing where one of them is rigid or buckles, or where
-/// chains couple otherwise than through bodies.
-std::optional<Matrix> sum_of_chains(const System& system, const Matrix& A_full, bool symmetric) {
-  if (system.chains_coupled || system.redundant > 0) return std::nullopt;
+/// K_Sigma - dW/dt: as a sum over the chains where they couple through bodies only. Nothing where one of
+/// them is rigid or buckles.
+std::optional<Matrix> stiffness_of_bodies(const System& system, const Matrix& A_full,
+                                          bool symmetric) {
   const Index nt = system.load_size, t = system.first_pose;
+  if (system.chains_coupled || system.redundant > 0)
+    return eliminated(A_full, range_of(t, nt), symmetric);
   Matrix K = A_full.block(t, t, nt, nt);
   for (std::size_t i = 0; i < system.chains.size(); ++i) {
     const ChainSlice& s = system.chain_slices[i];
@@ -129,7 +152,7 @@ std::optional<Matrix> chain_stiffness(const System& system, std::size_t chain, c
 
 PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full, bool symmetric) {
   PlatformStiffness result;
-  if (const auto K = sum_of_chains(system, A_full, symmetric)) {
+  if (const auto K = stiffness_of_bodies(system, A_full, symmetric)) {
     result.K = *K;
     result.eigenvalues = real_eigenvalues(result.K, symmetric);
     return result;
@@ -151,21 +174,9 @@ Matrix body_stiffness(const System& system, const Matrix& A_full, const Platform
                       Index body, bool symmetric) {
   const BodySlice& b = system.body_slices[static_cast<std::size_t>(body - 1)];
   const bool alone = b.count == system.load_size;
-  if (platform.K.size() > 0 && alone) return platform.K;
-  if (const auto C = compliance(system, A_full, symmetric)) {
-    Eigen::FullPivLU<Matrix> lu(C->block(b.W, b.W, b.count, b.count));
-    lu.setThreshold(1e-12);
-    if (!lu.isInvertible()) return {};
-    const Matrix K = lu.inverse();
-    return symmetric ? Matrix(0.5 * (K + K.transpose())) : K;
-  }
-  if (platform.K.size() == 0) return {};
-  std::vector<Index> own, other;  // A is singular: eliminate the other bodies
-  for (Index i = 0; i < system.load_size; ++i)
-    (i >= b.W && i < b.W + b.count ? own : other).push_back(i);
-  const auto X = solve(platform.K(other, other), platform.K(other, own), symmetric);
-  if (!X) return {};
-  return platform.K(own, own) - platform.K(own, other) * *X;
+  if (alone) return platform.K;
+  const auto K = eliminated(A_full, range_of(system.first_pose + b.W, b.count), symmetric);
+  return K ? *K : Matrix();
 }
 
 Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work) {
@@ -177,6 +188,12 @@ Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Works
   const Matrix Q = qr.householderQ() * Matrix::Identity(n, n);
   const Matrix Z = Q.rightCols(n - rank);
   return Z.transpose() * without_gauge(A_full, work)(split.motions, split.motions) * Z;
+}
+
+Index zero_modes(const System& system, const Matrix& A_full) {
+  const Matrix null = null_directions(A_full)(split_of(system, system.size).motions, Eigen::all);
+  if (null.cols() == 0) return 0;
+  return (null.jacobiSvd().singularValues().array() > 1e-6).count();
 }
 
 std::vector<std::pair<double, double>> eigenvalues_of(const Matrix& T) {

@@ -2,12 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <utility>
 
-#include "springfold/analysis/run.hpp"
-#include "springfold/io/case_file.hpp"
+#include "case_runs.hpp"
 #include "springfold/io/results.hpp"
 
 namespace springfold::io {
@@ -17,46 +13,6 @@ using analysis::EventKind;
 using analysis::StudyResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-struct Ran {
-  Case read{};
-  std::vector<StudyResult> results{};
-  const StudyResult& of(const std::string& study) const& {
-    for (const StudyResult& result : results)
-      if (result.study == study) return result;
-    throw std::out_of_range(study);
-  }
-  StudyResult of(const std::string& study) && { return std::as_const(*this).of(study); }
-};
-
-Ran run(const std::string& text) {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto file = std::filesystem::path{testing::TempDir()} /
-                    (std::string{"springfold_"} + info->test_suite_name() + info->name() + ".toml");
-  std::ofstream{file, std::ios::binary} << text;
-  Ran ran{load_case(file), {}};
-  std::filesystem::remove(file);
-  for (const PlannedRun& planned : ran.read.runs) {
-    ran.results.push_back(analysis::run_study(planned.mechanism, planned.plan,
-                                              planned.family ? &*planned.family : nullptr));
-    ran.results.back().study = planned.study;
-    ran.results.back().run = planned.run;
-  }
-  return ran;
-}
-
-double value(const StudyResult& result, std::size_t row, const std::string& name) {
-  for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    if (result.quantities[i].name == name) return result.branches[0].samples[row].values[i];
-  throw std::out_of_range(name);
-}
-
-std::vector<double> lambdas(const StudyResult& result, EventKind kind) {
-  std::vector<double> list;
-  for (const auto& event : result.branches.at(0).events)
-    if (event.kind == kind) list.push_back(value(result, event.row, "lambda"));
-  return list;
-}
 
 /// Cranks of length 1 at the feet, all parallel, under a coupler; the first has a spring of 2.
 std::string cranks(const std::vector<double>& feet) {

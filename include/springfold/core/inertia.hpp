@@ -16,12 +16,12 @@ struct Inertia {
 };
 
 /// Inertia of the symmetric matrix A (its lower triangle is read), by Bunch-Kaufman with 2x2 pivots
-/// (LAPACK dsytrf) and Sylvester's law. A pivot block's eigenvalue counts as zero when it is below
-/// zero_tolerance * (largest pivot eigenvalue).
+/// (LAPACK dsytrf) and Sylvester's law, after rows and columns have been brought to one size. A pivot
+/// block's eigenvalue counts as zero when it is below zero_tolerance * (largest pivot eigenvalue).
 /// @returns nothing when A holds a value that is not finite
 std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance = 1e-13);
 
-/// Solves A X = B for symmetric indefinite A by the same factorisation.
+/// Solves A X = B for symmetric indefinite A by the same factorisation of the equilibrated matrix.
 /// @returns nothing when A is singular to working precision or not finite
 std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B);
 

@@ -50,10 +50,9 @@ struct PlatformStiffness {
 PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full,
                                      bool symmetric = true);
 
-/// Stiffness of one body, all other bodies free: K_bb - K_bo K_oo^-1 K_ob, or, where chains are
-/// rigid, the inverse of its compliance.
+/// Stiffness of one body, all other bodies free: all other unknowns are eliminated while it is held.
 /// @param platform  as platform_stiffness gave it for A_full
-/// @returns count x count in pose coordinates; empty where it is not defined
+/// @returns count x count in pose coordinates; empty where it is not defined: rigid in some direction
 Matrix body_stiffness(const System& system, const Matrix& A_full, const PlatformStiffness& platform,
                       Index body, bool symmetric = true);
 
@@ -65,6 +64,10 @@ Matrix body_stiffness(const System& system, const Matrix& A_full, const Platform
 /// Its size is the number of degrees of freedom. It is singular exactly at critical states, with
 /// and without a potential.
 Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work = {});
+
+/// Dimension of the null space of T, counted on A, in which rows and columns can be brought to one size:
+/// motions without stiffness. Wrenches that alone balance each other count nothing.
+Index zero_modes(const System& system, const Matrix& A_full);
 
 /// Real and imaginary parts of the eigenvalues of T, by real parts, then imaginary parts.
 std::vector<std::pair<double, double>> eigenvalues_of(const Matrix& T);

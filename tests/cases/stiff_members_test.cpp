@@ -1,0 +1,79 @@
+// Members of very different stiffness side by side: ranks, stiffness and stability are still told.
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "case_runs.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyResult;
+
+/// The Gough-Stewart platform of the library, unloaded, its legs' stiffnesses as given.
+StudyResult platform(const std::vector<double>& legs) {
+  std::ifstream file{std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/gough-stewart/case.toml"};
+  std::stringstream all;
+  all << file.rdbuf();
+  std::string text = all.str();
+  text.erase(text.find("[[study]]\nname = \"press\""));
+  std::size_t at = 0;
+  const std::string key = "stiffness = \"k\"";
+  for (const double stiffness : legs) {
+    at = text.find(key, at);
+    std::ostringstream with;
+    with.precision(17);
+    with << "stiffness = " << stiffness;
+    text.replace(at, key.size(), with.str());
+  }
+  return run(text).of("unloaded");
+}
+
+/// Unit force along leg i and its moment about the platform's centre; README of the case.
+Vector leg_wrench(int i) {
+  const double deg = std::numbers::pi / 180, at = 60 * deg * i;
+  const double turned = at + (i % 2 == 0 ? 20 : -20) * deg;
+  const Eigen::Vector3d foot{std::cos(at), std::sin(at), 0};
+  const Eigen::Vector3d head{0.6 * std::cos(turned), 0.6 * std::sin(turned), 0};
+  const Eigen::Vector3d along = (head + Eigen::Vector3d{0, 0, 0.8} - foot).normalized();
+  Vector w(6);
+  w << along, head.cross(along);
+  return w;
+}
+
+TEST(StiffMembers, BesideSoftOnesLeaveStiffnessAndStabilityDefined) {
+  for (const double factor : {1e4, 1e8, 1e10}) {
+    for (const bool is_stiff_alone : {true, false}) {
+      std::vector<double> legs(6, is_stiff_alone ? 1 : factor);
+      legs[0] = is_stiff_alone ? factor : 1;
+      const StudyResult result = platform(legs);
+      Matrix K = Matrix::Zero(6, 6);
+      for (int i = 0; i < 6; ++i)
+        K += legs[static_cast<std::size_t>(i)] * leg_wrench(i) * leg_wrench(i).transpose();
+      ASSERT_EQ(result.start.stiffness.rows(), 6) << factor;
+      EXPECT_LT((result.start.stiffness - K).norm(), 1e-13 * K.norm()) << factor;
+      // What is soft is not lost beside what is stiff.
+      const Matrix C = result.start.stiffness.inverse(), exact = K.inverse();
+      EXPECT_LT((C - exact).norm(), 1e-15 * factor * exact.norm()) << factor;
+      EXPECT_EQ(value(result, 0, "index"), 0) << factor;
+      EXPECT_EQ(value(result, 0, "index_pose"), 0) << factor;
+      EXPECT_EQ(result.start.zero_modes, 0) << factor;
+    }
+  }
+}
+
+TEST(StiffMembers, DoNotHideAMotionWithoutStiffness) {
+  for (const double factor : {1.0, 1e8, 1e10}) {
+    const StudyResult result = platform({0, factor, 1, factor, factor, 1});
+    EXPECT_EQ(result.start.zero_modes, 1) << factor;
+    EXPECT_TRUE(std::isnan(value(result, 0, "index"))) << factor;
+  }
+}
+
+}  // namespace
+}  // namespace springfold::io
