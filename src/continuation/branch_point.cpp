@@ -1,32 +1,85 @@
 #include "springfold/continuation/branch_point.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "reduced_equation.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// d([dF/dx dF/dlambda]^T v)/d(x, lambda) by central differences, (n + 1) x (n + 1).
-std::optional<Matrix> gradient_rate(const Walker& walker, const CurvePoint& at, const Vector& v) {
-  constexpr double h = 0x1p-17;
-  const Index n = at.x.size();
-  Matrix rate(n + 1, n + 1);
-  Linearisation plus, minus;
-  for (Index k = 0; k <= n; ++k) {
-    Vector x_plus = at.x, x_minus = at.x;
-    double l_plus = at.lambda, l_minus = at.lambda;
-    (k < n ? x_plus[k] : l_plus) += h;
-    (k < n ? x_minus[k] : l_minus) -= h;
-    if (!linearise(walker.problem, x_plus, l_plus, at.piece, plus) ||
-        !linearise(walker.problem, x_minus, l_minus, at.piece, minus))
-      return std::nullopt;
-    rate.col(k).head(n) = (plus.dF_dx - minus.dF_dx).transpose() * v / (2 * h);
-    rate(n, k) = (plus.dF_dlambda - minus.dF_dlambda).dot(v) / (2 * h);
-  }
+/// What J has in the kernels, entry (q, j) at q (k + 1) + j.
+Vector in_kernels(const ReducedEquation& e, const Matrix& J) {
+  const Matrix G = (e.L.transpose() * J * e.N).transpose();
+  return G.reshaped();
+}
+
+/// Its derivative along N: k (k + 1) x (k + 1).
+Matrix rate_in_kernels(const ReducedEquation& e) {
+  const Index m = e.k + 1;
+  Matrix rate(e.k * m, m);
+  for (Index q = 0; q < e.k; ++q)
+    rate.middleRows(q * m, m) = e.quadratic[static_cast<std::size_t>(q)];
   return rate;
+}
+
+/// Second derivatives below this are rounding of J over the length of their differences.
+double least_rate(const ReducedEquation& e, double largest) {
+  const auto J = scaled_jacobian(*e.walker, e.U0, e.root, e.piece);
+  return J ? 1e-10 * J->norm() + 1e-9 * largest : HUGE_VAL;
+}
+
+/// One step from U with the kernels of e: along them, and what F asks for across them.
+std::optional<Vector> step_from(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
+                                const Vector& U) {
+  const auto J = scaled_jacobian(*e.walker, U, e.root, e.piece);
+  Vector F;
+  if (!J || !residual_at(e, U, F)) return std::nullopt;
+  const Vector c = rate.solve(-in_kernels(e, *J));
+  Vector right = Vector::Zero(F.size() + e.k + 1);
+  right.head(F.size()) = -F;
+  Vector step = e.N * c + e.bordered.solve(right).head(U.size());
+  if (!step.allFinite()) return std::nullopt;
+  return step;
+}
+
+/// Fixed directions in which rounding is sampled.
+Vector aside(Index size, int k) {
+  Vector d(size);
+  for (Index i = 0; i < size; ++i) d[i] = std::cos(2.1 * k + 1.3 * static_cast<double>(i));
+  return d;
+}
+
+/// Largest distance between places that steps from around U lead to.
+double scatter_of_place(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
+                        const Vector& U) {
+  double scatter = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Vector start = U + 1e-9 * e.scale * aside(U.size(), k).normalized();
+    const auto step = step_from(e, rate, start);
+    if (!step) return std::numeric_limits<double>::infinity();
+    scatter = std::max(scatter, (start + *step - U).norm());
+  }
+  return scatter;
+}
+
+/// L^T F at U against its rounding, which is sampled around U: to first order L^T F is constant there.
+double left_at(const ReducedEquation& e, const Vector& U) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const Vector sizes = U.cwiseAbs().cwiseMax(1e-3);
+  const auto J = scaled_jacobian(*e.walker, U, e.root, e.piece);
+  Vector F;
+  if (!J || !residual_at(e, U, F)) return HUGE_VAL;
+  const Vector here = e.L.transpose() * F;
+  double noise = epsilon * (e.L.cwiseAbs().transpose() * (J->cwiseAbs() * sizes)).norm();
+  for (int k = 0; k < 8; ++k) {
+    if (!residual_at(e, U + 1e-12 * aside(U.size(), k).cwiseProduct(sizes), F)) return HUGE_VAL;
+    noise = std::max(noise, (e.L.transpose() * F - here).norm());
+  }
+  return here.norm() / std::max(1e-300, noise);
 }
 
 }  // namespace
@@ -37,51 +90,54 @@ std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point)
   return Eigen::SelfAdjointEigenSolver<Matrix>(at.dF_dx, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-std::optional<CurvePoint> refine_branch_point(const Walker& walker, const CurvePoint& near) {
+std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurvePoint& near,
+                                              int corank, double reach) {
+  BranchPlace place{.point = near};
   const Index n = near.x.size();
-  CurvePoint point = near;
-  Linearisation at;
-  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return std::nullopt;
-  Matrix extended(n, n + 1);
-  extended << at.dF_dx, at.dF_dlambda;
-  const Eigen::JacobiSVD<Matrix> svd(extended, Eigen::ComputeThinU);
-  Vector v = svd.matrixU().col(n - 1), F;
-  double b = 0;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    if (!walker.problem.residual(point.x, point.lambda, point.piece, F) ||
-        !linearise(walker.problem, point.x, point.lambda, point.piece, at))
-      return std::nullopt;
-    Vector r(2 * n + 2);
-    r << F + b * v, at.dF_dx.transpose() * v, at.dF_dlambda.dot(v), v.dot(v) - 1;
-    const auto rate = gradient_rate(walker, point, v);
-    if (!rate) return std::nullopt;
-    Matrix A = Matrix::Zero(2 * n + 2, 2 * n + 2);
-    A.block(0, 0, n, n + 1) << at.dF_dx, at.dF_dlambda;
-    A.block(0, n + 1, n, 1) = v;
-    A.block(0, n + 2, n, n) = b * Matrix::Identity(n, n);
-    A.block(n, 0, n + 1, n + 1) = *rate;
-    A.block(n, n + 2, n, n) = at.dF_dx.transpose();
-    A.block(2 * n, n + 2, 1, n) = at.dF_dlambda.transpose();
-    A.block(2 * n + 1, n + 2, 1, n) = 2 * v.transpose();
-    const Eigen::FullPivLU<Matrix> lu(A);
-    if (!lu.isInvertible()) return std::nullopt;  // a multiple branch point
-    const Vector step = lu.solve(-r);
-    if (!step.allFinite()) return std::nullopt;
-    point.x += step.head(n);
-    point.lambda += step[n];
-    b += step[n + 1];
-    v += step.tail(n);
-    const double moved = std::max((point.x - near.x).lpNorm<Eigen::Infinity>(),
-                                  std::abs(point.lambda - near.lambda));
-    if (moved > 1e-3) return std::nullopt;
-    const double scale = std::max({1.0, point.x.lpNorm<Eigen::Infinity>(), std::abs(point.lambda)});
-    if (step.lpNorm<Eigen::Infinity>() <= 1e-13 * scale ||
-        (iteration > 2 && r.lpNorm<Eigen::Infinity>() <= 1e-13 * scale)) {
-      if (std::abs(b) > 1e-10) return std::nullopt;  // a nearly-branch point: no curve through it
-      return point;
+  const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
+  Vector U = U_near;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    place.point.x = U.head(n).cwiseQuotient(root.head(n));
+    place.point.lambda = U[n];
+    const auto e = reduce(walker, place.point, corank);
+    if (!e) return std::nullopt;
+    Eigen::JacobiSVD<Matrix> rate(rate_in_kernels(*e), Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Vector& values = rate.singularValues();
+    if (!(values[corank] > least_rate(*e, values[0]))) return std::nullopt;
+    const auto step = step_from(*e, rate, U);
+    if (!step) return std::nullopt;
+    const double moved = step->norm();
+    if (moved <= 1e-7 * e->scale || (moved <= 1e-5 * e->scale && moved > 0.3 * before)) {
+      U += *step;
+      for (int polish = 0; polish < 2; ++polish)
+        if (const auto last = step_from(*e, rate, U)) U += *last;
+      if (!((U - U_near).norm() <= reach)) return std::nullopt;
+      place.point.x = U.head(n).cwiseQuotient(root.head(n));
+      place.point.lambda = U[n];
+      const auto J = scaled_jacobian(walker, U, root, near.piece);
+      if (!J) return std::nullopt;
+      place.misfit = in_kernels(*e, *J).norm() / values[corank];
+      place.off = scatter_of_place(*e, rate, U);
+      place.left = left_at(*e, U);
+      return place;
     }
+    U += *step;
+    if (!((U - U_near).norm() <= 2 * reach)) return std::nullopt;
+    before = moved;
   }
   return std::nullopt;
+}
+
+double left_of_residual(const Walker& walker, const CurvePoint& point, int corank) {
+  const auto e = reduce(walker, point, corank);
+  return e ? left_at(*e, e->U0) : HUGE_VAL;
+}
+
+std::optional<CurvePoint> refine_branch_point(const Walker& walker, const CurvePoint& near) {
+  const auto place = place_branch_point(walker, near, 1);
+  if (!place || !(place->left <= branches_apart)) return std::nullopt;
+  return place->point;
 }
 
 }  // namespace springfold::continuation

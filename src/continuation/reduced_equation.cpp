@@ -9,12 +9,6 @@
 namespace springfold::continuation {
 namespace {
 
-bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
-  const Index n = U.size() - 1;
-  return e.walker->problem.residual(U.head(n).cwiseQuotient(e.root.head(n)), U[n], e.piece, F) &&
-         F.allFinite();
-}
-
 Matrix bordered_matrix(const Matrix& J, const Matrix& N, const Matrix& L) {
   const Index n = J.rows(), k = L.cols();
   Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
@@ -93,6 +87,12 @@ std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, con
   Matrix J(n, n + 1);
   J << at.dF_dx * root.head(n).cwiseInverse().asDiagonal(), at.dF_dlambda;
   return J;
+}
+
+bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
+  const Index n = U.size() - 1;
+  return e.walker->problem.residual(U.head(n).cwiseQuotient(e.root.head(n)), U[n], e.piece, F) &&
+         F.allFinite();
 }
 
 std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank) {

@@ -37,6 +37,9 @@ struct ReducedEquation {
 /// @returns nothing where F or its derivatives are not defined, or too close to such a place
 std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank);
 
+/// F at U; false where it is not defined.
+bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F);
+
 struct ReducedValue {
   Vector U{};  ///< u0 + N c + w(c)
   Vector g{};  ///< k

@@ -70,6 +70,22 @@ Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) 
   return cluster;
 }
 
+/// A turn of lambda that stands alone.
+bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& point,
+              std::vector<Candidate>& found) {
+  bool regular = true;
+  if (turn.off > poor || !examine_turn(arc, turn, regular, found)) return false;
+  if (regular)
+    found.push_back({.at = turn.at,
+                     .before = turn.before,
+                     .after = turn.after,
+                     .point = point,
+                     .kind = turn.touches ? HitKind::touch : HitKind::limit_point,
+                     .multiplicity = turn.touches ? 2 : 1,
+                     .odd = !turn.touches});
+  return true;
+}
+
 bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
                       std::vector<Candidate>& found) {
   for (std::size_t i = 0; i < turns.size();) {
@@ -84,15 +100,8 @@ bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
       const std::vector<ZeroOf> group(turns.begin() + static_cast<std::ptrdiff_t>(i),
                                       turns.begin() + static_cast<std::ptrdiff_t>(last) + 1);
       found.push_back(cluster_of(group, *point));
-    } else {
-      if (turn.off > poor) return false;
-      found.push_back({.at = turn.at,
-                       .before = turn.before,
-                       .after = turn.after,
-                       .point = *point,
-                       .kind = turn.touches ? HitKind::touch : HitKind::limit_point,
-                       .multiplicity = turn.touches ? 2 : 1,
-                       .odd = !turn.touches});
+    } else if (!add_turn(arc, turn, *point, found)) {
+      return false;
     }
     i = last + 1;
   }

@@ -1,38 +1,15 @@
 #include "watched_step.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "chebyshev.hpp"
-#include "springfold/continuation/branch_point.hpp"
+#include "branch_candidate.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-/// A branch point on the arc, from the curve's points around it: (x, lambda) and Sigma are
-/// interpolated on a window; neither is ever computed at the singular point itself.
-struct Singularity {
-  double at = 0;
-  Vector u{};        ///< (x, lambda)
-  Vector along{};    ///< its rate along the arc
-  double doubt = 0;  ///< how far the place may be off
-};
-
-/// The curve's points near t, interpolated.
-std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
-  const auto [a, b] = window_around(t, length, arc.low(), arc.high());
-  return interpolate(
-      [&](double ds) -> std::optional<Vector> {
-        const auto& p = arc.point(ds);
-        if (!p) return std::nullopt;
-        Vector u(p->x.size() + 1);
-        u << p->x, p->lambda;
-        return u;
-      },
-      a, b);
-}
 
 /// What is left of Sigma near a place where all of it should vanish, as an error of the place: the
 /// largest t with Sigma v = t Sigma' v. Zero where Sigma cannot be told from zero.
@@ -42,27 +19,6 @@ double left_of(const Vector& entries, const Vector& slopes, Index m, double noth
   const Eigen::PartialPivLU<Matrix> lu(slope);
   const double left = lu.solve(Sigma).norm();
   return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
-}
-
-/// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
-/// because rounding matters less, narrow ones where the curve is not smooth enough. How far they
-/// differ shows what can be told.
-bool turns_at(const WatchedStep& arc, double t) {
-  std::vector<double> distances;  // from t to the turn
-  for (const double share : {1.0, 0.3, 0.1}) {
-    const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
-    if (!curve) continue;
-    const Index n = curve->values.rows() - 1;
-    const double h = 0.1 * (curve->b - curve->a);
-    const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
-    distances.push_back(-curve->slope(t)[n] / change);
-  }
-  std::erase_if(distances, [](double d) { return !std::isfinite(d); });
-  if (distances.empty()) return false;
-  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
-  const double nearest = std::min(std::abs(*low), std::abs(*high));
-  return *low * *high <= 0 ? *high - *low <= blurred
-                           : nearest <= merged + std::min(*high - *low, 0.1 * blurred);
 }
 
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
@@ -134,82 +90,6 @@ std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double
   return best;
 }
 
-/// Removes what is left of the residual within the directions that dF sees well.
-/// @returns what stays in the others against the rounding of F, or infinity: a true branch point
-///          leaves rounding only, branches that pass each other closely leave their distance
-double polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
-  const auto& walker = arc.walker();
-  Vector F;
-  double left = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const auto E = arc.matrix(point);
-    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return left;
-    const Borders borders = borders_of(*E, corank);
-    const Index n = F.size(), m = corank;
-    const Vector sizes = point.x.cwiseAbs().cwiseMax(1e-3);
-    const double rounding_of_F = std::numeric_limits<double>::epsilon() *
-                                 (E->topLeftCorner(n, n) * sizes.asDiagonal()).norm();
-    left = (borders.B.topRows(n).transpose() * F).norm() / std::max(1e-300, rounding_of_F);
-    Matrix A(n + 1 + m, n + 1 + m);
-    A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
-    Vector right = Vector::Zero(n + 1 + m);
-    right.head(n) = -F;
-    const Vector step = A.partialPivLu().solve(right);
-    if (i == 2 || !step.allFinite() || step.head(n + 1).norm() > 1e-6) return left;
-    point.x += step.head(n);
-    point.lambda += step[n];
-  }
-  return left;
-}
-
-/// A simple branch point re-solved by its augmented system, if that agrees.
-std::optional<CurvePoint> refined_point(const WatchedStep& arc, const Candidate& found) {
-  if (found.kind != HitKind::branch_point || found.multiplicity != 1) return std::nullopt;
-  auto refined = refine_branch_point(arc.walker(), found.point);
-  if (!refined) return std::nullopt;
-  const Direction moved{refined->x - found.point.x, refined->lambda - found.point.lambda};
-  if (metric_product(arc.walker().weights, moved, moved) > merged * merged) return std::nullopt;
-  return refined;
-}
-
-/// Are exactly m singular values of E small here, with a gap to the others?
-bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
-  constexpr double gap = 0.1;
-  const auto E = arc.matrix(point);
-  if (!E) return false;
-  const Vector values = singular_values(*E);  // descending
-  const Index n = values.size();
-  return m >= n || values[n - m] <= gap * values[n - m - 1];
-}
-
-/// A branch point from its place; nothing if the branches do not meet there.
-std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
-                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
-  Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
-  result.point = arc.from();
-  const Index n = arc.from().x.size();
-  result.point.x = place.u.head(n);
-  result.point.lambda = place.u[n];
-  Direction& tangent = result.point.tangent;
-  tangent = {place.along.head(n), place.along[n]};
-  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
-  tangent.dx /= length;
-  tangent.dlambda /= length;
-  result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
-  result.kind = touches ? HitKind::touch : HitKind::branch_point;
-  result.odd = m % 2 == 1 && !touches;
-  result.turns = turns_at(arc, place.at);
-  polish(arc, result.point, m);
-  const auto refined = refined_point(arc, result);
-  if (refined)
-    result.point = *refined;
-  else if (m == 1 && place.doubt > merged)
-    return std::nullopt;
-  if (!(polish(arc, result.point, m) <= apart)) return std::nullopt;
-  if (!has_corank(arc, result.point, m)) return std::nullopt;
-  return result;
-}
-
 /// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
 /// place, otherwise a simple one, where the zero is.
 std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vector<ZeroOf>& zeros,
@@ -238,6 +118,25 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
     add({middle, (*curve)(middle), curve->slope(middle), touches ? 0 : zeros.front().off}, 1,
         touches);
   return result;
+}
+
+/// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
+std::vector<double> singular_distances(const WatchedStep& arc, double t) {
+  const double d = 0.02 * arc.length();
+  std::vector<Matrix> E;
+  for (const double ds : {t, t - d, t + d}) {
+    const auto& p = arc.point(ds);
+    const auto matrix = p ? arc.matrix(*p) : std::nullopt;
+    if (!matrix) return {};
+    E.push_back(*matrix);
+  }
+  const Matrix rate = E[0].partialPivLu().solve((E[2] - E[1]) / (2 * d));
+  if (!rate.allFinite()) return {0.0};
+  const Eigen::EigenSolver<Matrix> solver(rate, false);
+  std::vector<double> distances;
+  for (const auto& value : solver.eigenvalues()) distances.push_back(1 / std::abs(value));
+  std::sort(distances.begin(), distances.end());
+  return distances;
 }
 
 /// Distance from zeros[first..last] to the nearest other one.
@@ -330,6 +229,34 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
     i = last + 1;
   }
   return true;
+}
+
+bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+                  std::vector<Candidate>& found) {
+  constexpr double too_near = 1e-6;
+  regular = true;
+  const std::vector<double> distances = singular_distances(arc, turn.at);
+  if (distances.empty() || distances.front() > blurred || !arc.walker().options.branch_points)
+    return true;
+  const auto known = [&](const Candidate& c) {
+    return c.kind == HitKind::branch_point && std::abs(c.at - turn.at) <= 2 * blurred;
+  };
+  if (std::any_of(found.begin(), found.end(), known)) return true;
+  const auto curve = curve_near(arc, turn.at, 0.2 * arc.length());
+  if (!curve) return false;
+  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), 0};
+  const auto near = std::count_if(distances.begin(), distances.end(), [&](double d) {
+    return d <= 10 * std::max(distances.front(), too_near);
+  });
+  for (Index m = std::min<Index>(near, 6); m > 0; --m) {
+    auto candidate = candidate_at(arc, place, {turn}, m, false);
+    if (!candidate) continue;
+    candidate->odd = candidate->odd != candidate->turns;
+    found.push_back(std::move(*candidate));
+    regular = false;
+    return true;
+  }
+  return distances.front() > too_near;
 }
 
 }  // namespace springfold::continuation

@@ -16,7 +16,6 @@ inline constexpr double rounding = 1e-11;   // of a function against its size
 inline constexpr double merged = 1e-7;      // zeros that are closer are one multiple zero
 inline constexpr double blurred = 2e-4;     // around a branch point corrected points are less exact
 inline constexpr double poor = 1e-6;  // a limit point that cannot be placed better is not resolved
-inline constexpr double apart = 200;  // residual over rounding at which branches do not meet
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
 
 /// One step, its points (each computed once), and what is watched on it.
@@ -66,6 +65,7 @@ struct Candidate {
   int multiplicity = 1;
   bool odd = false;    ///< an odd number of eigenvalues change sign here
   bool turns = false;  ///< branch points: lambda turns back here as well
+  double off = 0;      ///< estimated error of a branch point's place
 };
 
 struct WatchedZeros {
@@ -82,5 +82,12 @@ WatchedZeros singularities_on(const WatchedStep& arc,
 /// @returns false when a zero could not be told to be a branch point
 bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
                        std::vector<ZeroOf>& turns, std::vector<Candidate>& found);
+
+/// At a limit point E is regular. Is it so at this turn of lambda? If not, and det Sigma did not show the
+/// branch point at which the branch turns, it is added to `found`.
+/// @param regular  whether the turn is a limit point
+/// @returns false when a branch point is too near to tell
+bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+                  std::vector<Candidate>& found);
 
 }  // namespace springfold::continuation

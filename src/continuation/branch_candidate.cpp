@@ -1,0 +1,161 @@
+#include "branch_candidate.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "reduced_equation.hpp"
+#include "springfold/continuation/branch_point.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
+/// because rounding matters less, narrow ones where the curve is not smooth enough. How far they
+/// differ shows what can be told.
+bool turns_at(const WatchedStep& arc, double t) {
+  std::vector<double> distances;  // from t to the turn
+  for (const double share : {1.0, 0.3, 0.1}) {
+    const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
+    if (!curve) continue;
+    const Index n = curve->values.rows() - 1;
+    const double h = 0.1 * (curve->b - curve->a);
+    const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
+    distances.push_back(-curve->slope(t)[n] / change);
+  }
+  std::erase_if(distances, [](double d) { return !std::isfinite(d); });
+  if (distances.empty()) return false;
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
+  const double nearest = std::min(std::abs(*low), std::abs(*high));
+  return *low * *high <= 0 ? *high - *low <= blurred
+                           : nearest <= merged + std::min(*high - *low, 0.1 * blurred);
+}
+
+/// Removes what is left of the residual within the directions that dF sees well.
+void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
+  const auto& walker = arc.walker();
+  Vector F;
+  for (int i = 0; i < 2; ++i) {
+    const auto E = arc.matrix(point);
+    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return;
+    const Borders borders = borders_of(*E, corank);
+    const Index n = F.size(), m = corank;
+    Matrix A(n + 1 + m, n + 1 + m);
+    A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
+    Vector right = Vector::Zero(n + 1 + m);
+    right.head(n) = -F;
+    const Vector step = A.partialPivLu().solve(right);
+    if (!step.allFinite() || step.head(n + 1).norm() > 1e-6) return;
+    point.x += step.head(n);
+    point.lambda += step[n];
+  }
+}
+
+/// Are exactly m singular values of E small here, with a gap to the others?
+bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
+  constexpr double gap = 0.1;
+  const auto E = arc.matrix(point);
+  if (!E) return false;
+  const Vector values = singular_values(*E);  // descending
+  const Index n = values.size();
+  return m >= n || values[n - m] <= gap * values[n - m - 1];
+}
+
+/// Takes over the exact place of a branch point, if it is this one: near the interpolated place, and on
+/// the interpolated curve.
+/// @returns false when the curves pass each other there
+bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Candidate& found) {
+  const auto exact =
+      place_branch_point(arc.walker(), found.point, static_cast<int>(m), 2 * together);
+  if (exact && exact->misfit <= merged) {
+    const Direction from_start{exact->point.x - arc.from().x,
+                               exact->point.lambda - arc.from().lambda};
+    const double at = metric_product(arc.walker().weights, from_start, arc.from().tangent);
+    const double along = at - place.at;
+    const Direction aside{
+        exact->point.x - found.point.x - along * place.along.head(found.point.x.size()),
+        exact->point.lambda - found.point.lambda - along * place.along[found.point.x.size()]};
+    const double length = std::sqrt(metric_product(arc.walker().weights, aside, aside));
+    if (std::abs(along) <= together && length <= 10 * merged) {
+      if (!(exact->left <= branches_apart)) return false;
+      found.point = exact->point;
+      found.at = at;
+      found.off = exact->off;
+      found.before = std::min(found.before, at);
+      found.after = std::max(found.after, at);
+      return true;
+    }
+  }
+  found.off = place.doubt;
+  if (m == 1 && place.doubt > merged) return false;
+  polish(arc, found.point, m);
+  return left_of_residual(arc.walker(), found.point, static_cast<int>(m)) <= branches_apart;
+}
+
+/// Gives a branch point the exact direction of its branch, where second derivatives tell it.
+/// @returns lambda's rate there
+std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint& point) {
+  const auto e = reduce(arc.walker(), point, static_cast<int>(m));
+  if (!e) return std::nullopt;
+  const Index n = point.x.size();
+  Vector along(n + 1);
+  along << point.tangent.dx, point.tangent.dlambda;
+  const auto c = quadratic_direction(*e, e->N.transpose() * along.cwiseProduct(e->root), 0.05);
+  if (!c) return std::nullopt;
+  const Vector d = (e->N * *c).cwiseQuotient(e->root);
+  Direction tangent{d.head(n), d[n]};
+  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  if (metric_product(arc.walker().weights, tangent, point.tangent) < 0.99) return std::nullopt;
+  point.tangent = tangent;
+  return tangent.dlambda;
+}
+
+/// Does lambda turn at this branch point?
+bool branch_turns(const WatchedStep& arc, Index m, Candidate& found) {
+  constexpr double zero = 1e-7;
+  const auto rate = settle_tangent(arc, m, found.point);
+  if (!rate) return turns_at(arc, found.at);
+  if (std::abs(*rate) > zero) return false;
+  const auto before = arc.rate(found.at - blurred), after = arc.rate(found.at + blurred);
+  return before && after ? (*before < 0) != (*after < 0) : turns_at(arc, found.at);
+}
+
+}  // namespace
+
+std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
+  const auto [a, b] = window_around(t, length, arc.low(), arc.high());
+  return interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto& p = arc.point(ds);
+        if (!p) return std::nullopt;
+        Vector u(p->x.size() + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+}
+
+std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+  Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
+  result.point = arc.from();
+  const Index n = arc.from().x.size();
+  result.point.x = place.u.head(n);
+  result.point.lambda = place.u[n];
+  Direction& tangent = result.point.tangent;
+  tangent = {place.along.head(n), place.along[n]};
+  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
+  result.kind = touches ? HitKind::touch : HitKind::branch_point;
+  result.odd = m % 2 == 1 && !touches;
+  if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m))
+    return std::nullopt;
+  result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
+  return result;
+}
+
+}  // namespace springfold::continuation
