@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "closure_rank.hpp"
+
 namespace springfold::analysis {
 namespace {
 
@@ -289,11 +291,15 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
     const bool first = i == 0, last = next == nullptr;
     const bool is_singular =
         event.kind == EventKind::branch_point || event.kind == EventKind::touch;
-    if (is_singular && !first && !last)
+    if (const auto found = is_singular ? kinematic_singularity(problem, e.point) : std::nullopt) {
+      event.kind = EventKind::kinematic_singularity;
+      event.detail = *found;
+    } else if (is_singular && !first && !last) {
       if (const auto chain = singular_chain(entries[i - 1], e, *next, evaluator, problem)) {
         event.kind = EventKind::kinematic_singularity;
         event.detail = "the closure of chain " + *chain + " loses rank; " + event.detail;
       }
+    }
     if ((first || last) && ends_at_junction(e, first ? branch.backward : branch.forward))
       event.detail += (event.detail.empty() ? "" : ", ") +
                       (first ? branch.backward.reason : branch.forward.reason);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "closure_rank.hpp"
 #include "limits.hpp"
 #include "search_box.hpp"
 #include "springfold/continuation/search.hpp"
@@ -21,6 +22,9 @@ class Grower {
       : t_{tracing}, events_{events_of(t_.study, t_.evaluator, t_.quantities)} {
     options_.trace = options_of(t_.study.trace);
     options_.maximum_depth = t_.study.branches.depth;
+    options_.left_out = [this](const CurvePoint& point) {
+      return kinematic_singularity(t_.problem, point).value_or("");
+    };
   }
 
   Grown grow(const CurvePoint& start) {

@@ -7,6 +7,7 @@
 
 #include "branch_rows.hpp"
 #include "branches.hpp"
+#include "closure_rank.hpp"
 #include "equilibria.hpp"
 #include "limits.hpp"
 #include "run_kinds.hpp"
@@ -96,15 +97,17 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
   }
   const std::string why =
       rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
+  const auto singular = kinematic_singularity(t.problem, start);
   if (outside || t.study.path == Path::davidenko) {
     result.branches.push_back(
         not_traced(t, start, "the start is not an ordinary point of a curve: " + why));
-    return;
+  } else {
+    trace_branches(t, start, result);
+    if (result.branches.empty())
+      result.branches.push_back(
+          not_traced(t, start, "no curve was found to leave the start: " + why));
   }
-  trace_branches(t, start, result);
-  if (result.branches.empty())
-    result.branches.push_back(
-        not_traced(t, start, "no curve was found to leave the start: " + why));
+  if (singular) result.start.situation = "a " + *singular;
 }
 
 /// A start that was held by a wrench stays held in the directions that the study leaves free.

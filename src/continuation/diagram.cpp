@@ -36,6 +36,7 @@ class Tracer {
  private:
   int junction_at(const Hit& hit);
   int add_junction(const Hit& hit);
+  void add_exits(const Hit& hit, Junction& junction);
   Way* way_along(int junction, const Direction& direction, const Piece* piece);
   void queue_ways(int junction);
   bool at_hit(const Hit& hit, bool ends = false);
@@ -83,6 +84,31 @@ CurvePoint clear_of_turn(const Walker& walker, const CurvePoint& leaving) {
   return point ? *point : leaving;
 }
 
+/// Ways out of a singular point: of the reduced equation there, or only those along the curve.
+void Tracer::add_exits(const Hit& hit, Junction& junction) {
+  const std::string reason = options_.left_out ? options_.left_out(hit.point) : "";
+  if (!reason.empty()) {
+    junction.complete = false;
+    junction.why = reason;
+    if (hit.point.tangent.dx.size() == 0) return;
+    CurvePoint back = hit.point;
+    back.tangent.dx *= -1;
+    back.tangent.dlambda *= -1;
+    junction.ways = {{hit.point, hit.point}, {back, back}};
+    return;
+  }
+  const int corank = hit.kind == HitKind::touch ? corank_of(walker_, hit.point) : hit.multiplicity;
+  const Exits exits = exits_at(walker_, hit.point, corank);
+  junction.complete = exits.complete;
+  junction.why = exits.why;
+  for (const Exit& exit : exits.exits) {
+    CurvePoint point = hit.point;
+    point.tangent = exit.tangent;
+    point.negative.reset();
+    junction.ways.push_back({point, exit.start});
+  }
+}
+
 /// Finds the ways out of a special point. A touch may have no more than the curve itself.
 int Tracer::add_junction(const Hit& hit) {
   Junction junction{
@@ -95,17 +121,7 @@ int Tracer::add_junction(const Hit& hit) {
     back.tangent.dlambda *= -1;
     junction.ways.push_back({back, back});
   } else {
-    const int corank =
-        hit.kind == HitKind::touch ? corank_of(walker_, hit.point) : hit.multiplicity;
-    const Exits exits = exits_at(walker_, hit.point, corank);
-    junction.complete = exits.complete;
-    junction.why = exits.why;
-    for (const Exit& exit : exits.exits) {
-      CurvePoint point = hit.point;
-      point.tangent = exit.tangent;
-      point.negative.reset();
-      junction.ways.push_back({point, exit.start});
-    }
+    add_exits(hit, junction);
   }
   if (!junction.complete) doubt("branches may be missing: " + junction.why, junction.point);
   diagram_.junctions.push_back(std::move(junction));
@@ -324,8 +340,11 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
   if (!own.trivial()) {
     std::vector<DiagramStart> inside = starts;
     for (DiagramStart& start : inside) start.x = own.inside(start.x);
+    DiagramOptions within = options;
+    if (options.left_out)
+      within.left_out = [&](const CurvePoint& at) { return options.left_out(own.outside(at)); };
     return own.outside(
-        trace_diagram(own, inside, own.inside(events), options, own.inside(observer)));
+        trace_diagram(own, inside, own.inside(events), within, own.inside(observer)));
   }
   const Walker walker{problem, problem.metric(), options.trace};
   Tracer tracer(walker, events, options, observer);

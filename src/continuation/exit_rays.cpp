@@ -56,7 +56,7 @@ class CircleScan {
  private:
   void bracket(double a, double b, double fa, double fb) {
     std::uintmax_t most = 60;
-    if (std::isnan(fa) || std::isnan(fb) || (fa < 0) == (fb < 0)) {
+    if (!(a < b) || std::isnan(fa) || std::isnan(fb) || (fa < 0) == (fb < 0)) {
       ++result_.undefined;
       return;
     }

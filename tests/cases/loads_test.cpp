@@ -92,6 +92,54 @@ until = { lambda = [0, 4] }
   }
 }
 
+TEST(FlatCranks, AreAKinematicSingularityThatIsPassedAndSaysWhatIsNotSearched) {
+  for (const std::vector<double>& feet : {std::vector<double>{0, 1}, {0, 1, 0.4}, {0, 2}}) {
+    const StudyResult result = run(cranks(feet) + R"(
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1, 0]
+until = { a.foot = [-1, 1.5] }
+branches = { depth = 1 }
+)")
+                                   .of("press");
+    EXPECT_THAT(lambdas(result, EventKind::branch_point), ElementsAre());
+    // The spring of 2 is relaxed at the angle 1, and the load is its moment.
+    const auto flat = lambdas(result, EventKind::kinematic_singularity);
+    ASSERT_EQ(flat.size(), 1u);
+    EXPECT_NEAR(flat[0], 2, 1e-8);
+    ASSERT_EQ(result.junctions.size(), 1u);
+    EXPECT_THAT(result.junctions[0].ways, ElementsAre(1, 1));
+    EXPECT_FALSE(result.junctions[0].complete);
+    EXPECT_THAT(result.junctions[0].why, HasSubstr("lose rank together"));
+    EXPECT_FALSE(complete(result));
+    EXPECT_TRUE(result.branches[0].forward.complete && result.branches[0].backward.complete);
+    const std::size_t last = result.branches[0].samples.size() - 1;
+    for (std::size_t row = 0; row <= last; row += 9)
+      EXPECT_NEAR(value(result, row, "coupler.phi"), 0, 1e-9);
+  }
+}
+
+TEST(FlatCranks, AsAStartAreSaidToBeAKinematicSingularity) {
+  std::string text = cranks({0, 1});
+  for (const auto& [old, with] :
+       std::vector<std::pair<std::string, std::string>>{{"\"cos(1)\", \"sin(1)\"", "1, 0"},
+                                                        {"initial = 1", "initial = 0"},
+                                                        {"initial = -1", "initial = 0"}})
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old))
+      text.replace(at, old.size(), with);
+  const StudyResult result = run(text + R"(
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1, 0]
+)")
+                                 .of("press");
+  EXPECT_THAT(result.start.situation,
+              HasSubstr("a kinematic singularity: the closures of chains a, b"));
+  EXPECT_FALSE(complete(result));
+}
+
 TEST(SpringOrigins, AreWhereTheMechanismStands) {
   const StudyResult result =
       run(cranks({0, 1}) + "[[study]]\nname = \"e\"\nkind = \"equilibrium\"").of("e");

@@ -1,6 +1,7 @@
 // The whole bifurcation diagram: all branches of all special points that can be reached.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct DiagramOptions {
   int maximum_depth = 4;      ///< special points between a branch and the start; 0: no branching
   double same_place = 1e-6;   ///< special points closer than this, relative to max(1, |x|), are one
   bool through_kinks = true;  ///< also follow the ways out of branching kinks
+  /// Why the ways out of a special point are not searched for, in words; empty: they are. A point that
+  /// is left out so is passed along the curve that meets it, and is a doubt.
+  std::function<std::string(const CurvePoint&)> left_out{};
 };
 
 /// One way to leave a special point.

@@ -1,0 +1,89 @@
+#include "closure_rank.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <vector>
+
+namespace springfold::analysis {
+namespace {
+
+/// Singular values of the closures' derivatives, redundant ones left out.
+struct ClosureRank {
+  double smallest = 0, largest = 0;
+  Vector null{};              ///< the combination of closures that belongs to the smallest
+  std::vector<Index> rows{};  ///< of the closures among the unknowns of the statics
+};
+
+std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, double lambda,
+                                   const Piece& piece) {
+  Matrix A;
+  Vector b;
+  if (!problem.derivatives(x, lambda, piece, A, b)) return std::nullopt;
+  const statics::System& layout = problem.layout();
+  ClosureRank rank;
+  for (Index i = 0; i < layout.first_pose; ++i)
+    if (layout.is_wrench[static_cast<std::size_t>(i)]) rank.rows.push_back(i);
+  const auto m = static_cast<Index>(rank.rows.size());
+  if (m == 0) return std::nullopt;
+  std::vector<Index> motions;
+  for (Index i = 0; i < A.cols(); ++i)
+    if (std::find(rank.rows.begin(), rank.rows.end(), i) == rank.rows.end()) motions.push_back(i);
+  Matrix J(m, static_cast<Index>(motions.size()) + 1);
+  J << A(rank.rows, motions), b(rank.rows);
+  if (layout.redundant > 0) {  // what they say twice counts once
+    Vector z, r;
+    statics::Workspace work;
+    Matrix full;
+    const statics::System& system = problem.turned_to_pose(x, lambda, z);
+    if (!equilibrium_matrix(system, piece, z, problem.inputs(lambda), work, r, full))
+      return std::nullopt;
+    if (work.gauge.rows() != layout.redundant) return std::nullopt;
+    const Matrix N = work.gauge(Eigen::all, rank.rows).transpose();
+    J -= N * (N.transpose() * J);
+  }
+  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeFullU);
+  const Index last = m - 1 - layout.redundant;
+  if (last < 0) return std::nullopt;
+  rank.largest = svd.singularValues()[0];
+  rank.smallest = last < svd.singularValues().size() ? svd.singularValues()[last] : 0;
+  rank.null = svd.matrixU().col(last);
+  return rank;
+}
+
+/// Chains whose closures take part in the null combination.
+std::string chains_in(const statics::System& system, const Vector& null) {
+  std::string names;
+  Index row = 0;
+  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
+    const Index d = system.chain_slices[i].F_count;
+    if (null.segment(row, d).norm() > 1e-3)
+      names += (names.empty() ? "" : ", ") + system.mechanism.chains[i].name;
+    row += d;
+  }
+  return names;
+}
+
+}  // namespace
+
+std::optional<std::string> kinematic_singularity(const PathProblem& problem,
+                                                 const continuation::CurvePoint& point) {
+  constexpr double beside = 1e-2, drop = 1e-3;
+  const bool along = point.tangent.dx.size() > 0;
+  const double singular = along ? 1e-4 : 1e-9;  // a point on a curve is located less exactly
+  const auto here = rank_at(problem, point.x, point.lambda, point.piece);
+  if (!here || here->smallest > singular * here->largest) return std::nullopt;
+  const Vector any = Vector::LinSpaced(point.x.size(), 0.7, 1.3).normalized();
+  const Vector dx = along ? point.tangent.dx : any;
+  const double dlambda = along ? point.tangent.dlambda : 0;
+  for (const double h : {-beside, beside}) {
+    const auto there = rank_at(problem, point.x + h * dx, point.lambda + h * dlambda, point.piece);
+    if (!there || here->smallest > drop * there->smallest) return std::nullopt;
+  }
+  return "kinematic singularity: the closures of " +
+         std::string(problem.layout().chains.size() == 1 ? "chain " : "chains ") +
+         chains_in(problem.layout(), here->null) +
+         " lose rank together, a part of their wrenches is not determined here, and other modes of "
+         "assembly may cross that are not searched for";
+}
+
+}  // namespace springfold::analysis
