@@ -33,10 +33,15 @@ void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProbl
 }
 
 /// Points and special points of one direction in the order of s, without the start.
-std::vector<Entry> entries_of(const Curve& curve) {
+std::vector<Entry> entries_of(const Curve& curve, const std::vector<CurvePoint>& between) {
   std::vector<Entry> entries;
-  std::size_t h = 0;
-  const auto add_hit = [&entries](const Hit& hit) {
+  std::size_t h = 0, b = 0;
+  const auto add_between = [&](double s) {
+    for (; b < between.size() && between[b].s < s; ++b)
+      entries.push_back({between[b], nullptr, false, {}});
+  };
+  const auto add_hit = [&](const Hit& hit) {
+    add_between(hit.point.s);
     entries.push_back({hit.point, &hit, false, {}});
     // Where there are several ways out the trace ended and none of them belongs to this branch.
     if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true, {}});
@@ -44,6 +49,7 @@ std::vector<Entry> entries_of(const Curve& curve) {
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     while (h < curve.hits.size() && curve.hits[h].point.s <= curve.points[i].s)
       add_hit(curve.hits[h++]);
+    add_between(curve.points[i].s);
     entries.push_back({curve.points[i], nullptr, false, {}});
   }
   while (h < curve.hits.size()) add_hit(curve.hits[h++]);
@@ -247,12 +253,12 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
   const Curve backward = with_merged_force_limits(source.backward);
   const Curve forward = with_merged_force_limits(source.forward);
-  std::vector<Entry> entries = reversed(entries_of(backward));
+  std::vector<Entry> entries = reversed(entries_of(backward, source.backward_between));
   BranchRows rows;
   Branch& branch = rows.branch;
   branch.start_row = entries.size();
   entries.push_back({forward.points.front(), nullptr, false, {}});
-  for (Entry& e : entries_of(forward)) entries.push_back(std::move(e));
+  for (Entry& e : entries_of(forward, source.forward_between)) entries.push_back(std::move(e));
   count_turns(entries, branch.start_row, problem);
   branch.backward = source.backward_stop;
   branch.forward = source.forward_stop;

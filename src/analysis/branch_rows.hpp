@@ -22,6 +22,8 @@ using JunctionOf = std::function<int(const continuation::Hit&)>;
 struct BranchSource {
   continuation::Curve backward{}, forward{};  ///< with the same first point
   Stop backward_stop{}, forward_stop{};
+  /// Further points of the curves, for rows between those of the steps.
+  std::vector<continuation::CurvePoint> backward_between{}, forward_between{};
   JunctionOf junction_of{};     ///< empty: no special point is a junction
   std::optional<int> origin{};  ///< the junction at which the branch begins
   EventKind origin_kind = EventKind::branch_point;

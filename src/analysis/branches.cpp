@@ -163,6 +163,7 @@ class Writer {
     } else if (group.size() == 1 && source.forward.stop != StopReason::closed) {
       source.backward_stop = {"the start, which several curves leave", true};
     }
+    add_between(t_, source);
     return join(source, t_.evaluator, t_.quantities, t_.problem);
   }
 

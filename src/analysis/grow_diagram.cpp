@@ -5,6 +5,7 @@
 #include "closure_rank.hpp"
 #include "limits.hpp"
 #include "search_box.hpp"
+#include "springfold/continuation/between.hpp"
 #include "springfold/continuation/search.hpp"
 
 namespace springfold::analysis {
@@ -135,6 +136,22 @@ continuation::TraceOptions options_of(const TraceSettings& settings) {
   options.step.maximum = settings.maximum_step;
   options.maximum_points = settings.maximum_points;
   return options;
+}
+
+void add_between(const Tracing& tracing, BranchSource& source) {
+  const double spacing = tracing.study.trace.spacing;
+  if (spacing == 0) return;
+  const auto options = options_of(tracing.study.trace);
+  const auto fill = [&](Curve& curve, std::vector<CurvePoint>& between) {
+    auto found = continuation::points_between(tracing.problem, curve, spacing, options);
+    between = std::move(found.points);
+    if (found.missed > 0)
+      curve.log.push_back(
+          {curve.points.back().s, spacing,
+           std::to_string(found.missed) + " rows beside special points could not be computed"});
+  };
+  fill(source.backward, source.backward_between);
+  fill(source.forward, source.forward_between);
 }
 
 Grown grow_diagram(const Tracing& tracing, const CurvePoint& start) {

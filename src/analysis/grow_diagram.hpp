@@ -2,6 +2,7 @@
 // Private to analysis.
 #pragma once
 
+#include "branch_rows.hpp"
 #include "quantities.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/continuation/diagram.hpp"
@@ -19,6 +20,9 @@ struct Tracing {
 };
 
 continuation::TraceOptions options_of(const TraceSettings& settings);
+
+/// Points for rows between those of the steps, if the study wants them.
+void add_between(const Tracing& tracing, BranchSource& source);
 
 struct Grown {
   continuation::Diagram diagram{};

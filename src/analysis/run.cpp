@@ -48,6 +48,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
                         : follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
+  add_between(t, source);
   std::vector<BranchRows> rows{join(source, t.evaluator, t.quantities, t.problem)};
   label_events(rows, 0, t.quantities);
   return rows.front().branch;

@@ -210,6 +210,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   if (!(0 < t.minimum_step && t.minimum_step <= t.initial_step && t.initial_step <= t.maximum_step))
     problems.push_back("trace: need 0 < minimum_step <= initial_step <= maximum_step");
   check_branches(study, problems);
+  if (!(t.spacing >= 0)) problems.push_back("trace.spacing: must not be negative");
   if (t.maximum_points < 2) problems.push_back("trace.maximum_points: need at least 2");
   if (problems.empty()) check_quantities(study, mechanism, problems);
   if (problems.empty()) check_search(study, mechanism, problems);

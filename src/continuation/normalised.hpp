@@ -37,6 +37,7 @@ class Normalised {
   bool symmetric() const { return problem_.symmetric(); }
   Vector metric() const { return problem_.metric().cwiseProduct(unit_.cwiseAbs2()); }
   Vector periods() const { return problem_.periods().cwiseQuotient(unit_); }
+  std::vector<Index> double_covers() const { return problem_.double_covers(); }
   std::string switch_name(Index j) const { return problem_.switch_name(j); }
 
   Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }

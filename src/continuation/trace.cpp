@@ -88,6 +88,7 @@ bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Ancho
     if (!step.point) continue;
     const Evidence evidence = examine(walker, from, *step.point);
     if (!evidence.doubt.empty() || !step.point->negative != !from.negative) continue;
+    if (start_again(walker, curve.points.front(), from, *step.point)) return false;
     if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) continue;
     auto cluster = cluster_on_step(walker, {&from, &*evidence.middle, &*step.point});
     if (!cluster) continue;
@@ -110,6 +111,17 @@ struct Refusal {
   std::string reason{};
   bool special = false;  ///< because of special points on it
 };
+
+/// Special points behind the place at which a curve closes were met at its start already. One at this
+/// very place is met now.
+void end_at(const CurvePoint& start, StepEvents& found) {
+  constexpr double same_place = 1e-7;
+  for (std::size_t i = found.hits.size(); i-- > 0;) {
+    if (found.hits[i].point.s <= start.s + same_place) continue;
+    found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
+    found.stops.erase(found.stops.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
 
 /// One step: predict, correct, look for switching surfaces and events, record.
 /// @param report  special points that cannot be told apart are reported on the shortest steps
@@ -137,15 +149,13 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     return Outcome::shorten;
   }
   const auto start = start_again(walker, curve.points.front(), progress.here, *step.point);
-  const bool closed =
-      start && !(kink.status == KinkSearch::Status::found && kink.point.s < start->s);
-  if (closed) {
-    step.point = *start;
-    kink.status = KinkSearch::Status::none;
-  }
-  const bool cut = kink.status == KinkSearch::Status::found;
-  CurvePoint& end = cut ? kink.point : *step.point;
+  const bool meets_kink = kink.status == KinkSearch::Status::found;
+  const bool closed = start && !(meets_kink && kink.point.s < start->s);
+  CurvePoint& end = meets_kink ? kink.point : *step.point;
+  if (closed) kink.status = KinkSearch::Status::none;
+  const bool cut = meets_kink && !closed;
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
+  if (closed) end_at(*start, found);
   if (!found.doubt.empty()) {
     refusal = found.doubt;
     refused.special = true;
@@ -166,7 +176,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
                          "cut: " + names_of(walker.problem, kink.active)});
     return pass_kink(walker, kink, progress, curve);
   }
-  progress.here = std::move(*step.point);
+  progress.here = closed ? *start : std::move(*step.point);
   progress.left.clear();
   curve.points.push_back(progress.here);
   account_over_gap(curve);

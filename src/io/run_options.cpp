@@ -92,7 +92,7 @@ Json json_of(const std::vector<T>& items) {
 
 /// Name and value of every option of one study, without saying which are defaults.
 std::vector<NamedOption> listed(const analysis::Study& study, const std::string& body) {
-  const auto& [initial, minimum, maximum, points] = study.trace;
+  const auto& [initial, minimum, maximum, points, spacing] = study.trace;
   return {{"kind", text_of(study.kind)},
           {"control", text_of(study.control)},
           {"body", body},
@@ -112,6 +112,7 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"trace.minimum_step", minimum},
           {"trace.maximum_step", maximum},
           {"trace.maximum_points", points},
+          {"trace.spacing", spacing},
           {"path", study.path == analysis::Path::davidenko ? "davidenko" : "arc_length"},
           {"branches.depth", study.branches.depth},
           {"branches.maximum", study.branches.maximum},

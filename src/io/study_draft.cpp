@@ -60,7 +60,8 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   study.trace = {.initial_step = numbers[draft.initial_step],
                  .minimum_step = numbers[draft.minimum_step],
                  .maximum_step = numbers[draft.maximum_step],
-                 .maximum_points = static_cast<int>(numbers[draft.maximum_points])};
+                 .maximum_points = static_cast<int>(numbers[draft.maximum_points]),
+                 .spacing = numbers[draft.spacing]};
   study.branches = {.depth = static_cast<int>(numbers[draft.depth]),
                     .maximum = static_cast<int>(numbers[draft.maximum_branches]),
                     .search_at = {},

@@ -48,7 +48,7 @@ struct StudyDraft {
   std::vector<NumberId> start_pose{};  ///< d or none
   NumberId attempts = 0, seed = 0, maximum_move = 0;
   analysis::Path path = analysis::Path::arc_length;
-  NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0;
+  NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0, spacing = 0;
   NumberId depth = 0, maximum_branches = 0, search_starts = 0, search_seed = 0;
   std::vector<NumberId> search_at{};
   NumberId equilibria_starts = 0, equilibria_seed = 0, equilibria_maximum = 0;

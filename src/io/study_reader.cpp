@@ -269,10 +269,11 @@ class StudyReader {
     static const Node nothing;
     const Item item{node ? node : &nothing, table_.key_of("trace")};
     const bool usable = is_table(item, "a table such as { maximum_step = 0.05 }", reading_);
-    const TableReader trace{usable ? *item.node : nothing,
-                            item.key,
-                            {"initial_step", "minimum_step", "maximum_step", "maximum_points"},
-                            reading_};
+    const TableReader trace{
+        usable ? *item.node : nothing,
+        item.key,
+        {"initial_step", "minimum_step", "maximum_step", "maximum_points", "spacing"},
+        reading_};
     const Rule step{Range::positive, ""};
     NumberTable& numbers = draft_.numbers;
     draft_.initial_step = trace.number("initial_step", step, numbers, defaults.initial_step);
@@ -280,6 +281,7 @@ class StudyReader {
     draft_.maximum_step = trace.number("maximum_step", step, numbers, defaults.maximum_step);
     draft_.maximum_points =
         trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
+    draft_.spacing = trace.number("spacing", {Range::non_negative, ""}, numbers, defaults.spacing);
   }
 
   void read_branches() {

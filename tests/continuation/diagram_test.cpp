@@ -116,6 +116,16 @@ TEST(ClosedCurve, IsTracedOnceWithEachLimitPointOnce) {
   EXPECT_TRUE(diagram.doubts.empty());
 }
 
+TEST(ClosedCurve, ThatStartsAtALimitPointEndsThereAfterOneLap) {
+  const ScalarProblem problem = circle();
+  for (const double longest : {0.01, 0.05, 0.1}) {
+    const Curve curve = follow(problem, at(0, 1, 1, 0), {}, steps_up_to(longest));
+    EXPECT_EQ(curve.stop, StopReason::closed);
+    EXPECT_LT(curve.points.back().s, 6.3);
+    EXPECT_EQ(hits_of(curve, HitKind::limit_point).size(), 2u) << "the start's own one too";
+  }
+}
+
 TEST(ClosedCurve, OfAnAngleEndsAfterOneTurn) {
   const Diagram diagram = whole(Angle{}, {{Vector{{0.1}}, std::sin(0.1)}}, {});
   ASSERT_EQ(diagram.branches.size(), 1u);

@@ -63,6 +63,7 @@ TEST_F(CaseValues, OfStudiesArriveAndDirectionsHaveUnitLength) {
   EXPECT_EQ(s.marks[1].value, 0.2);
   EXPECT_EQ(s.trace.maximum_points, 99);
   EXPECT_EQ(s.trace.minimum_step, 1e-7);
+  EXPECT_EQ(s.trace.spacing, 0);
 }
 
 TEST_F(CaseValues, OfPlotsAreEvaluatedWithTheParametersOfTheFile) {

@@ -97,6 +97,7 @@ struct TraceSettings {
   double minimum_step = 1e-8;
   double maximum_step = 0.05;
   int maximum_points = 5000;  ///< in each direction
+  double spacing = 0;         ///< > 0: rows also at the multiples of this arc length
 };
 
 /// Branches beside the one through the start point.
