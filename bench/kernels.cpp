@@ -10,55 +10,13 @@
 #include "springfold/core/inertia.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/stiffness.hpp"
+#include "walk.hpp"
 
 namespace {
 
 using namespace springfold;
+using bench::Walk;
 using continuation::CurvePoint;
-
-/// Equilibria under the force lambda along the diagonal, straight from the statics.
-struct LoadPath {
-  statics::System system = statics::prepare(bench::orthoglide());
-  mutable statics::Workspace work{};
-  mutable Vector scratch{};
-
-  Index size() const { return system.size; }
-  static bool symmetric() { return true; }
-  statics::Inputs inputs(double lambda) const {
-    return {system.commands, Vector::Constant(2, lambda * std::sqrt(0.5))};
-  }
-  bool residual(const Vector& z, double lambda, Vector& F) const {
-    return statics::equilibrium_residual(system, {}, z, inputs(lambda), work, F);
-  }
-  bool derivatives(const Vector& z, double lambda, Matrix& dF_dz, Vector& dF_dlambda) const {
-    dF_dlambda = statics::load_columns(system, z) * Vector::Constant(2, std::sqrt(0.5));
-    return statics::equilibrium_matrix(system, {}, z, inputs(lambda), work, scratch, dF_dz);
-  }
-  Vector metric() const {  // chain wrenches do not count in the arc length
-    Vector weights = Vector::Ones(system.size);
-    for (Index i = 0; i < system.size; ++i)
-      if (system.is_wrench[static_cast<std::size_t>(i)]) weights[i] = 0;
-    return weights;
-  }
-};
-
-/// The path, a point on it and what it takes to walk on from there.
-struct Walk {
-  LoadPath path{};
-  continuation::Walker walker{path, path.metric(), {}};
-  CurvePoint from{};
-
-  Walk() {
-    const auto start = statics::first_equilibrium(
-        path.system, {.z = statics::guess(path.system), .inputs = path.inputs(0.05)});
-    from.x = start.z;
-    from.lambda = 0.05;
-    const auto rays = continuation::rays_from(path, from.x, from.lambda, {}, {});
-    from.tangent = rays.rays.front().tangent;
-  }
-  Walk(const Walk&) = delete;  // the walker looks at this object's path
-  Walk& operator=(const Walk&) = delete;
-};
 
 void closure_and_jacobian(benchmark::State& state) {
   const model::Mechanism m = bench::orthoglide();
