@@ -77,7 +77,10 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
         exact->point.lambda - found.point.lambda - along * place.along[found.point.x.size()]};
     const double length = std::sqrt(metric_product(arc.walker().weights, aside, aside));
     if (std::abs(along) <= together && length <= 10 * merged) {
-      if (!(exact->left <= branches_apart)) return false;
+      if (!(exact->left <= branches_apart)) {
+        arc.note_passing();
+        return false;
+      }
       found.point = exact->point;
       found.at = at;
       found.off = exact->off;
@@ -87,7 +90,7 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
     }
   }
   found.off = place.doubt;
-  if (m == 1 && place.doubt > merged) return false;
+  if (!(place.doubt <= merged)) return false;
   polish(arc, found.point, m);
   return left_of_residual(arc.walker(), found.point, static_cast<int>(m)) <= branches_apart;
 }

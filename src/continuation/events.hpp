@@ -15,6 +15,7 @@ struct StepEvents {
   std::string doubt{};        ///< set: something happens here that these hits do not explain;
                               ///< a shorter step may separate it
   int unexplained = 1;        ///< with a doubt: how many eigenvalues change sign unexplained
+  bool passing = false;  ///< with a doubt: branches pass each other closely; the curve turns aside
 };
 
 /// @param middle  the curve's point half-way, or empty: then only the ends are compared

@@ -150,6 +150,7 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
     if (all.doubt.empty() && !part.doubt.empty()) {
       all.doubt = part.doubt;
       all.unexplained = part.unexplained;
+      all.passing = part.passing;
     }
     start = std::move(*next);
   }

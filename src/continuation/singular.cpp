@@ -179,6 +179,7 @@ SingularPoints singular_points(const Walker& walker,
   if (!add_branch_points(arc, singular, turns.zeros, found) ||
       !add_limit_points(arc, turns.zeros, found)) {
     result.doubt = "special point not resolved";
+    result.passing = arc.passing();
     result.unexplained = static_cast<int>(std::max<std::size_t>(1, singular.zeros.size()));
     return result;
   }

@@ -12,6 +12,7 @@ struct SingularPoints {
   std::vector<Hit> hits{};
   std::string doubt{};  ///< set: the zeros of tangent and eigenvalues do not fit together
   int unexplained = 0;
+  bool passing = false;  ///< with a doubt: branches pass each other closely and do not meet
 };
 
 /// Finds every zero of the tangent's lambda-component and of the eigenvalues of dF/dx between the

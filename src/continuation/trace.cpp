@@ -71,37 +71,52 @@ struct Anchor {
   Progress before{};
   std::size_t points = 0, hits = 0;
   bool set = false, tried = false;
+  bool passing = false;  ///< branches pass each other there: nothing is crossed in one step
 };
 
-/// Crosses a cluster of special points in one step from the anchor: on short steps beside it rounding
-/// would decide where the curve goes.
-bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
-                   Progress& progress, Curve& curve) {
-  anchor.tried = true;
-  if (curve.hits.size() != anchor.hits || !anchor.before.left.empty()) return false;
-  const CurvePoint& from = anchor.before.here;
+/// Crosses a cluster of special points in one step from `before.here`; only the caller's events are
+/// looked for on it.
+bool cross_from(const Walker& walker, const std::vector<Event>& events, const Progress& before,
+                double ds, Progress& progress, Curve& curve) {
   Walker plain = walker;
   plain.options.limit_points = plain.options.branch_points = false;
-  for (const double share : {1.0, 0.6, 0.35}) {
-    const double ds = share * anchor.before.ds;
-    const StepResult step = try_step(walker, from, ds);
-    if (!step.point) continue;
-    const Evidence evidence = examine(walker, from, *step.point);
-    if (!evidence.doubt.empty() || !step.point->negative != !from.negative) continue;
-    if (start_again(walker, curve.points.front(), from, *step.point)) return false;
-    if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) continue;
-    auto cluster = cluster_on_step(walker, {&from, &*evidence.middle, &*step.point});
-    if (!cluster) continue;
-    const StepEvents wanted = events_on_step(plain, from, *step.point, evidence.middle, events);
-    if (!wanted.hits.empty() || !wanted.doubt.empty()) continue;
-    curve.points.resize(anchor.points);
-    curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});
-    curve.hits.push_back(std::move(*cluster));
-    curve.points.push_back(*step.point);
-    progress = anchor.before;
-    progress.here = *step.point;
-    progress.ds = next_step_length(ds, step.measures, walker.options.step);
-    return true;
+  const CurvePoint& from = before.here;
+  const StepResult step = try_step(walker, from, ds);
+  if (!step.point) return false;
+  const Evidence evidence = examine(walker, from, *step.point);
+  if (!evidence.doubt.empty() || !step.point->negative != !from.negative) return false;
+  if (start_again(walker, curve.points.front(), from, *step.point)) return false;
+  if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) return false;
+  auto cluster = cluster_on_step(walker, {&from, &*evidence.middle, &*step.point});
+  if (!cluster) return false;
+  const StepEvents wanted = events_on_step(plain, from, *step.point, evidence.middle, events);
+  if (!wanted.hits.empty() || !wanted.doubt.empty()) return false;
+  std::erase_if(curve.points, [&](const CurvePoint& p) { return p.s > from.s; });
+  curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});
+  curve.hits.push_back(std::move(*cluster));
+  curve.points.push_back(*step.point);
+  progress = before;
+  progress.here = *step.point;
+  progress.ds = next_step_length(ds, step.measures, walker.options.step);
+  return true;
+}
+
+/// Crosses a cluster in one step from the anchor, or from a point between it and the cluster that is not
+/// too near to it: on short steps beside it rounding would decide where the curve goes.
+bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
+                   Progress& progress, Curve& curve) {
+  constexpr double near = 0.2;  // of the anchor's step
+  anchor.tried = true;
+  if (anchor.passing || curve.hits.size() != anchor.hits || !anchor.before.left.empty())
+    return false;
+  const double reached = progress.here.s;
+  for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
+    Progress before = anchor.before;
+    before.here = curve.points[i - 1];
+    if (i > anchor.points && reached - before.here.s < near * anchor.before.ds) break;
+    for (const double share : {1.0, 0.6, 0.35})
+      if (cross_from(walker, events, before, share * anchor.before.ds, progress, curve))
+        return true;
   }
   return false;
 }
@@ -110,6 +125,7 @@ bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Ancho
 struct Refusal {
   std::string reason{};
   bool special = false;  ///< because of special points on it
+  bool passing = false;  ///< because branches pass each other on it
 };
 
 /// Special points behind the place at which a curve closes were met at its start already. One at this
@@ -159,7 +175,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   if (!found.doubt.empty()) {
     refusal = found.doubt;
     refused.special = true;
-    if (progress.ds > unresolved_length || !report) return Outcome::shorten;
+    refused.passing = found.passing;
+    if (progress.ds > unresolved_length || !report || found.passing) return Outcome::shorten;
     add_unresolved(progress.here, end, found, curve);
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
@@ -208,7 +225,8 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
     if (outcome == Outcome::shorten) {
       curve.log.push_back({before.here.s, before.ds, refused.reason});
       if (refused.special && !anchor.set)
-        anchor = {before, curve.points.size(), curve.hits.size(), true, false};
+        anchor = {before, curve.points.size(), curve.hits.size(), true, false, false};
+      anchor.passing = anchor.passing || refused.passing;
       progress.ds *= 0.5;
       const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
       if (last && cross_cluster(walker, events, anchor, progress, curve))

@@ -97,6 +97,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
+  constexpr double unknown = std::numeric_limits<double>::infinity();
   std::vector<Candidate> result;
   const auto add = [&](const Singularity& place, Index m, bool touches) {
     if (auto candidate = candidate_at(arc, place, zeros, m, touches))
@@ -108,6 +109,14 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
     // Some of the eigenvalues may only touch zero: the determinant knows.
     if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
     if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
+    // The entries are too small against their rounding; the place itself may be well-conditioned.
+    if (crossings == 1 && zeros.size() == 1 && m == 2) continue;
+    if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+      add({middle, (*curve)(middle), curve->slope(middle), unknown}, m, false);
+    if (result.size() == 1) {
+      result.front().odd = crossings % 2 == 1;
+      return result;
+    }
   }
   if (zeros.size() > 1) return {};
   const bool touches = zeros.front().touches;
@@ -209,6 +218,10 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
         return here;
       });
       candidate.odd = candidate.odd != (turned || candidate.turns);
+      const bool twice = std::any_of(found.begin(), found.end(), [&](const Candidate& other) {
+        return std::abs(other.at - candidate.at) < 0.1 * merged;
+      });
+      if (twice) return false;
       found.push_back(std::move(candidate));
     }
     return true;

@@ -29,6 +29,9 @@ class WatchedStep {
   double length() const { return length_; }
   double low() const { return -beyond * length_; }
   double high() const { return (1 + beyond) * length_; }
+  /// Was it seen that branches pass each other on the step, and do not meet?
+  bool passing() const { return passing_; }
+  void note_passing() const { passing_ = true; }
 
   const std::optional<CurvePoint>& point(double ds) const {
     auto found = points_.find(ds);
@@ -55,6 +58,7 @@ class WatchedStep {
   const CurvePoint& from_;
   double length_;
   mutable std::map<double, std::optional<CurvePoint>> points_{};
+  mutable bool passing_ = false;
 };
 
 /// A special point on the arc before its label is final.
