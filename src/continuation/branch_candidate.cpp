@@ -91,8 +91,13 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
   }
   found.off = place.doubt;
   if (!(place.doubt <= merged)) return false;
+  const auto left = [&] {
+    return left_of_residual(arc.walker(), found.point, static_cast<int>(m));
+  };
+  const double beside = left();
   polish(arc, found.point, m);
-  return left_of_residual(arc.walker(), found.point, static_cast<int>(m)) <= branches_apart;
+  // At the very point the problem may not be defined.
+  return std::min(beside, left()) <= branches_apart;
 }
 
 /// Gives a branch point the exact direction of its branch, where second derivatives tell it.

@@ -75,6 +75,9 @@ double left_at(const ReducedEquation& e, const Vector& U) {
   if (!J || !residual_at(e, U, F)) return HUGE_VAL;
   const Vector here = e.L.transpose() * F;
   double noise = epsilon * (e.L.cwiseAbs().transpose() * (J->cwiseAbs() * sizes)).norm();
+  // Curves this near to each other meet, for all that can be said of a place.
+  for (const Matrix& Q : e.quadratic)
+    noise = std::max(noise, Q.norm() * std::pow(1e-10 * e.scale, 2));
   for (int k = 0; k < 8; ++k) {
     if (!residual_at(e, U + 1e-12 * aside(U.size(), k).cwiseProduct(sizes), F)) return HUGE_VAL;
     noise = std::max(noise, (e.L.transpose() * F - here).norm());
