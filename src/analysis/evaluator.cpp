@@ -46,42 +46,14 @@ double Evaluator::force(const continuation::CurvePoint& point) const {
   return conjugate_.dot(r.segment(t_, d_));
 }
 
+Evaluator::State Evaluator::state_of(const continuation::CurvePoint& point,
+                                     const Turns* turns) const {
+  return {problem_.expand(point.x, point.lambda, turns), problem_.inputs(point.lambda)};
+}
+
 double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
                         const Turns* turns) const {
   switch (q.kind) {
-    case Kind::arc_length:
-      return point.s;
-    case Kind::lambda:
-      return q.scale * point.lambda;
-    case Kind::deflection:
-      return q.scale * measured_.dot(problem_.expand(point.x, point.lambda, turns).segment(t_, d_) -
-                                     problem_.rule().t_start);
-    case Kind::force:
-      return q.scale * force(point);
-    case Kind::unknown:
-      if (q.entry < first_pose_) return q.scale * point.x[q.entry];
-      return q.scale * problem_.expand(point.x, point.lambda, turns)[q.entry];
-    case Kind::command:
-      return q.scale * problem_.inputs(point.lambda).rho[q.entry];
-    case Kind::energy:
-      return q.scale * spring_energy(problem_.system(point.lambda),
-                                     problem_.expand(point.x, point.lambda),
-                                     problem_.inputs(point.lambda).rho);
-    case Kind::point:
-      return q.scale * statics::position_of(problem_.system(point.lambda),
-                                            static_cast<std::size_t>(q.entry / 3),
-                                            problem_.expand(point.x, point.lambda),
-                                            problem_.inputs(point.lambda).rho)[q.entry % 3];
-    case Kind::spring_length:
-    case Kind::spring_force: {
-      const auto state = statics::line_spring_state(
-          problem_.system(point.lambda), static_cast<std::size_t>(q.entry),
-          problem_.expand(point.x, point.lambda), problem_.inputs(point.lambda).rho);
-      return q.scale * (q.kind == Kind::spring_length ? state.length : state.force);
-    }
-    case Kind::index:
-      return point.negative ? static_cast<double>(*point.negative - problem_.closures())
-                            : undefined;
     case Kind::stiffness:
     case Kind::eigenvalue:
     case Kind::tangent_eigenvalue:
@@ -89,21 +61,65 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
     case Kind::tangent_determinant:
     case Kind::index_pose:
     case Kind::index_force: {
-      const auto at = assemble(point);
-      return at ? from_matrix(q, point, *at, turns) : undefined;
+      const Assembled* at = assemble(point);
+      return at ? from_matrix(q, point, *at, {}) : undefined;
     }
+    case Kind::arc_length:
+    case Kind::lambda:
+    case Kind::index:
+    case Kind::force:
+      return value_at(q, point, {});
+    case Kind::unknown:
+      if (q.entry < first_pose_) return q.scale * point.x[q.entry];
+      break;
+    default:
+      break;
   }
-  return undefined;
+  return value_at(q, point, state_of(point, turns));
 }
 
-std::optional<Evaluator::Assembled> Evaluator::assemble(
-    const continuation::CurvePoint& point) const {
-  Assembled at;
+double Evaluator::value_at(const QuantityDefinition& q, const continuation::CurvePoint& point,
+                           const State& state) const {
+  const auto system = [&]() -> const statics::System& { return problem_.system(point.lambda); };
+  switch (q.kind) {
+    case Kind::arc_length:
+      return point.s;
+    case Kind::lambda:
+      return q.scale * point.lambda;
+    case Kind::deflection:
+      return q.scale * measured_.dot(state.z.segment(t_, d_) - problem_.rule().t_start);
+    case Kind::force:
+      return q.scale * force(point);
+    case Kind::unknown:
+      return q.scale * state.z[q.entry];
+    case Kind::command:
+      return q.scale * state.inputs.rho[q.entry];
+    case Kind::energy:
+      return q.scale * spring_energy(system(), state.z, state.inputs.rho);
+    case Kind::point:
+      return q.scale * statics::position_of(system(), static_cast<std::size_t>(q.entry / 3),
+                                            state.z, state.inputs.rho)[q.entry % 3];
+    case Kind::spring_length:
+    case Kind::spring_force: {
+      const auto spring = statics::line_spring_state(system(), static_cast<std::size_t>(q.entry),
+                                                     state.z, state.inputs.rho);
+      return q.scale * (q.kind == Kind::spring_length ? spring.length : spring.force);
+    }
+    case Kind::index:
+      return point.negative ? static_cast<double>(*point.negative - problem_.closures())
+                            : undefined;
+    default:
+      return undefined;
+  }
+}
+
+const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& point) const {
+  Assembled& at = scratch_;
   const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
-  Vector r;
-  if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, r,
+  at.is_plain = &system == &problem_.system(point.lambda);
+  if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, at.r,
                           at.A))
-    return std::nullopt;
+    return nullptr;
   at.platform = statics::platform_stiffness(system, at.A, problem_.symmetric());
   at.body = statics::body_stiffness(system, at.A, at.platform, problem_.rule().body,
                                     problem_.symmetric());
@@ -113,11 +129,11 @@ std::optional<Evaluator::Assembled> Evaluator::assemble(
     at.tangent = statics::eigenvalues_of(statics::tangent_stiffness(system, at.A, at.work));
     at.determinant = statics::tangent_determinant(system, at.A);
   }
-  return at;
+  return &at;
 }
 
 double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::CurvePoint& point,
-                              const Assembled& at, const Turns* turns) const {
+                              const Assembled& at, const State& state) const {
   const auto count = [](const std::optional<Index>& n) {
     return n ? static_cast<double>(*n) : undefined;
   };
@@ -144,19 +160,24 @@ double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::C
       return count(at.stability.pose_controlled);
     case Kind::index_force:
       return count(at.stability.force_controlled);
+    case Kind::force:  // the residual at hand is that of force()
+      if (at.is_plain && control_ != ControlMode::load)
+        return q.scale * conjugate_.dot(at.r.segment(t_, d_));
+      return value_at(q, point, state);
     default:
-      return value(q, point, turns);
+      return value_at(q, point, state);
   }
 }
 
 std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
                                       const continuation::CurvePoint& point,
                                       const Turns* turns) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
+  const State state = state_of(point, turns);
   std::vector<double> values;
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
-    values.push_back(at ? from_matrix(q, point, *at, turns) : undefined);
+    values.push_back(at ? from_matrix(q, point, *at, state) : undefined);
   raise_indices(quantities, point, values);
   return values;
 }
@@ -170,11 +191,11 @@ void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
     beside.piece = std::move(piece);
     beside.negative.reset();
     count_negative(problem_, beside);
-    const auto at = assemble(beside);
+    const Assembled* at = assemble(beside);
     for (std::size_t i = 0; at && i < quantities.size(); ++i) {
       const Kind kind = quantities[i].kind;
       if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
-        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, nullptr));
+        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, {}));
     }
   }
 }
@@ -223,7 +244,7 @@ double Evaluator::force_rate(const continuation::CurvePoint& point) const {
 }
 
 Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
   if (!at || at->body.size() == 0) return {};
   const statics::System& system = problem_.system(point.lambda);
   const Index body = problem_.rule().body;
@@ -235,7 +256,7 @@ Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) cons
 
 std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
     const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
   if (!at) return {};
   const statics::System& system = problem_.system(point.lambda);
   auto values = statics::eigenvalues_of(statics::tangent_stiffness(system, at->A, at->work));
@@ -247,7 +268,7 @@ std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
 }
 
 Index Evaluator::zero_modes(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
   return at ? statics::zero_modes(problem_.system(point.lambda), at->A) : 0;
 }
 
@@ -262,7 +283,7 @@ double Evaluator::closure_gap(const continuation::CurvePoint& point) const {
 }
 
 std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
   if (!at) return {};
   const Matrix plain = statics::without_gauge(at->A, at->work);
   std::vector<Index> ranks;
@@ -275,7 +296,7 @@ std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& poin
 }
 
 std::vector<Matrix> Evaluator::chain_stiffnesses(const continuation::CurvePoint& point) const {
-  const auto at = assemble(point);
+  const Assembled* at = assemble(point);
   if (!at) return {};
   const statics::System& system = problem_.system(point.lambda);
   std::vector<Matrix> list;

@@ -104,7 +104,7 @@ class Evaluator {
 
  private:
   struct Assembled {
-    Vector z{};
+    Vector z{}, r{};
     Matrix A{};
     statics::PlatformStiffness platform{};
     Matrix body{};
@@ -112,23 +112,34 @@ class Evaluator {
     double determinant = 0;
     statics::Stability stability{};
     statics::Workspace work{};
+    bool is_plain = false;  ///< no frames were turned: z are the unknowns of the path itself
   };
-  std::optional<Assembled> assemble(const continuation::CurvePoint& point) const;
+  /// @returns null where F is not defined; otherwise valid until the next call
+  const Assembled* assemble(const continuation::CurvePoint& point) const;
+  /// What the quantities of a row have in common.
+  struct State {
+    Vector z{};  ///< all unknowns, rotations continued by `turns`
+    statics::Inputs inputs{};
+  };
+  State state_of(const continuation::CurvePoint& point, const Turns* turns) const;
+  double value_at(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
+                  const State& state) const;
   double force(const continuation::CurvePoint& point) const;
   /// Where springs rest at their threshold: the largest numbers of unstable modes of all sides.
   void raise_indices(const std::vector<QuantityDefinition>& quantities,
                      const continuation::CurvePoint& point, std::vector<double>& values) const;
   double load_rate() const;  ///< of the study's wrench along the direction
   double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
-                     const Assembled& at, const Turns* turns) const;
+                     const Assembled& at, const State& state) const;
 
   const PathProblem& problem_;
   ControlMode control_;
   Scales scales_;
   Index first_pose_ = 0;
-  Index t_ = 0, d_ = 0;  ///< pose of the study's body in z
-  Vector measured_{};    ///< d entries
-  Vector conjugate_{};   ///< d entries: direction with which the force is conjugate
+  Index t_ = 0, d_ = 0;          ///< pose of the study's body in z
+  Vector measured_{};            ///< d entries
+  Vector conjugate_{};           ///< d entries: direction with which the force is conjugate
+  mutable Assembled scratch_{};  ///< kept for its memory
 };
 
 }  // namespace springfold::analysis

@@ -111,14 +111,18 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     return length(walker.weights, d);
   };
   constexpr double share = 0.1, smaller_share = 0.01;
-  const double noise = 1e-11 + corrector_noise(walker, middle);
+  constexpr double noise = 1e-11;
+  // An eigen-decomposition: only where it can matter.
+  const auto exceeds = [&](double value, double limit) {
+    return value > limit + noise && value > limit + noise + corrector_noise(walker, middle);
+  };
   const double size = std::max(bend(middle), 0.25 * bend(to));
   const double off = off_cubic(walker, from, to, middle);
-  if (off > share * size + noise)
+  if (exceeds(off, share * size))
     evidence.doubt = "the point half-way is " + rounded(off / ds) +
                      " steps off the cubic through both ends: another branch may be near";
   const double left = off_integral(walker, from, to, middle);
-  if (evidence.doubt.empty() && left > smaller_share * size + noise)
+  if (evidence.doubt.empty() && exceeds(left, smaller_share * size))
     evidence.doubt = "the end is " + rounded(left / ds) +
                      " steps from where the tangents lead: another branch may be near";
   return evidence;

@@ -65,10 +65,27 @@ bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Ve
 
 bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                              Vector& dG_dlambda) const {
+  for (const Place& place : places_)
+    if (place.lambda == lambda && place.y == y && place.piece == piece) {
+      dG_dy = place.dG_dy;
+      dG_dlambda = place.dG_dlambda;
+      return true;
+    }
   if (!problem_.derivatives(y.cwiseProduct(unit_), lambda, piece, dG_dy, dG_dlambda)) return false;
   dG_dy.array().colwise() *= force_.array();
   dG_dy.array().rowwise() *= unit_.transpose().array();
   dG_dlambda.array() *= force_.array();
+  if (places_.size() < most_places) {
+    places_.push_back({y, lambda, piece, dG_dy, dG_dlambda});
+    return true;
+  }
+  Place& place = places_[oldest_];
+  oldest_ = (oldest_ + 1) % most_places;
+  place.y = y;
+  place.lambda = lambda;
+  place.piece = piece;
+  place.dG_dy = dG_dy;
+  place.dG_dlambda = dG_dlambda;
   return true;
 }
 

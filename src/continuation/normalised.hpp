@@ -15,6 +15,9 @@ namespace springfold::continuation {
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
 ///     h_j = surface_j g_j
 ///
+/// It also remembers the derivatives at the last few places: the tangent, the test functions and the next
+/// step ask for them at the same ones.
+///
 /// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
 /// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
 /// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's.
@@ -62,6 +65,17 @@ class Normalised {
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
   bool trivial_ = true;
+
+  struct Place {
+    Vector y{};
+    double lambda = 0;
+    Piece piece{};
+    Matrix dG_dy{};
+    Vector dG_dlambda{};
+  };
+  static constexpr std::size_t most_places = 4;
+  mutable std::vector<Place> places_{};
+  mutable std::size_t oldest_ = 0;
 };
 
 /// trace() without a change of units: for callers that have changed them already.

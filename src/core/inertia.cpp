@@ -19,13 +19,29 @@ struct Factorisation {
   Vector S{};
 };
 
+/// Are all rows of nearly one size already? Most matrices are, and then nothing is gained by scaling.
+bool rows_are_alike(const Matrix& A) {
+  constexpr double factor = 256;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (Index i = 0; i < A.rows(); ++i) {
+    double size = 0;
+    for (Index j = 0; j < A.cols(); ++j)
+      size = std::max(size, std::abs(j <= i ? A(i, j) : A(j, i)));
+    smallest = std::min(smallest, size);
+    largest = std::max(largest, size);
+  }
+  return smallest * factor >= largest && smallest > 0;
+}
+
 std::optional<Factorisation> factorise(const Matrix& A) {
   assert(A.rows() == A.cols());
   if (!A.allFinite()) return std::nullopt;
-  Factorisation f{{},
-                  std::vector<lapack_int>(static_cast<std::size_t>(A.rows())),
-                  equilibrate(Matrix(A.selfadjointView<Eigen::Lower>())).rows};
-  f.LD = f.S.asDiagonal() * A * f.S.asDiagonal();
+  Factorisation f{A, std::vector<lapack_int>(static_cast<std::size_t>(A.rows())),
+                  Vector::Ones(A.rows())};
+  if (!rows_are_alike(A)) {
+    f.S = equilibrate(Matrix(A.selfadjointView<Eigen::Lower>())).rows;
+    f.LD = f.S.asDiagonal() * A * f.S.asDiagonal();
+  }
   const auto n = static_cast<lapack_int>(A.rows());
   // A positive return value means an exactly zero pivot: harmless here, D is still right.
   Vector work(A.rows());

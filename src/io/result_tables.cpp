@@ -39,8 +39,13 @@ std::string branch_csv(const StudyResult& result, const Branch& branch) {
   for (const auto& quantity : result.quantities) csv += csv_text(quantity.name) + ",";
   csv += has_status ? "piece,event,status\n" : "piece,event\n";
   for (const auto& sample : branch.samples) {
-    for (const double value : sample.values) csv += csv_number(value) + ",";
-    csv += csv_text(sample.piece) + "," + csv_text(sample.event);
+    for (const double value : sample.values) {
+      append_csv_number(csv, value);
+      csv += ',';
+    }
+    csv += csv_text(sample.piece);
+    csv += ',';
+    csv += csv_text(sample.event);
     if (has_status) csv += "," + csv_text(sample.status);
     csv += "\n";
   }

@@ -47,6 +47,13 @@ std::string rounded(double value, int digits) {
 
 std::string csv_number(double value) { return std::isnan(value) ? std::string{} : shortest(value); }
 
+void append_csv_number(std::string& text, double value) {
+  if (std::isnan(value)) return;
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string{text};
   std::string quoted = "\"";

@@ -17,6 +17,9 @@ std::string rounded(double value, int digits);
 /// A field of a CSV table: shortest form, nothing for NaN.
 std::string csv_number(double value);
 
+/// The same at the end of a text; needs no memory of its own.
+void append_csv_number(std::string& text, double value);
+
 /// A field of a CSV table, quoted where RFC 4180 asks for it.
 std::string csv_text(std::string_view text);
 

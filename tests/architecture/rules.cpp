@@ -44,6 +44,7 @@ const std::vector<Library>& libraries() {
       {"muParser", std::regex{"muParser.*\\.h"}, {"io"}, true},
       {"gnuplot-iostream", std::regex{"gnuplot-iostream\\.h"}, {"io"}, true},
       {"nlohmann/json", std::regex{"nlohmann/.*"}, {"io", "cli"}},
+      {"Nettle", std::regex{"nettle/.*"}, {"io"}, true},
       {"fmt", std::regex{"fmt/.*"}, {"io", "cli"}},
       {"CLI11", std::regex{"CLI/.*"}, {"cli"}, true},
       {"the operating system", std::regex{"[a-z_]+\\.h|sys/[a-z_]+\\.h"}, {"io", "cli"}},
