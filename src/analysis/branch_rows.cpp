@@ -208,6 +208,14 @@ std::optional<std::string> singular_chain(const Entry& before, const Entry& entr
   return std::nullopt;
 }
 
+/// Why a trace could not go on, if the closures say so.
+Stop explained(Stop stop, const Entry& end, const Entry& other, const PathProblem& problem) {
+  if (stop.complete) return stop;
+  if (const auto why = nears_kinematic_singularity(problem, end.point, other.point))
+    stop.reason += "; " + *why;
+  return stop;
+}
+
 /// From where on closures that were taken as redundant contradict each other.
 void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& evaluator,
                            Branch& branch) {
@@ -260,8 +268,8 @@ BranchRows join(const BranchSource& source, const Evaluator& evaluator,
   entries.push_back({forward.points.front(), nullptr, false, {}});
   for (Entry& e : entries_of(forward, source.forward_between)) entries.push_back(std::move(e));
   count_turns(entries, branch.start_row, problem);
-  branch.backward = source.backward_stop;
-  branch.forward = source.forward_stop;
+  branch.backward = explained(source.backward_stop, entries.front(), entries.back(), problem);
+  branch.forward = explained(source.forward_stop, entries.back(), entries.front(), problem);
   const auto add = [&rows](Event event, int junction) {
     rows.branch.events.push_back(std::move(event));
     rows.junctions.push_back(junction);

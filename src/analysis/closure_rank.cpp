@@ -50,20 +50,34 @@ std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, 
   return rank;
 }
 
-/// Chains whose closures take part in the null combination.
-std::string chains_in(const statics::System& system, const Vector& null) {
+/// Chains whose closures take part in the null combination: "chains a, b".
+std::string words_for(const statics::System& system, const Vector& null) {
   std::string names;
+  int count = 0;
   Index row = 0;
   for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
     const Index d = system.chain_slices[i].F_count;
-    if (null.segment(row, d).norm() > 1e-3)
+    if (null.segment(row, d).norm() > 1e-3) {
       names += (names.empty() ? "" : ", ") + system.mechanism.chains[i].name;
+      ++count;
+    }
     row += d;
   }
-  return names;
+  return (count == 1 ? "chain " : "chains ") + names;
 }
 
 }  // namespace
+
+std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
+                                                       const continuation::CurvePoint& end,
+                                                       const continuation::CurvePoint& other) {
+  constexpr double share = 1e-2;
+  const auto here = rank_at(problem, end.x, end.lambda, end.piece);
+  const auto there = rank_at(problem, other.x, other.lambda, other.piece);
+  if (!here || !there || here->smallest > share * there->smallest) return std::nullopt;
+  return "the closures of " + words_for(problem.layout(), here->null) +
+         " are about to lose rank together here, a kinematic singularity";
+}
 
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point) {
@@ -79,9 +93,7 @@ std::optional<std::string> kinematic_singularity(const PathProblem& problem,
     const auto there = rank_at(problem, point.x + h * dx, point.lambda + h * dlambda, point.piece);
     if (!there || here->smallest > drop * there->smallest) return std::nullopt;
   }
-  return "kinematic singularity: the closures of " +
-         std::string(problem.layout().chains.size() == 1 ? "chain " : "chains ") +
-         chains_in(problem.layout(), here->null) +
+  return "kinematic singularity: the closures of " + words_for(problem.layout(), here->null) +
          " lose rank together, a part of their wrenches is not determined here, and other modes of "
          "assembly may cross that are not searched for";
 }

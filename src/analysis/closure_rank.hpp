@@ -16,4 +16,11 @@ namespace springfold::analysis {
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point);
 
+/// Is a curve that ends at `end` about to meet such a point: has the closures' smallest singular value
+/// fallen below a hundredth of what it is at `other`, a point far along the curve?
+/// @returns so in words; nothing where it is not
+std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
+                                                       const continuation::CurvePoint& end,
+                                                       const continuation::CurvePoint& other);
+
 }  // namespace springfold::analysis

@@ -12,20 +12,23 @@ using model::ElasticDirection;
 using Kind = ElasticDraft::Kind;
 using Shape = SectionDraft::Shape;
 
-constexpr double most_segments = 200;
-
 const std::vector<std::string> kind_words{"beam", "stiffness", "compliance"};
 const std::vector<std::string> direction_words{"Tx", "Ty", "Tz", "Rx", "Ry", "Rz"};
 const std::vector<std::string> own_section{"A", "Iy", "Iz", "J"};
 
+bool is_kind(const Node* kind) {
+  return kind->kind == Node::Kind::text &&
+         std::find(kind_words.begin(), kind_words.end(), kind->text) != kind_words.end();
+}
+
+/// Keys of one kind; of all kinds where it is unknown.
 std::vector<std::string> keys_of(const Node* kind) {
   std::vector<std::string> keys{"elastic", "name", "length", "directions", "initial", "free"};
-  const bool matrix = kind->text == "stiffness" || kind->text == "compliance";
-  const std::vector<std::string> more =
-      matrix ? std::vector<std::string>{"matrix"}
-             : std::vector<std::string>{"E",  "G", "section", "A",  "Iy",
-                                        "Iz", "J", "Ay",      "Az", "segments"};
-  keys.insert(keys.end(), more.begin(), more.end());
+  const bool beam = is_kind(kind) && kind->text == "beam";
+  if (!beam) keys.emplace_back("matrix");
+  if (beam || !is_kind(kind))
+    for (const char* key : {"E", "G", "section", "A", "Iy", "Iz", "J", "Ay", "Az", "segments"})
+      keys.emplace_back(key);
   return keys;
 }
 
@@ -34,6 +37,7 @@ class ElasticReader {
   ElasticReader(const Item& item, const std::string& default_name, bool plane, NumberTable& numbers,
                 Reading& reading)
       : table_{*item.node, item.key, keys_of(item.node->find("elastic")), reading},
+        kind_known_{is_kind(item.node->find("elastic"))},
         plane_{plane},
         numbers_{numbers},
         reading_{reading} {
@@ -45,9 +49,14 @@ class ElasticReader {
   }
 
   ElasticDraft read() {
+    if (!kind_known_) {  // nothing else can be said about the others
+      link_.length = numbers_.add(0);
+      link_.segments = numbers_.add(1);
+      return std::move(link_);
+    }
     read_directions();
     const std::string length = reading_.units.length;
-    link_.segments = table_.number("segments", {Range::small_count, ""}, numbers_, 1);
+    link_.segments = table_.number("segments", {Range::segment_count, ""}, numbers_, 1);
     if (link_.kind == Kind::beam) {
       link_.length = table_.required_number("length", {Range::positive, length}, numbers_);
       read_beam();
@@ -122,11 +131,6 @@ class ElasticReader {
     const Rule area{Range::positive, reading_.units.length + "^2"};
     if (table_.has("Ay")) link_.section.Ay = table_.number("Ay", area, numbers_, 1);
     if (table_.has("Az")) link_.section.Az = table_.number("Az", area, numbers_, 1);
-    if (const Node* node = table_.find("segments"))
-      numbers_.require({link_.segments}, node->place, table_.key_of("segments"),
-                       [](const std::vector<double>& n) -> std::string {
-                         return n[0] > most_segments ? "need at most 200 segments" : "";
-                       });
   }
 
   /// A, Iy, Iz, J: those that the directions need.
@@ -236,6 +240,7 @@ class ElasticReader {
   }
 
   TableReader table_;
+  bool kind_known_;
   bool plane_;
   bool directions_known_ = true;
   NumberTable& numbers_;

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 
@@ -91,6 +92,32 @@ class JointReader {
       report("axes", "got " + described(*table_.find("axes")) + ", need " + need);
     for (std::size_t i = 0; i < std::min(count, items.size()); ++i)
       axes_[i] = read_axis(items[i], numbers_, reading_);
+    for (std::size_t i = 1; i < std::min(count, items.size()); ++i)
+      if (is_usable(axes_[i - 1], items[i - 1]) && is_usable(axes_[i], items[i]))
+        refuse_parallel(i, items[i]);
+  }
+
+  static bool is_usable(const AxisDraft& axis, const Item& item) {
+    return !axis.entries.empty() ||
+           (item.node->kind == Node::Kind::text &&
+            item.node->text.find_first_not_of("-xyz") == std::string::npos);
+  }
+
+  /// An axis along the one before it turns about the same line: two coordinates for one rotation.
+  void refuse_parallel(std::size_t i, const Item& item) {
+    std::vector<NumberId> ids;
+    for (const AxisDraft* axis : {&axes_[i - 1], &axes_[i]})
+      for (std::size_t k = 0; k < 3; ++k)
+        ids.push_back(axis->entries.empty() ? numbers_.add(axis->fixed[static_cast<Index>(k)])
+                                            : axis->entries[k]);
+    numbers_.require(ids, item.node->place, item.key, [](const std::vector<double>& n) {
+      const model::Vec3<double> a{n[0], n[1], n[2]}, b{n[3], n[4], n[5]};
+      const double sizes = a.norm() * b.norm();
+      const bool parallel = sizes > 0 && a.cross(b).norm() <= 1e-9 * sizes;
+      return std::string{parallel ? "is parallel to the axis before it: the joint would turn twice "
+                                    "about one line, need another direction"
+                                  : ""};
+    });
   }
 
   /// One for every axis.

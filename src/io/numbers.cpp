@@ -10,7 +10,7 @@ namespace springfold::io {
 namespace {
 
 constexpr double largest_whole = 9007199254740992.0;  // 2^53: every whole number below is exact
-constexpr double largest_count = 1e6;
+constexpr double largest_count = 1e6, most_segments = 200;
 
 bool holds(Range range, double value) {
   const bool whole = std::floor(value) == value && value <= largest_whole;
@@ -29,6 +29,8 @@ bool holds(Range range, double value) {
       return whole && value >= 2 && value <= largest_count;
     case Range::small_count:
       return whole && value >= 1 && value <= largest_count;
+    case Range::segment_count:
+      return whole && value >= 1 && value <= most_segments;
   }
   return false;
 }
@@ -49,6 +51,8 @@ std::string range_in_words(Range range) {
       return "a whole number from 2 to 1000000";
     case Range::small_count:
       return "a whole number from 1 to 1000000";
+    case Range::segment_count:
+      return "a whole number from 1 to 200";
   }
   return "a number";
 }

@@ -19,6 +19,7 @@ enum class Range {
   whole,           ///< 0, 1, 2, ...
   small_count,     ///< 1, 2, ... 1000000
   at_least_two,    ///< 2, 3, ... 1000000
+  segment_count,   ///< 1, 2, ... 200
 };
 
 /// What a number must be.

@@ -86,6 +86,7 @@ class StudyReader {
       draft_.commands = read_commands(draft_.kind, table_,
                                       mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)],
                                       actuator_names(mechanism_), draft_.numbers, reading_);
+    refuse_what_is_not_used();
     read_control(traces);
     read_start();
     read_until();
@@ -111,6 +112,21 @@ class StudyReader {
     return traces && control &&
            std::find(control_words.begin(), control_words.end(), control->text) !=
                control_words.end();
+  }
+
+  /// Keys of curves in a study without a curve would be passed over in silence.
+  void refuse_what_is_not_used() {
+    const bool single = draft_.kind == StudyKind::equilibrium;
+    if (!single && draft_.kind != StudyKind::equilibria) return;
+    std::vector<std::string> keys{"control", "actuators", "parameter", "prescribed",
+                                  "mark",    "path",      "trace"};
+    if (single) keys.emplace_back("until");
+    for (const std::string& key : keys)
+      if (const Node* node = table_.find(key))
+        reading_.problems.add(node->place, table_.key_of(key),
+                              std::string{"has no meaning here: kind = \""} +
+                                  (single ? "equilibrium" : "equilibria") +
+                                  "\" follows no curve, need kind = \"force_deflection\" with it");
   }
 
   void read_body() {

@@ -1,8 +1,9 @@
 #include "springfold/statics/closing.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
+
+#include "minimum_norm.hpp"
 
 namespace springfold::statics {
 
@@ -28,9 +29,7 @@ bool close_chains(const System& system, const std::vector<Index>& unknowns, Vect
     before = gap;
     Matrix J(A.rows(), A.cols() + dR_drho.cols());
     J << A, dR_drho;
-    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J(rows, unknowns));
-    decomposition.setThreshold(1e-9);
-    Vector step = -decomposition.solve(e);
+    Vector step = -minimum_norm_solution(J(rows, unknowns), e);
     const double length = step.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length)) return false;
     if (length > longest) step *= longest / length;

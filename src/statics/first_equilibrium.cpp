@@ -1,13 +1,13 @@
 #include "springfold/statics/first_equilibrium.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <random>
 
 #include "kinsol_newton.hpp"
+#include "minimum_norm.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
 
 namespace springfold::statics {
@@ -139,9 +139,7 @@ bool assemble(Equations& equations, bool move_bodies, State& state) {
     if (!equations.closures(state, moving, e, J)) return false;
     if (e.lpNorm<Eigen::Infinity>() < 1e-10) return true;
     if (moving.empty()) return false;
-    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J);
-    decomposition.setThreshold(1e-9);
-    Vector step = -decomposition.solve(e);
+    Vector step = -minimum_norm_solution(J, e);
     const double length = step.lpNorm<Eigen::Infinity>();
     if (!(length > 0) || !std::isfinite(length)) return false;
     if (length > longest) step *= longest / length;
@@ -166,10 +164,7 @@ void estimate_wrenches(Equations& equations, State& state) {
   equations.unpack(y, state);
   if (!equations.residual(state, r) || !equations.jacobian(state, J)) return;
   // Columns of the wrenches do not depend on the wrenches: the rows are linear in them.
-  const Matrix J_wrenches = J(Eigen::all, columns);
-  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J_wrenches);
-  decomposition.setThreshold(1e-9);
-  const Vector F = -decomposition.solve(r);
+  const Vector F = -minimum_norm_solution(J(Eigen::all, columns), r);
   for (std::size_t k = 0; k < columns.size(); ++k) y[columns[k]] = F[static_cast<Index>(k)];
   equations.unpack(y, state);
 }

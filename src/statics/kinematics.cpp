@@ -236,8 +236,9 @@ Transmission transmission(const System& system, const CommandTask& task, const V
     to_twist.bottomRightCorner(3, 3) = model::left_jacobian(phi);
   }
   const auto solve = [](const Matrix& M, const Matrix& right) -> Matrix {
-    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(M);
-    decomposition.setThreshold(1e-11);
+    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(M.rows(), M.cols());
+    decomposition.setThreshold(1e-11);  // before the factors are computed
+    decomposition.compute(M);
     if (decomposition.rank() < M.cols()) return {};
     const Matrix X = decomposition.solve(right);
     const double miss = (M * X - right).cwiseAbs().maxCoeff();

@@ -1,10 +1,11 @@
 #include "springfold/statics/redundancy.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "minimum_norm.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -42,9 +43,7 @@ class Closures {
       const double gap = e.lpNorm<Eigen::Infinity>();
       if (gap < 1e-15 || (gap < 1e-12 && gap > 0.5 * before)) return true;
       before = gap;
-      Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(J);
-      decomposition.setThreshold(dependent);
-      Vector step = -decomposition.solve(e);
+      Vector step = -minimum_norm_solution(J, e, dependent);
       const double length = step.lpNorm<Eigen::Infinity>();
       if (!std::isfinite(length)) return false;
       if (length > 0.3) step *= 0.3 / length;

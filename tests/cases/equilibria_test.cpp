@@ -252,10 +252,20 @@ TEST_F(Equilibria, WithMistakesSayWhatIsNeeded) {
               ElementsAre(HasSubstr("study[1].start.solve: \"wrench\" holds the body")));
   EXPECT_THAT(messages(two_springs + "branches = { depth = 1 }\n"),
               ElementsAre(HasSubstr("only kind = \"force_deflection\" has branches")));
+  for (const auto& [key, line] : std::vector<std::pair<std::string, std::string>>{
+           {"control", "control = \"load\"\n"},
+           {"trace", "trace = { maximum_step = 0.1 }\n"},
+           {"path", "path = \"davidenko\"\n"},
+           {"mark", "mark = { point.x = [0.5] }\n"}})
+    EXPECT_THAT(messages(two_springs + line),
+                ElementsAre(HasSubstr("study[1]." + key +
+                                      ": has no meaning here: kind = \"equilibria\" follows no "
+                                      "curve, need kind = \"force_deflection\" with it")));
   std::string other = two_springs;
   other.replace(other.find("\"equilibria\""), 12, "\"equilibrium\"");
   EXPECT_THAT(messages(other + "search = { starts = 5 }\n"),
-              ElementsAre(HasSubstr("study[1].search: goes with kind = \"equilibria\"")));
+              ElementsAre(HasSubstr("study[1].until: has no meaning here: kind = \"equilibrium\""),
+                          HasSubstr("study[1].search: goes with kind = \"equilibria\"")));
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ until = { lambda = [0, 4] }
 }
 
 TEST(FlatCranks, AreAKinematicSingularityThatIsPassedAndSaysWhatIsNotSearched) {
-  for (const std::vector<double>& feet : {std::vector<double>{0, 1}, {0, 1, 0.4}, {0, 2}}) {
+  for (const std::vector<double>& feet : {std::vector<double>{0, 1}, {0, 2, -1}, {0, 2}}) {
     const StudyResult result = run(cranks(feet) + R"(
 [[study]]
 name = "press"
@@ -118,6 +118,21 @@ branches = { depth = 1 }
     for (std::size_t row = 0; row <= last; row += 9)
       EXPECT_NEAR(value(result, row, "coupler.phi"), 0, 1e-9);
   }
+}
+
+TEST(FlatCranks, WithARedundantOneAreNamedWhetherTheyCanBePassedOrNot) {
+  const StudyResult result = run(cranks({0, 1, 0.4}) + R"(
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1, 0]
+until = { a.foot = [-1, 1.5] }
+)")
+                                 .of("press");
+  std::string said = result.branches[0].forward.reason + result.branches[0].backward.reason;
+  for (const auto& event : result.branches[0].events) said += event.detail;
+  EXPECT_THAT(said, HasSubstr("kinematic singularity"));
+  EXPECT_THAT(lambdas(result, EventKind::branch_point), ElementsAre());
 }
 
 TEST(FlatCranks, AsAStartAreSaidToBeAKinematicSingularity) {

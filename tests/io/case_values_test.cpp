@@ -24,6 +24,24 @@ std::string spatial_text(const std::string& elements) {
          elements + "\n]\n[[study]]\nname = \"rest\"\nkind = \"equilibrium\"\n";
 }
 
+TEST_F(CaseValues, RefuseAxesOfAJointThatAreParallelToTheOneBefore) {
+  const auto axes = [this](const std::string& list) {
+    return messages(spatial_text(
+        "{ joint = \"" + std::string{list.find("z") == list.npos ? "universal" : "spherical"} +
+        "\", axes = " + list + " }"));
+  };
+  for (const char* list : {R"(["x", "x"])", R"(["x", "-x"])", R"(["x", [2, 0, 0]])"})
+    EXPECT_THAT(axes(list), ElementsAre(testing::HasSubstr(
+                                "axes[2]: is parallel to the axis before it: the joint would turn "
+                                "twice about one line, need another direction")))
+        << list;
+  EXPECT_THAT(axes(R"(["z", "y", "y"])"), ElementsAre(testing::HasSubstr("axes[3]: is parallel")));
+  EXPECT_THAT(axes(R"(["x", "y"])"), testing::IsEmpty());
+  EXPECT_THAT(axes(R"(["x", [1, 0.01, 0]])"), testing::IsEmpty());
+  EXPECT_THAT(axes(R"(["z", "x", "z"])"), testing::IsEmpty());  // Euler's angles
+  EXPECT_THAT(axes(R"(["w", "w"])"), testing::SizeIs(2));       // nothing more about bad axes
+}
+
 TEST_F(CaseValues, OfBodiesAndChainsAreTheFormulasOfTheFile) {
   const Case c = load(orthoglide_text(), {{"L", "2"}});
   const model::Mechanism& m = c.runs[0].mechanism;

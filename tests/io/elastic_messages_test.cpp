@@ -142,9 +142,10 @@ TEST_F(ElasticLinks, SayWhatIsWrongWithTheirMatrix) {
 
 TEST_F(ElasticLinks, SayWhatIsWrongWithTheirKeys) {
   EXPECT_THAT(about(R"({ elastic = "bean", length = 1 })"),
-              testing::Contains(HasSubstr(
-                  "got \"bean\", need \"beam\", \"stiffness\" or \"compliance\", did you mean "
-                  "\"beam\"?")));
+              ElementsAre(HasSubstr("got \"bean\", need \"beam\", \"stiffness\" or \"compliance\", "
+                                    "did you mean \"beam\"?")));
+  EXPECT_THAT(about(replaced(round_beam, "\"beam\"", "\"rod\"")),
+              ElementsAre(HasSubstr("got \"rod\", need \"beam\", \"stiffness\" or")));
   EXPECT_THAT(about(replaced(round_beam, "0.3", "-0.3")),
               ElementsAre(HasSubstr(".length: got -0.3, need a number > 0 [m]")));
   EXPECT_THAT(about(replaced(round_beam, "diameter = \"d\"", "diameter = \"d\", inner = \"2*d\"")),
@@ -152,9 +153,9 @@ TEST_F(ElasticLinks, SayWhatIsWrongWithTheirKeys) {
   EXPECT_THAT(about(replaced(round_beam, "E = 7e10", "E = 7e10, A = 1")),
               ElementsAre(HasSubstr(".A: either section or A, not both")));
   EXPECT_THAT(about(replaced(round_beam, "length = 0.3", "length = 0.3, segments = 201")),
-              ElementsAre(HasSubstr(".segments: need at most 200 segments")));
+              ElementsAre(HasSubstr(".segments: got 201, need a whole number from 1 to 200")));
   EXPECT_THAT(about(replaced(round_beam, "length = 0.3", "length = 0.3, segments = 1.5")),
-              ElementsAre(HasSubstr(".segments: got 1.5, need a whole number")));
+              ElementsAre(HasSubstr(".segments: got 1.5, need a whole number from 1 to 200")));
   EXPECT_THAT(
       about(replaced(round_beam, "length = 0.3", R"(length = 0.3, directions = ["Rz", "Tx"])")),
       ElementsAre(HasSubstr(".directions[2]: got \"Tx\", need a list of")));
