@@ -88,6 +88,7 @@ def orthoglide(case_folder, at=P, stop=0.1):
 [parameters]
 Kv = {KV!r}
 step = 0.01
+spacing = 0
 points = 1000000
 [[study]]
 name = "push"
@@ -95,7 +96,7 @@ control = "load"
 direction = [1, 1]
 start = {{ pose = [{at!r}, {at!r}], solve = "actuators" }}
 until = {{ lambda = [{low}, {high}] }}
-trace = {{ initial_step = "step", maximum_step = "step", maximum_points = "points" }}
+trace = {{ initial_step = "step", maximum_step = "step", maximum_points = "points", spacing = "spacing" }}
 """
     return Problem("orthoglide" if at > 0 else "orthoglide-q1", stop, "orthoglide", constants, case)
 
@@ -108,6 +109,7 @@ k = {links}
 l = "1/{links}"
 skew = {SKEW!r}
 step = 0.01
+spacing = 0
 points = 1000000
 [[body]]
 name = "tip"
@@ -122,7 +124,7 @@ name = "press"
 control = "load"
 direction = ["-cos(skew)", "-sin(skew)"]
 until = {{ lambda = [0, {stop!r}] }}
-trace = {{ initial_step = "step", maximum_step = "step", maximum_points = "points" }}
+trace = {{ initial_step = "step", maximum_step = "step", maximum_points = "points", spacing = "spacing" }}
 """
     return Problem(f"column:{links}", stop, "column", f"NDIM = {links}", case)
 
@@ -135,15 +137,15 @@ class Auto:
     def __init__(self, programs):
         self.programs = programs  # folder with orthoglide, orthoglide-no-lines, ...
 
-    def trace(self, problem, folder, step, points, setting, limit=60.0):
+    def trace(self, problem, folder, step, points, setting, limit=60.0, tolerance=TOLERANCE):
         """setting: line (one per point), nothing (labelled points only), default (diagnostics too)"""
         diagnostics = "" if setting == "default" else ", IID = 0"
         (folder / "fort.2").write_text(
             f"{problem.auto_constants}\n"
             f"IPS = 0, IRS = 0, ILP = 1, ISP = 1, ISW = 1, MXBF = 0, JAC = 1{diagnostics}\n"
             f"ICP = [1], NMX = {points}, NPR = 1000000000\n"
-            f"EPSL = {TOLERANCE!r}, EPSU = {TOLERANCE!r}, EPSS = 1e-10\n"
-            f"DS = {math.copysign(step, 1)!r}, DSMIN = 1e-9, DSMAX = {step!r}, IADS = 1, ITNW = 8\n"
+            f"EPSL = {tolerance!r}, EPSU = {tolerance!r}, EPSS = {max(1e-8, 1000 * tolerance)!r}\n"
+            f"DS = {step!r}, DSMIN = 1e-9, DSMAX = {step!r}, IADS = 1, ITNW = 8\n"
             f"UZSTOP = {{1: {problem.stop!r}}}\n")
         (folder / "fort.3").write_text("")
         program = problem.auto_program + ("-no-lines" if setting == "nothing" else "")
@@ -191,9 +193,9 @@ class Tracer:
     def __init__(self, program):
         self.program = program
 
-    def trace(self, problem, folder, step, points, setting, limit=60.0):
-        return run([self.program, problem.name, repr(step), points, repr(problem.stop), setting],
-                   folder, folder / "lines", limit)
+    def trace(self, problem, folder, step, points, setting, limit=60.0, spacing=0.0):
+        return run([self.program, problem.name, repr(step), repr(spacing), points,
+                    repr(problem.stop), setting], folder, folder / "lines", limit)
 
     @staticmethod
     def curve(result):
@@ -216,12 +218,13 @@ class Program:
     def __init__(self, program):
         self.program = program
 
-    def trace(self, problem, folder, step, points, setting="default", limit=60.0):
+    def trace(self, problem, folder, step, points, setting="default", limit=60.0, spacing=0.0):
         case = folder / "case.toml"
         if not case.exists():
             case.write_text(problem.case)
         return run([self.program, "run", case, "--no-plots", "--out", folder / "results",
-                    "--set", f"step={step!r}", "--set", f"points={points}"], folder, limit=limit)
+                    "--set", f"step={step!r}", "--set", f"spacing={spacing!r}",
+                    "--set", f"points={points}"], folder, limit=limit)
 
     @staticmethod
     def curve(folder):

@@ -1,0 +1,146 @@
+"""(b) The column of N links, and springfold alone on long ones."""
+
+import math
+
+import closed_forms
+import programs
+from comparison import alternate, failed, say
+from programs import Problem, median
+
+LOCA = {20: 0.046e-3, 50: 0.11e-3, 100: 0.60e-3, 200: 4.0e-3, 400: 27.7e-3}  # s per point, see docs
+
+
+def compare_columns(c):
+    say("\n(b) Column of N links, skew load, 200 points: CPU ms per point (slope from 20 points)\n")
+    say(f"  {'N':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'run':>9} {'ratio':>7} "
+        f"{'LOCA':>7}   one line per point; run: springfold run with all columns")
+    numbers = [5, 20, 50, 100] if c.quick else [5, 20, 50, 100, 200, 400]
+    alive = {"AUTO", "springfold", "run"}
+    length = 1.4
+    for links in numbers:
+        problem, folder = programs.column(links), c.place(f"column-{links}")
+        if links <= 100:  # hardly any change beyond
+            coarse = c.tracer.trace(problem, folder, 0.02, 1000000, "nothing", c.limit)
+            length = c.tracer.curve(coarse).length
+        column_at(c, links, problem, folder, length, alive)
+    long_columns(c, length)
+    buckling_loads(c, numbers + ([] if c.quick else [1000, 10000]))
+
+
+def auto_step(c, problem, folder, links):
+    """AUTO's arc length is that of its own unknowns: measured once on few points."""
+    step = 0.025 * math.sqrt(links)
+    c.auto.trace(problem, folder, step, 1000000, "line", c.limit)
+    return step * (c.auto.curve(problem, folder).points - 1) / 200
+
+
+def column_at(c, links, problem, folder, length, alive):
+    repetitions = 1 if links >= 400 else 3 if links >= 100 else 7
+    steps = {"AUTO": auto_step(c, problem, folder, links) if "AUTO" in alive else 0}
+    steps["springfold"] = steps["run"] = length / 200
+    who = {"AUTO": c.auto, "springfold": c.tracer, "run": c.program}
+    tasks = {(name, points): lambda n=name, p=points: who[n].trace(
+                 problem, folder, steps[n], p, "line", c.limit)
+             for points in (20, 1000) for name in who if name in alive}
+    runs = alternate(repetitions, tasks)
+    curves, seconds = {}, {}
+    for name in sorted(alive):
+        failure = failed(runs[name, 20]) or failed(runs[name, 1000])
+        if failure:
+            say(f"  {links:6} {who[name].name}: {failure}; larger N are not tried")
+            alive.discard(name)
+            continue
+        curves[name] = (c.tracer.curve(runs[name, 1000][-1]) if name == "springfold"
+                        else c.program.curve(folder) if name == "run"
+                        else c.auto.curve(problem, folder))
+        more = max(1, curves[name].points - 20)
+        seconds[name] = max(1e-9, median(runs[name, 1000]) - median(runs[name, 20])) / more
+    column_verdicts(c, links, seconds, curves)
+
+
+def column_verdicts(c, links, seconds, curves):
+    auto = seconds.get("AUTO", math.nan)
+    ours, run = seconds.get("springfold", math.inf), seconds.get("run", math.inf)
+    loca = LOCA.get(links, math.nan)
+    say(f"  {links:6} {1e3 * auto:10.4f} {1e3 * ours:11.4f} {auto / ours:7.2f} {1e3 * run:9.4f} "
+        f"{auto / run:7.2f} {1e3 * loca:7.3f}")
+    if links >= 20:
+        wanted = 100 if links == 400 else 1
+        for words, value in (("one line per point", ours), ("springfold run", run)):
+            if not math.isnan(auto):
+                c.verdicts.add(auto / value > wanted, f"(b) N = {links}, {words}: "
+                               f"{auto / value:.2f} times faster ({wanted} wanted)")
+        if not math.isnan(loca):
+            c.verdicts.add(ours < loca, f"(b) N = {links}: {1e3 * ours:.3f} ms per point, LOCA "
+                                        f"needed {1e3 * loca:.3f} ms")
+    if "AUTO" in curves:
+        ends = [curve.end for name, curve in curves.items() if name != "AUTO"]
+        apart = max((abs(e - curves["AUTO"].end) for e in ends), default=math.inf)
+        c.verdicts.add(apart <= 1e-7, f"(b) N = {links}: the same end, apart {apart:.1e} (1e-7)")
+
+
+def long_columns(c, length):
+    numbers = [500, 1000] if c.quick else [500, 1000, 2000, 5000, 10000]
+    say("\n  springfold alone: CPU ms per point; whole process with one line per point\n")
+    say(f"  {'N':>6} {'ms/point':>9} {'seconds':>8} {'MB':>7}")
+    measured = {}
+    for links in numbers:
+        problem, folder = programs.column(links), c.place(f"column-{links}")
+        few = c.tracer.trace(problem, folder, length / 200, 20, "line", c.limit)
+        all_ = few if few.failure else c.tracer.trace(problem, folder, length / 200, 1000,
+                                                      "line", c.limit)
+        if all_.failure:
+            say(f"  {links:6} {all_.failure}; larger N are not tried")
+            break
+        points = c.tracer.curve(all_).points
+        measured[links] = (all_.cpu - few.cpu) / max(1, points - 20)
+        say(f"  {links:6} {1e3 * measured[links]:9.3f} {all_.cpu:8.2f} {all_.memory / 1e6:7.0f}")
+        if links == 10000:
+            ten_thousand(c, problem, folder, length, all_, points)
+    growth(c, numbers, measured)
+
+
+def ten_thousand(c, problem, folder, length, traced, points):
+    """200 points within 30 s and 2 GB: one line per point, and with all columns and files."""
+    complete = c.program.trace(problem, folder, length / 200, 1000, limit=c.limit)
+    for words, done in (("one line per point", traced), ("springfold run", complete)):
+        c.verdicts.add(not done.failure and done.elapsed <= 30 and done.memory <= 2 << 30
+                       and points >= 190, f"(b) N = 10000, {words}: {points} points in "
+                       f"{done.elapsed:.1f} s and {done.memory / 1e6:.0f} MB (30 s, 2 GB) {done.failure}")
+
+
+def growth(c, numbers, measured):
+    if len(measured) < len(numbers):
+        c.verdicts.add(False, f"(b) growth between N = {numbers[0]} and {numbers[-1]}: not "
+                              f"measured, {len(measured)} of {len(numbers)} columns done")
+        return
+    x = [math.log(n) for n in measured]
+    y = [math.log(t) for t in measured.values()]
+    mx, my = sum(x) / len(x), sum(y) / len(y)
+    power = (sum((a - mx) * (b - my) for a, b in zip(x, y))
+             / sum((a - mx)**2 for a in x))
+    c.verdicts.add(power <= 1.15, f"(b) growth between N = {numbers[0]} and {numbers[-1]}: "
+                                  f"exponent {power:.2f} (1.15)")
+
+
+def buckling_loads(c, numbers):
+    say("\n  Straight column: buckling loads up to 25 against the closed form\n")
+    for links in numbers:
+        problem = Problem(f"straight:{links}", 25.0, "", "", "")
+        folder = c.place(f"straight-{links}")
+        done = c.tracer.trace(problem, folder, 25 / links / 50, 1000, "nothing", c.limit)
+        known = closed_forms.buckling_loads(links, 25)
+        found = [] if done.failure else [v for label, v in c.tracer.curve(done).special
+                                         if label == "BP"]
+        if done.failure or len(found) != len(known):
+            say(f"  N = {links}: {done.failure or f'{len(found)} of {len(known)} found'}")
+            c.verdicts.add(False, f"(b) N = {links}: buckling loads of the straight column: "
+                           + (done.failure or f"{len(found)} of {len(known)} found"))
+            if done.failure:
+                say("  larger N are not tried")
+                return
+            continue
+        off = max(abs(f - k) / k for f, k in zip(found, known))
+        say(f"  N = {links}: {len(found)} found, off by {off:.1e} at most, {done.cpu:.2f} s")
+        c.verdicts.add(off <= 1e-9, f"(b) N = {links}: buckling loads of the straight column off "
+                                    f"by {off:.1e} (1e-9)")

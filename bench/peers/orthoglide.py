@@ -1,0 +1,163 @@
+"""(a) The planar Orthoglide: 1,000 to 100,000 points on the same arc."""
+
+import json
+import math
+
+import closed_forms
+import programs
+from comparison import alternate, failed, give_up, ratio_of, say
+from programs import median
+
+JUDGED = (1,)  # which of springfold's ways must be fast enough for exit code 0: 1 steps, 2 spacing
+LONG_STEP = 0.05  # springfold's own largest step, where points lie between the steps
+SETTINGS = (("line", "one line per point", 3.0), ("nothing", "arithmetic alone", 2.0),
+            ("default", "default output", 5.0))
+
+
+def compare_orthoglides(c):
+    problem = programs.orthoglide(c.cases / "orthoglide-planar")
+    folder = c.place("orthoglide")
+    coarse = c.tracer.trace(problem, folder, 0.01, 1000000, "nothing")
+    length = c.tracer.curve(coarse).length
+    say("(a) Planar Orthoglide at Q2, 10 unknowns: CPU seconds of the whole process (medians)\n")
+    say(f"  {'':20} {'points':>8} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} "
+        f"{'ratio':>7}")
+    sizes = {1000: 7, 10000: 3} if c.quick else {1000: 15, 10000: 9, 100000: 5}
+    times = {}
+    for points, repetitions in sizes.items():
+        times.update(orthoglide_at(c, problem, folder, length, points, repetitions))
+    orthoglide_slopes(c, times, list(sizes))
+    start_up(c, folder, problem, length)
+    branch_point(c)
+
+
+def orthoglide_at(c, problem, folder, length, points, repetitions):
+    """Three contestants: AUTO, springfold with as many steps, springfold with long steps and as
+    many points between them."""
+    step, most = length / points, 2 * points
+    tasks = {}
+    for setting, _, _ in SETTINGS:
+        ours = c.program if setting == "default" else c.tracer
+        spaced = c.place(f"orthoglide-spacing-{setting}")
+        tasks["AUTO", setting] = lambda s=setting: c.auto.trace(problem, folder, step, most, s)
+        tasks["steps", setting] = (
+            lambda s=setting, o=ours: o.trace(problem, folder, step, most, s))
+        tasks["spacing", setting] = (lambda s=setting, o=ours, f=spaced: o.trace(
+            problem, f, LONG_STEP, most, s, spacing=step))
+    runs = alternate(repetitions, tasks)
+    times = {}
+    for setting, words, _ in SETTINGS:
+        three = [runs[name, setting] for name in ("AUTO", "steps", "spacing")]
+        for one in three:
+            if failed(one):
+                give_up(f"{setting}, {points} points: {failed(one)}")
+        a, s, r = (median(one) for one in three)
+        say(f"  {words:20} {points:8} {a:10.4f} {s:11.4f} {ratio_of(a, s):7.2f} {r:9.4f} "
+            f"{ratio_of(a, r):7.2f}")
+        times[setting, points] = (a, s, r)
+    curves = {"AUTO": c.auto.curve(problem, folder),
+              "steps": c.tracer.curve(runs["steps", "line"][-1]),
+              "spacing": c.tracer.curve(runs["spacing", "line"][-1]),
+              "run": c.program.curve(folder),
+              "run, spacing": c.program.curve(c.folder / "orthoglide-spacing-default")}
+    same_limit_points(c, curves, points)
+    return times
+
+
+def same_limit_points(c, curves, points):
+    known = [value for _, value in closed_forms.orthoglide_points(programs.P)]
+
+    def values(name):
+        return [v for label, v in curves[name].special if label == "LP"]
+
+    def off(found, wanted):
+        return (max(abs(f - w) for f, w in zip(found, wanted))
+                if len(found) == len(wanted) else math.inf)
+
+    ours = [name for name in curves if name != "AUTO"]
+    apart = max(off(values(name), values("AUTO")) for name in ours)
+    wrong = max(off(values(name), known) for name in ours)
+    counts = {name: curve.points for name, curve in curves.items()}
+    same = [counts[name] / counts["AUTO"] for name in ("steps", "run")]
+    c.verdicts.add(apart <= 1e-7, f"(a) {points} points: both find the same limit points, "
+                                  f"apart {apart:.1e} (1e-7)")
+    c.verdicts.add(wrong <= 1e-10, f"(a) {points} points: limit points off the closed form by "
+                                   f"{wrong:.1e} (1e-10)")
+    c.verdicts.add(min(same) >= 0.98 and max(same) <= 1.05 and min(counts.values()) >= 0.98 * points,
+                   f"(a) {points} points: as many points on the same arc: "
+                   + ", ".join(f"{name} {count}" for name, count in counts.items()))
+
+
+def orthoglide_slopes(c, times, sizes):
+    low, high = sizes[0], sizes[-1]
+    say(f"\n  CPU microseconds per point, by the slope from {low} to {high} points\n")
+    say(f"  {'':20} {'wanted':>8} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} "
+        f"{'ratio':>7}")
+    for setting, words, wanted in SETTINGS:
+        a, s, r = (1e6 * (times[setting, high][i] - times[setting, low][i]) / (high - low)
+                   for i in range(3))
+        say(f"  {words:20} {wanted:8.1f} {a:10.2f} {s:11.2f} {ratio_of(a, s):7.2f} {r:9.2f} "
+            f"{ratio_of(a, r):7.2f}")
+        for i, way in ((1, "a step for every point"), (2, "points between long steps")):
+            whole = ratio_of(times[setting, high][0], times[setting, high][i])
+            point = ratio_of(a, (a, s, r)[i])
+            c.verdicts.add(
+                min(whole, point) >= wanted, f"(a) {words}, {way}: {point:.2f} times faster per point, "
+                f"{whole:.2f} as a whole process at {high} points ({wanted:.0f} wanted)", i in JUDGED)
+
+
+def start_up(c, folder, problem, length):
+    """From start to exit, less what the program itself counts for the curve."""
+    beyond = []
+    for _ in range(5):
+        done = c.program.trace(problem, folder, length / 1000, 2000)
+        traced = c.program.traced_seconds(folder)
+        beyond.append((done.elapsed - traced, done.cpu - traced))
+    elapsed, cpu = (sorted(1e3 * b[i] for b in beyond)[2] for i in (0, 1))
+    c.verdicts.add(elapsed <= 10, f"(a) start to exit beyond the tracing: {elapsed:.1f} ms "
+                                  f"elapsed, of it {cpu:.1f} ms CPU (10 ms)")
+
+
+def branch_point(c):
+    """Under the command of Q1 there is a limit point, then a branch point."""
+    problem = programs.orthoglide(c.cases / "orthoglide-planar", -programs.P, -1.2)
+    folder = c.place("orthoglide-q1")
+    known = closed_forms.orthoglide_points(-programs.P)
+    coarse = c.tracer.curve(c.tracer.trace(problem, folder, 0.1, 100000, "nothing"))
+    step = coarse.length / 1000
+    traced = c.tracer.curve(c.tracer.trace(problem, folder, step, 4000, "nothing"))
+    found = [s for s in traced.special if s[0] in ("LP", "BP", "UR")]
+    same = [label for label, _ in found] == [label for label, _ in known]
+    off = max(abs(f[1] - k[1]) for f, k in zip(found, known)) if same else math.inf
+    c.verdicts.add(off <= 1e-10, f"(a) under the command of Q1: limit and branch point off the "
+                                 f"closed form by {off:.1e} (1e-10)")
+    say("\n  Branch point under the command of Q1")
+    say("    springfold: " + (f"off by {off:.1e}" if same else "NOT FOUND"))
+    wanted = [v for label, v in known if label == "BP"]
+    for tolerance in (programs.TOLERANCE, 1e-8):
+        c.auto.trace(problem, folder, step, 4000, "line", c.limit, tolerance)
+        theirs = [v for label, v in c.auto.curve(problem, folder).special if label == "BP"]
+        say(f"    AUTO-07p at tolerance {tolerance:g}: "
+            + (f"off by {abs(theirs[0] - wanted[0]):.1e}" if len(theirs) == 1
+               else f"{len(theirs)} branch points labelled"))
+
+
+def compare_with_floor(c):
+    """Engine overhead: an accepted point against the kernels that it cannot do without."""
+    if not c.kernels or not c.kernels.exists():
+        say("\nspringfold_bench was not built (libbenchmark-dev): the floor of a point is not measured")
+        c.verdicts.add(False, "cost of an accepted point against its floor: not measured")
+        return
+    folder = c.place("kernels")
+    done = programs.run([c.kernels, "--benchmark_filter=^(floor_of_a_point|accepted_point)$",
+                         "--benchmark_format=json", "--benchmark_repetitions=5"],
+                        folder, folder / "kernels.json")
+    if done.failure:
+        give_up(f"springfold_bench: {done.failure}")
+    medians = {b["run_name"]: b for b in json.loads((folder / "kernels.json").read_text())["benchmarks"]
+               if b.get("aggregate_name") == "median"}
+    floor = medians["floor_of_a_point"]["cpu_time"]  # us
+    point = 1e6 * medians["accepted_point"]["per_point"]
+    say(f"\n  An accepted point costs {point:.2f} us, the kernels of its floor {floor:.2f} us")
+    c.verdicts.add(point <= 4 * floor, f"(a) an accepted point costs {point / floor:.1f} times "
+                                       f"its floor (4)")
