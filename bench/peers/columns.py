@@ -62,8 +62,10 @@ def column_verdicts(c, links, seconds, curves):
     auto = seconds.get("AUTO", math.nan)
     ours, run = seconds.get("springfold", math.inf), seconds.get("run", math.inf)
     loca = LOCA.get(links, math.nan)
-    say(f"  {links:6} {1e3 * auto:10.4f} {1e3 * ours:11.4f} {auto / ours:7.2f} {1e3 * run:9.4f} "
-        f"{auto / run:7.2f} {1e3 * loca:7.3f}")
+    numbers = ((1e3 * auto, 10, 4), (1e3 * ours, 11, 4), (auto / ours, 7, 2), (1e3 * run, 9, 4),
+               (auto / run, 7, 2), (1e3 * loca, 7, 3))
+    say(f"  {links:6} " + " ".join(f"{number:{width}.{digits}f}" if math.isfinite(number) else
+                                   f"{'-':>{width}}" for number, width, digits in numbers))
     if links >= 20:
         wanted = 100 if links == 400 else 1
         for words, value in (("one line per point", ours), ("springfold run", run)):
@@ -76,7 +78,9 @@ def column_verdicts(c, links, seconds, curves):
     if "AUTO" in curves:
         ends = [curve.end for name, curve in curves.items() if name != "AUTO"]
         apart = max((abs(e - curves["AUTO"].end) for e in ends), default=math.inf)
-        c.verdicts.add(apart <= 1e-7, f"(b) N = {links}: the same end, apart {apart:.1e} (1e-7)")
+        singular = sum(len(curve.singular()) for curve in curves.values())
+        c.verdicts.add(apart <= 1e-7 and singular == 0, f"(b) N = {links}: the same end, apart "
+                       f"{apart:.1e} (1e-7), and {singular} special points (0)")
 
 
 def long_columns(c, length):

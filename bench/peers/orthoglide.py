@@ -65,14 +65,14 @@ def orthoglide_at(c, problem, folder, length, points, repetitions):
 
 
 def same_limit_points(c, curves, points):
-    known = [value for _, value in closed_forms.orthoglide_points(programs.P)]
-
-    def values(name):
-        return [v for label, v in curves[name].special if label == "LP"]
+    known = closed_forms.orthoglide_points(programs.P)
 
     def off(found, wanted):
-        return (max(abs(f - w) for f, w in zip(found, wanted))
-                if len(found) == len(wanted) else math.inf)
+        same = [label for label, _ in found] == [label for label, _ in wanted]
+        return max(abs(f[1] - w[1]) for f, w in zip(found, wanted)) if same else math.inf
+
+    def values(name):
+        return curves[name].singular()
 
     ours = [name for name in curves if name != "AUTO"]
     apart = max(off(values(name), values("AUTO")) for name in ours)
@@ -126,7 +126,7 @@ def branch_point(c):
     coarse = c.tracer.curve(c.tracer.trace(problem, folder, 0.1, 100000, "nothing"))
     step = coarse.length / 1000
     traced = c.tracer.curve(c.tracer.trace(problem, folder, step, 4000, "nothing"))
-    found = [s for s in traced.special if s[0] in ("LP", "BP", "UR")]
+    found = traced.singular()
     same = [label for label, _ in found] == [label for label, _ in known]
     off = max(abs(f[1] - k[1]) for f, k in zip(found, known)) if same else math.inf
     c.verdicts.add(off <= 1e-10, f"(a) under the command of Q1: limit and branch point off the "

@@ -40,6 +40,10 @@ class Curve:
     end: float = math.nan
     length: float = math.nan
 
+    def singular(self):
+        """Everything but ends: limit and branch points, and what nobody expects."""
+        return [(label, value) for label, value in self.special if label not in ("END", "EP", "UZ")]
+
 
 def run(command, folder, output=None, limit=60.0):
     """Runs to the end or to the limit in seconds; standard error is returned as text."""
