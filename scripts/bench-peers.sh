@@ -44,12 +44,16 @@ library=/usr/lib/auto-07p/lib
 auto=$PWD/build/release/bench-peers/auto
 rm -rf "$auto"
 mkdir -p "$auto"
-gcc -O2 -c bench/peers/no_lines.c -o "$auto/no_lines.o"
+gcc -O2 -c bench/peers/replace_lines.c -o "$auto/replace_lines.o"
+for source in orthoglide column no_line short_line; do
+  gfortran -O2 -c "bench/peers/$source.f90" -o "$auto/$source.o"
+done
 for problem in orthoglide column; do
-  gfortran -O2 -c "bench/peers/$problem.f90" -o "$auto/$problem.o"
   gfortran -fopenmp "$auto/$problem.o" "$library"/*.o -o "$auto/$problem"
-  gfortran -fopenmp "$auto/$problem.o" "$auto/no_lines.o" -Wl,--wrap=__io_MOD_wrline \
-    "$library"/*.o -o "$auto/$problem-no-lines"
+  for lines in no_line short_line; do
+    gfortran -fopenmp "$auto/$problem.o" "$auto/replace_lines.o" "$auto/$lines.o" \
+      -Wl,--wrap=__io_MOD_wrline "$library"/*.o -o "$auto/$problem-$lines"
+  done
 done
 
 echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) processors;" \

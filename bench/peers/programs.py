@@ -139,10 +139,11 @@ class Auto:
     name = "AUTO-07p"
 
     def __init__(self, programs):
-        self.programs = programs  # folder with orthoglide, orthoglide-no-lines, ...
+        self.programs = programs  # folder with orthoglide, orthoglide-no_line, ...
 
     def trace(self, problem, folder, step, points, setting, limit=60.0, tolerance=TOLERANCE):
-        """setting: line (one per point), nothing (labelled points only), default (diagnostics too)"""
+        """setting: line (one per point), short (cut to three numbers), nothing (labelled points only),
+        default (diagnostics too)"""
         diagnostics = "" if setting == "default" else ", IID = 0"
         (folder / "fort.2").write_text(
             f"{problem.auto_constants}\n"
@@ -152,7 +153,7 @@ class Auto:
             f"DS = {step!r}, DSMIN = 1e-9, DSMAX = {step!r}, IADS = 1, ITNW = 8\n"
             f"UZSTOP = {{1: {problem.stop!r}}}\n")
         (folder / "fort.3").write_text("")
-        program = problem.auto_program + ("-no-lines" if setting == "nothing" else "")
+        program = problem.auto_program + {"nothing": "-no_line", "short": "-short_line"}.get(setting, "")
         result = run([self.programs / program], folder, limit=limit)
         if not result.failure and " MX " in (folder / "fort.7").read_text(errors="replace"):
             result.failure = "no convergence"
