@@ -47,40 +47,6 @@ std::string word_of(JointRole role) {
   return "";
 }
 
-std::string word_of(ControlMode control) {
-  switch (control) {
-    case ControlMode::load:
-      return "load";
-    case ControlMode::pose:
-      return "pose";
-    case ControlMode::mixed:
-      return "mixed";
-    case ControlMode::actuator:
-      return "actuator";
-    case ControlMode::parameter:
-      return "parameter";
-  }
-  return "";
-}
-
-std::string word_of(StudyKind kind) {
-  switch (kind) {
-    case StudyKind::equilibrium:
-      return "equilibrium";
-    case StudyKind::force_deflection:
-      return "force_deflection";
-    case StudyKind::equilibria:
-      return "equilibria";
-    case StudyKind::control:
-      return "control";
-    case StudyKind::map:
-      return "map";
-    case StudyKind::workspace:
-      return "workspace";
-  }
-  return "";
-}
-
 std::string counted(Index count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -158,9 +124,9 @@ std::string study_text(const io::Case& the_case, const std::string& name) {
   if (branches.depth > 0) more += fmt::format(", branches to depth {}", branches.depth);
   if (!branches.search_at.empty())
     more += ", searches at " + counted(std::ssize(branches.search_at), "value") + " of lambda";
-  return fmt::format("  study     {} ({}{}{}), {}{}\n", name, word_of(first->plan.kind),
-                     is_curve ? ", control " + word_of(first->plan.control) : "", more,
-                     counted(runs, "run"), labels);
+  return fmt::format("  study     {} ({}{}{}), {}{}\n", name, to_string(first->plan.kind),
+                     is_curve ? ", control " + std::string(to_string(first->plan.control)) : "",
+                     more, counted(runs, "run"), labels);
 }
 
 }  // namespace

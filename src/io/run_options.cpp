@@ -5,66 +5,6 @@ namespace springfold::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using analysis::ControlMode;
-using analysis::StartSolve;
-using analysis::StartSolver;
-using analysis::StudyKind;
-
-std::string text_of(StudyKind kind) {
-  switch (kind) {
-    case StudyKind::equilibrium:
-      return "equilibrium";
-    case StudyKind::force_deflection:
-      return "force_deflection";
-    case StudyKind::equilibria:
-      return "equilibria";
-    case StudyKind::control:
-      return "control";
-    case StudyKind::map:
-      return "map";
-    case StudyKind::workspace:
-      return "workspace";
-  }
-  return "";
-}
-
-std::string text_of(ControlMode control) {
-  switch (control) {
-    case ControlMode::load:
-      return "load";
-    case ControlMode::pose:
-      return "pose";
-    case ControlMode::mixed:
-      return "mixed";
-    case ControlMode::actuator:
-      return "actuator";
-    case ControlMode::parameter:
-      return "parameter";
-  }
-  return "";
-}
-
-std::string text_of(StartSolve solve) {
-  switch (solve) {
-    case StartSolve::pose:
-      return "pose";
-    case StartSolve::actuators:
-      return "actuators";
-    case StartSolve::wrench:
-      return "wrench";
-  }
-  return "";
-}
-
-std::string text_of(StartSolver solver) {
-  switch (solver) {
-    case StartSolver::newton:
-      return "newton";
-    case StartSolver::fixed_point:
-      return "fixed_point";
-  }
-  return "";
-}
 
 Json json_of(const Vector& vector) {
   return std::vector<double>(vector.data(), vector.data() + vector.size());
@@ -93,15 +33,15 @@ Json json_of(const std::vector<T>& items) {
 /// Name and value of every option of one study, without saying which are defaults.
 std::vector<NamedOption> listed(const analysis::Study& study, const std::string& body) {
   const auto& [initial, minimum, maximum, points, spacing] = study.trace;
-  return {{"kind", text_of(study.kind)},
-          {"control", text_of(study.control)},
+  return {{"kind", std::string(to_string(study.kind))},
+          {"control", std::string(to_string(study.control))},
           {"body", body},
           {"direction", json_of(study.direction)},
           {"constant_load", json_of(study.constant_load)},
           {"actuators", json_of(study.actuators)},
           {"parameter", study.parameter},
-          {"start.solve", text_of(study.start.solve)},
-          {"start.solver", text_of(study.start.solver)},
+          {"start.solve", std::string(to_string(study.start.solve))},
+          {"start.solver", std::string(to_string(study.start.solver))},
           {"start.pose", json_of(study.start.pose)},
           {"start.attempts", study.start.attempts},
           {"start.seed", study.start.seed},

@@ -217,14 +217,9 @@ class StudyReader {
 
   void read_start() {
     const analysis::StartOptions defaults;
-    const Node* node = table_.find("start");
-    static const Node nothing;
-    const Item item{node ? node : &nothing, table_.key_of("start")};
-    const bool usable = is_table(item, "a table such as { pose = [...] }", reading_);
-    const TableReader start{usable ? *item.node : nothing,
-                            item.key,
-                            {"pose", "solve", "solver", "attempts", "seed", "maximum_move"},
-                            reading_};
+    const TableReader start =
+        table_or_nothing("start", "a table such as { pose = [...] }",
+                         {"pose", "solve", "solver", "attempts", "seed", "maximum_move"});
     draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
     draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
                                     StartSolve::wrench}[start.choice("solve", solve_words, 0)];
@@ -277,19 +272,22 @@ class StudyReader {
     }
   }
 
+  /// A table of the study; nothing where it is missing or no table.
+  TableReader table_or_nothing(const std::string& name, const std::string& example,
+                               const std::vector<std::string>& known) {
+    static const Node nothing;
+    const Node* node = table_.find(name);
+    const Item item{node ? node : &nothing, table_.key_of(name)};
+    return {is_table(item, example, reading_) ? *item.node : nothing, item.key, known, reading_};
+  }
+
   void read_trace() {
     draft_.path = std::array{analysis::Path::arc_length,
                              analysis::Path::davidenko}[table_.choice("path", path_words, 0)];
     const analysis::TraceSettings defaults;
-    const Node* node = table_.find("trace");
-    static const Node nothing;
-    const Item item{node ? node : &nothing, table_.key_of("trace")};
-    const bool usable = is_table(item, "a table such as { maximum_step = 0.05 }", reading_);
-    const TableReader trace{
-        usable ? *item.node : nothing,
-        item.key,
-        {"initial_step", "minimum_step", "maximum_step", "maximum_points", "spacing"},
-        reading_};
+    const TableReader trace = table_or_nothing(
+        "trace", "a table such as { maximum_step = 0.05 }",
+        {"initial_step", "minimum_step", "maximum_step", "maximum_points", "spacing"});
     const Rule step{Range::positive, ""};
     NumberTable& numbers = draft_.numbers;
     draft_.initial_step = trace.number("initial_step", step, numbers, defaults.initial_step);
@@ -302,14 +300,9 @@ class StudyReader {
 
   void read_branches() {
     const analysis::BranchSettings defaults;
-    const Node* node = table_.find("branches");
-    static const Node nothing;
-    const Item item{node ? node : &nothing, table_.key_of("branches")};
-    const bool usable = is_table(item, "a table such as { depth = 1 }", reading_);
-    const TableReader branches{usable ? *item.node : nothing,
-                               item.key,
-                               {"depth", "maximum", "search_at", "starts", "seed"},
-                               reading_};
+    const TableReader branches =
+        table_or_nothing("branches", "a table such as { depth = 1 }",
+                         {"depth", "maximum", "search_at", "starts", "seed"});
     NumberTable& numbers = draft_.numbers;
     const auto count = [&](const std::string& name, Range range, double otherwise) {
       return branches.number(name, {range, ""}, numbers, otherwise);
@@ -324,14 +317,10 @@ class StudyReader {
 
   void read_search() {
     const analysis::SearchSettings defaults;
-    const Node* node = table_.find("search");
-    static const Node nothing;
-    const Item item{node ? node : &nothing, table_.key_of("search")};
-    const bool usable = is_table(item, "a table such as { starts = 500 }", reading_);
-    const TableReader search{
-        usable ? *item.node : nothing, item.key, {"starts", "seed", "maximum", "box"}, reading_};
-    if (node && draft_.kind != StudyKind::equilibria)
-      reading_.problems.add(node->place, item.key,
+    const TableReader search = table_or_nothing("search", "a table such as { starts = 500 }",
+                                                {"starts", "seed", "maximum", "box"});
+    if (table_.has("search") && draft_.kind != StudyKind::equilibria)
+      reading_.problems.add(search.place(), search.key(),
                             "goes with kind = \"equilibria\"; branches = { search_at = [...] } "
                             "searches beside curves");
     NumberTable& numbers = draft_.numbers;

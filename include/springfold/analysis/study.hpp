@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "springfold/analysis/control.hpp"
@@ -54,6 +55,12 @@ enum class StartSolver {
   newton,       ///< KINSOL's globalised Newton method, exact matrix
   fixed_point,  ///< the paper's iteration, eq. (6) with its sign corrected; needs a given pose
 };
+
+/// As case files call them: "force_deflection", "mixed", "actuators", "newton".
+std::string_view to_string(StudyKind kind);
+std::string_view to_string(ControlMode control);
+std::string_view to_string(StartSolve solve);
+std::string_view to_string(StartSolver solver);
 
 struct StartOptions {
   StartSolve solve = StartSolve::pose;
