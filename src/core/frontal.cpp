@@ -1,11 +1,13 @@
 #include "springfold/core/frontal.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "front.hpp"
+#include "frontal_plan.hpp"
 #include "springfold/core/scaling.hpp"
 
 namespace springfold {
@@ -13,84 +15,6 @@ namespace {
 
 /// Smallest over largest pivot of the root below this counts as singular.
 constexpr double singular_pivot = 1e-15;
-
-/// A front before there are numbers. Its variables: those that end here, those that stay.
-struct Plan {
-  Index ending = 0, staying = 0;
-  std::size_t ids = 0;  ///< where its ending + staying variables begin in Plans::ids
-};
-
-struct Plans {
-  std::vector<Plan> fronts{};
-  std::vector<Index> ids{};
-  std::vector<Index> element_places{};       ///< per entry of pattern.variables: place in its front
-  std::vector<Index> carried_places{};       ///< per variable that stays: place in the next front
-  std::vector<std::size_t> first_carried{};  ///< per front
-  std::vector<Index> loose{};                ///< variables of no front
-};
-
-/// One string at a time; `last` is the last front that holds a variable, `place` its place in the
-/// present one, or -1.
-class Planner {
- public:
-  explicit Planner(const FrontalPattern& pattern)
-      : pattern_{pattern},
-        last_(static_cast<std::size_t>(pattern.size), 0),
-        place_(static_cast<std::size_t>(pattern.size), -1) {}
-
-  Plans plan() {
-    std::vector<char> seen(last_.size(), 0);
-    for (std::size_t f = 0; f < pattern_.front_count(); ++f)
-      for (std::size_t i = pattern_.first_variable[f]; i < pattern_.first_variable[f + 1]; ++i) {
-        const auto v = static_cast<std::size_t>(pattern_.variables[i]);
-        last_[v] = f;
-        seen[v] = 1;
-      }
-    std::vector<Index> stayed;
-    for (std::size_t f = 0; f < pattern_.front_count(); ++f) {
-      add_front(f, stayed);
-      if (pattern_.ends_string[f] != 0) stayed.clear();
-    }
-    for (Index v = 0; v < pattern_.size; ++v)
-      if (seen[static_cast<std::size_t>(v)] == 0 && !is_root(v)) plans_.loose.push_back(v);
-    return std::move(plans_);
-  }
-
- private:
-  bool is_root(Index v) const {
-    return v >= pattern_.root_first && v < pattern_.root_first + pattern_.root_count;
-  }
-
-  void add_front(std::size_t f, std::vector<Index>& stayed) {
-    std::vector<Index> all;  // new ones first: they are tried first as pivots
-    const auto begin = pattern_.variables.begin();
-    for (std::size_t i = pattern_.first_variable[f]; i < pattern_.first_variable[f + 1]; ++i) {
-      const Index v = *(begin + static_cast<std::ptrdiff_t>(i));
-      if (std::find(stayed.begin(), stayed.end(), v) == stayed.end()) all.push_back(v);
-    }
-    all.insert(all.end(), stayed.begin(), stayed.end());
-    const auto ends = [&](Index v) {
-      return !is_root(v) && last_[static_cast<std::size_t>(v)] == f;
-    };
-    const auto middle = std::stable_partition(all.begin(), all.end(), ends);
-    const Plan plan{middle - all.begin(), all.end() - middle, plans_.ids.size()};
-    for (std::size_t i = 0; i < all.size(); ++i)
-      place_[static_cast<std::size_t>(all[i])] = static_cast<Index>(i);
-    plans_.first_carried.push_back(plans_.carried_places.size());
-    for (const Index v : stayed)
-      plans_.carried_places.push_back(place_[static_cast<std::size_t>(v)]);
-    for (std::size_t i = pattern_.first_variable[f]; i < pattern_.first_variable[f + 1]; ++i)
-      plans_.element_places.push_back(place_[static_cast<std::size_t>(pattern_.variables[i])]);
-    plans_.ids.insert(plans_.ids.end(), all.begin(), all.end());
-    plans_.fronts.push_back(plan);
-    stayed.assign(middle, all.end());
-  }
-
-  const FrontalPattern& pattern_;
-  Plans plans_;
-  std::vector<std::size_t> last_;
-  std::vector<Index> place_;
-};
 
 double* data_of(Matrix& X, Index column) { return X.data() + column * X.rows(); }
 
@@ -311,7 +235,7 @@ bool Frontal::State::solve(Matrix& X, bool transposed) const {
 Frontal::Frontal(FrontalPattern pattern, FrontalOptions options)
     : state_{std::make_unique<State>(State{.pattern = std::move(pattern), .options = options})} {
   assert(state_->pattern.ends_string.empty() || state_->pattern.ends_string.back() != 0);
-  state_->plans = Planner(state_->pattern).plan();
+  state_->plans = plan_fronts(state_->pattern);
   state_->slots.assign(static_cast<std::size_t>(state_->pattern.size), -1);
 }
 Frontal::~Frontal() = default;
@@ -376,16 +300,14 @@ std::optional<Inertia> Frontal::inertia(double zero_tolerance) const {
     inertia.negative += one_of_each ? 1 : a < 0 ? 2 : 0;
     inertia.positive += one_of_each ? 1 : a < 0 ? 0 : 2;
   }
-  // One more eigenvalue, 1, says what is small where the root holds nothing but zeros.
-  const Index n = s.schur.rows();
-  Matrix root = Matrix::Zero(n + 1, n + 1);
-  root.topLeftCorner(n, n) = 0.5 * (s.schur + s.schur.transpose());
-  root(n, n) = 1;
-  const auto rest = inertia_of(root, zero_tolerance);
-  if (!rest) return std::nullopt;
-  inertia.negative += rest->negative;
-  inertia.zero += rest->zero;
-  inertia.positive += rest->positive - 1;
+  if (s.schur.rows() == 0) return inertia;
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (s.schur + s.schur.transpose()),
+                                                              Eigen::EigenvaluesOnly)
+                            .eigenvalues();
+  if (!values.allFinite()) return std::nullopt;
+  const double small = zero_tolerance * std::max(1.0, values.cwiseAbs().maxCoeff());
+  for (const double v : values)
+    ++(std::abs(v) <= small ? inertia.zero : v < 0 ? inertia.negative : inertia.positive);
   return inertia;
 }
 

@@ -45,7 +45,7 @@ struct FrontalOptions {
   /// The same for the borders, whose columns are seen scaled to the largest entry 1.
   double border_threshold = 0.01;
   /// Smaller pivots are left for the root. A should be scaled so that its usual pivots are near 1.
-  double smallest_pivot = 1e-6;
+  double smallest_pivot = 1e-10;
   /// Fronts with more waiting variables than this let the borders have larger multipliers.
   Index many_waiting = 32;
 };
@@ -78,8 +78,8 @@ class Frontal {
   bool solve(Matrix& X) const;
   bool solve_transposed(Matrix& X) const;
 
-  /// Inertia of A with the symmetric part of `root`. Zero are pivots of the root below
-  /// zero_tolerance times its largest entry, or times 1 where that is larger.
+  /// Inertia of A with the symmetric part of `root`. Zero are eigenvalues of what the root holds of A
+  /// below zero_tolerance times the largest one, or times 1 where that is larger.
   std::optional<Inertia> inertia(double zero_tolerance = 1e-13) const;
 
   const FrontalPattern& pattern() const;
