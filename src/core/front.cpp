@@ -38,20 +38,20 @@ ColumnSize column_size(const Front& front, Index t, Index j, Index without) {
 /// The tests of one choice of pivots.
 class Test {
  public:
-  Test(const Front& front, const BorderRows& borders, const FrontalOptions& options, Index t,
-       bool mind_borders)
+  Test(const Front& front, const BorderRows& borders, Index t, double threshold,
+       double border_threshold, double smallest)
       : front_{front},
         borders_{borders},
-        options_{options},
         t_{t},
-        border_weight_{mind_borders ? options.border_threshold / options.threshold : 0} {}
+        threshold_{threshold},
+        smallest_{smallest},
+        border_weight_{border_threshold / threshold} {}
 
   Choice of(Index j) const {
     const ColumnSize column = column_size(front_, t_, j, -1);
     const double a = at(j, j), border = border_of(j);
     const double others = std::max(column.all, border);
-    if (std::abs(a) >= options_.threshold * others && std::abs(a) >= options_.smallest_pivot)
-      return {j, -1};
+    if (std::abs(a) >= threshold_ * others && std::abs(a) >= smallest_) return {j, -1};
     const Index r = column.row;
     if (r < 0) return {};
     return two_fit(j, r, border) ? Choice{j, r} : Choice{};
@@ -69,10 +69,9 @@ class Test {
   bool two_fit(Index j, Index r, double border) const {
     const double a = at(j, j), b = at(r, j), c = at(r, r), det = a * c - b * b;
     const double terms = std::abs(a * c) + b * b;
-    const double limit = std::abs(det) / options_.threshold;
+    const double limit = std::abs(det) / threshold_;
     if (!(std::abs(det) >= cancelled * terms)) return false;
-    if (!(std::abs(det) >= options_.smallest_pivot * (std::abs(a) + std::abs(b) + std::abs(c))))
-      return false;
+    if (!(std::abs(det) >= smallest_ * (std::abs(a) + std::abs(b) + std::abs(c)))) return false;
     const double x = std::max(column_size(front_, t_, j, r).all, border);
     const double y = std::max(column_size(front_, t_, r, j).all, border_of(r));
     return std::abs(c) * x + std::abs(b) * y <= limit && std::abs(b) * x + std::abs(a) * y <= limit;
@@ -80,9 +79,8 @@ class Test {
 
   const Front& front_;
   const BorderRows& borders_;
-  const FrontalOptions& options_;
   Index t_;
-  double border_weight_;
+  double threshold_, smallest_, border_weight_;
 };
 
 void swap_variables(Front& front, Index i, Index j) {
@@ -142,13 +140,26 @@ void pivot_two(Front& front, Index t, BorderRows& borders) {
   }
 }
 
-/// The first candidate that will do, from `begin` on and then from t; nothing if none does.
-Choice choose(const Front& front, const BorderRows& borders, const FrontalOptions& options, Index t,
-              bool mind_borders) {
-  const Test test(front, borders, options, t, mind_borders);
+/// The first candidate from t on that will do; nothing if none does.
+Choice first_of(const Front& front, Index t, const Test& test) {
   for (Index j = t; j < front.candidates; ++j)
     if (const Choice choice = test.of(j); choice.first >= 0) return choice;
   return {};
+}
+
+/// The tests get milder the more variables would have to wait.
+Choice choose(const Front& front, const BorderRows& borders, const FrontalOptions& options,
+              Index t) {
+  const auto with = [&](double threshold, double border_threshold) {
+    return first_of(front, t,
+                    {front, borders, t, threshold, border_threshold, options.smallest_pivot});
+  };
+  Choice choice = with(options.threshold, options.border_threshold);
+  const Index waiting = front.candidates - t;
+  if (choice.first < 0 && waiting > options.few)
+    choice = with(options.relaxed, options.border_threshold);
+  if (choice.first < 0 && waiting > options.many) choice = with(options.relaxed, 0);
+  return choice;
 }
 
 }  // namespace
@@ -173,9 +184,7 @@ Index eliminate(Front& front, BorderRows& borders, const FrontalOptions& options
   front.two.clear();
   Index t = 0;
   while (t < front.candidates) {
-    Choice choice = choose(front, borders, options, t, true);
-    if (choice.first < 0 && front.candidates - t > options.many_waiting)
-      choice = choose(front, borders, options, t, false);
+    const Choice choice = choose(front, borders, options, t);
     if (choice.first < 0) break;
     if (choice.second < 0) {
       swap_variables(front, t, choice.first);

@@ -40,14 +40,16 @@ struct FrontalBorders {
 };
 
 struct FrontalOptions {
-  /// A pivot's multipliers are at most 1/threshold; what would need larger ones waits.
-  double threshold = 0.1;
-  /// The same for the borders, whose columns are seen scaled to the largest entry 1.
+  /// A pivot's multipliers are at most 1/threshold; what would need larger ones waits. Where more than
+  /// `few` variables wait, `relaxed` takes its place.
+  double threshold = 0.1, relaxed = 0.01;
+  Index few = 8;
+  /// The same for the borders, whose columns are seen scaled to the largest entry 1. Where more than
+  /// `many` variables wait, borders may have larger multipliers.
   double border_threshold = 0.01;
+  Index many = 32;
   /// Smaller pivots are left for the root. A should be scaled so that its usual pivots are near 1.
   double smallest_pivot = 1e-10;
-  /// Fronts with more waiting variables than this let the borders have larger multipliers.
-  Index many_waiting = 32;
 };
 
 /// Factorisation A = L D L^T and what it takes to solve with M, also where A is singular and M is
