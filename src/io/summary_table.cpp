@@ -175,6 +175,9 @@ std::string stiffness_lines(const Matrix& stiffness) {
   return text + line("eigenvalues", values);
 }
 
+/// Empty where the quantity is not defined, as in the tables.
+std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, digits); }
+
 /// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
 std::string index_text(const StudyResult& result, const Branch& branch,
                        const analysis::Event& event, std::string_view name) {
@@ -189,8 +192,8 @@ std::string index_text(const StudyResult& result, const Branch& branch,
     first = event.row - 1, second = event.row + 1;
   const double before = value_at(result, branch, first, name);
   const double after = value_at(result, branch, second, name);
-  if (before == after || std::isnan(after)) return rounded(before, digits);
-  return rounded(before, digits) + " > " + rounded(after, digits);
+  if (before == after || std::isnan(after)) return cell(before);
+  return (std::isnan(before) ? "?" : rounded(before, digits)) + " > " + rounded(after, digits);
 }
 
 /// The special points as a table; only the columns that the run has.
@@ -207,8 +210,7 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back();
     row.push_back(event.label);
-    for (const auto& name : columns)
-      row.push_back(rounded(value_at(result, branch, event.row, name), digits));
+    for (const auto& name : columns) row.push_back(cell(value_at(result, branch, event.row, name)));
     const bool is_unresolved = event.kind == analysis::EventKind::unresolved;
     for (const auto& name : indices) row.push_back(index_text(result, branch, event, name));
     row.push_back((is_unresolved ? "UNRESOLVED: " : "") + event.detail);
@@ -321,7 +323,7 @@ std::string equilibria_table(const Case& the_case, const StudyResult& result) {
     for (const auto& name : columns) {
       const auto column = column_of(result, name);
       const double value = name == "potential" ? e.potential : e.sample.values[column.value()];
-      row.push_back(std::isnan(value) ? "undefined" : rounded(value, digits));
+      row.push_back(cell(value));
     }
     row.push_back(e.note.empty() ? (e.is_start ? "the start" : "") : e.note);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "kinsol_newton.hpp"
@@ -220,12 +221,30 @@ void perturb(Equations& equations, State& state, int attempt, std::mt19937_64& r
   equations.unpack(y, state);
 }
 
+/// Near a whole turn rotation vectors are singular: J_l^T m = 0 says nothing there about moments across
+/// the axis. The same rotation by a vector of less than half a turn does.
+/// @returns whether one had to be shortened
+bool shorten_turns(const System& system, Vector& z) {
+  constexpr double near_whole_turn = 345 * std::numbers::pi / 180, turn = 2 * std::numbers::pi;
+  bool changed = false;
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+    if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
+    auto phi = z.segment(system.body_slices[b].t + 3, 3);
+    const double angle = phi.norm();
+    if (!(angle > near_whole_turn) || !std::isfinite(angle)) continue;
+    phi *= std::remainder(angle, turn) / angle;
+    changed = true;
+  }
+  return changed;
+}
+
 }  // namespace
 
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
   FirstEquilibrium result;
   Equations equations(system, problem);
-  const State guess{problem.z, problem.inputs};
+  State guess{problem.z, problem.inputs};
+  shorten_turns(system, guess.z);
   if (problem.unknowns == StartUnknowns::commands) {
     const Index d = system.body_slices[static_cast<std::size_t>(problem.body - 1)].count;
     if (problem.inputs.rho.size() != d) {
@@ -256,6 +275,8 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     } else {
       result.residual = solve_from(equations, state, result.iterations);
     }
+    if (shorten_turns(system, state.z))
+      result.residual = polish(equations, state, result.iterations);
     result.z = state.z;
     result.inputs = state.inputs;
     if (equations.solved(state, 1e-12)) {

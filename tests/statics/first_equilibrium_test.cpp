@@ -168,6 +168,23 @@ TEST(FirstEquilibrium, PutsOneSidedSpringsIntoTheSegmentWhereTheyAre) {
   }
 }
 
+TEST(FirstEquilibrium, IsTheSameFromAGuessThatIsAWholeTurnAway) {
+  const System system = prepare(cantilever(3, 2, model::TaskSpace::spatial));
+  const StartProblem near{.z = guess(system),
+                          .inputs = {Vector(0), Vector{{0.0, 0.4, 0, 0, 0, 0}}}};
+  const FirstEquilibrium expected = first_equilibrium(system, near);
+  ASSERT_EQ(expected.status, StartStatus::found);
+  const Index rotation = system.body_slices[0].t + 3;
+  for (const double off : {0.0, 1e-9, -1e-3, 0.2}) {
+    StartProblem far = near;
+    far.z.segment(rotation, 3) << 0, 0, 2 * std::numbers::pi + off;
+    const FirstEquilibrium found = first_equilibrium(system, far);
+    ASSERT_EQ(found.status, StartStatus::found) << off;
+    EXPECT_LT((found.z - expected.z).lpNorm<Eigen::Infinity>(), 1e-10) << off;
+    EXPECT_GT(found.moved, 6);
+  }
+}
+
 TEST(FirstEquilibrium, TellsHowFarItMoved) {
   const System system = prepare(two_link_arm(degrees(45), degrees(90)));
   const FirstEquilibrium still = free_equilibrium(system, Vector::Zero(2));
