@@ -120,15 +120,17 @@ const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& 
   if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, at.r,
                           at.A))
     return nullptr;
-  at.platform = statics::platform_stiffness(system, at.A, problem_.symmetric());
-  at.body = statics::body_stiffness(system, at.A, at.platform, problem_.rule().body,
-                                    problem_.symmetric());
   if (problem_.symmetric()) {
-    at.stability = statics::stability(system, at.A, at.work);
+    auto condensed = statics::condense(system, at.A, at.work);
+    at.platform = std::move(condensed.platform);
+    at.stability = condensed.stability;
   } else {
+    at.platform = statics::platform_stiffness(system, at.A, false);
     at.tangent = statics::eigenvalues_of(statics::tangent_stiffness(system, at.A, at.work));
     at.determinant = statics::tangent_determinant(system, at.A);
   }
+  at.body = statics::body_stiffness(system, at.A, at.platform, problem_.rule().body,
+                                    problem_.symmetric());
   return &at;
 }
 

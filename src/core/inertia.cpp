@@ -71,16 +71,11 @@ std::vector<double> pivot_eigenvalues(const Factorisation& f) {
   return values;
 }
 
-}  // namespace
-
-std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance) {
-  const auto f = factorise(A);
-  if (!f) return std::nullopt;
-  const std::vector<double> values = pivot_eigenvalues(*f);
+Inertia counted(const std::vector<double>& pivots, double zero_tolerance) {
   double largest = 0;
-  for (const double v : values) largest = std::max(largest, std::abs(v));
+  for (const double v : pivots) largest = std::max(largest, std::abs(v));
   Inertia inertia;
-  for (const double v : values) {
+  for (const double v : pivots) {
     if (std::abs(v) <= zero_tolerance * largest)
       ++inertia.zero;
     else
@@ -89,22 +84,34 @@ std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance) {
   return inertia;
 }
 
-std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B) {
+}  // namespace
+
+std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance) {
+  const auto f = factorise(A);
+  if (!f) return std::nullopt;
+  return counted(pivot_eigenvalues(*f), zero_tolerance);
+}
+
+std::optional<SymmetricSolution> solve_and_count(const Matrix& A, const Matrix& B) {
   assert(A.rows() == B.rows());
+  constexpr double singular = 1e-13;
   const auto f = factorise(A);
   if (!f || !B.allFinite()) return std::nullopt;
-  double largest = 0, smallest = std::numeric_limits<double>::infinity();
-  for (const double v : pivot_eigenvalues(*f)) {
-    largest = std::max(largest, std::abs(v));
-    smallest = std::min(smallest, std::abs(v));
-  }
-  if (A.rows() > 0 && !(smallest > 1e-13 * largest)) return std::nullopt;
+  const Inertia inertia = counted(pivot_eigenvalues(*f), singular);
+  if (inertia.zero > 0) return std::nullopt;
   Matrix X = f->S.asDiagonal() * B;
   const auto n = static_cast<lapack_int>(A.rows());
   if (n > 0)
-    LAPACKE_dsytrs(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(), n,
-                   f->pivots.data(), X.data(), n);
-  return Matrix(f->S.asDiagonal() * X);
+    LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(),
+                        n, f->pivots.data(), X.data(), n);
+  X = f->S.asDiagonal() * X;
+  return SymmetricSolution{std::move(X), inertia};
+}
+
+std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B) {
+  auto solution = solve_and_count(A, B);
+  if (!solution) return std::nullopt;
+  return std::move(solution->X);
 }
 
 }  // namespace springfold

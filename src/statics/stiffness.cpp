@@ -265,6 +265,48 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
   return Matrix(lu.inverse().topLeftCorner(s.F_count, s.F_count));
 }
 
+namespace {
+
+/// The chains condensed one by one; nothing where one of them is singular.
+std::optional<Condensed> condensed_chains(const System& system, const Matrix& A_full) {
+  const Index nt = system.load_size, t = system.first_pose;
+  Matrix K = A_full.block(t, t, nt, nt);
+  double largest = K.size() > 0 ? K.cwiseAbs().maxCoeff() : 0;
+  Index unstable = 0;
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    const ChainSlice& s = system.chain_slices[i];
+    const Index n = s.x_count + s.F_count;
+    const auto B = A_full.block(s.x, t, n, nt);
+    const auto solution = solve_and_count(chain_block(system, i, A_full), B);
+    if (!solution) return std::nullopt;
+    K.noalias() -= B.transpose() * solution->X;
+    if (K.size() > 0) largest = std::max(largest, K.cwiseAbs().maxCoeff());
+    unstable += solution->inertia.negative - s.F_count;
+  }
+  Condensed result{{0.5 * (K + K.transpose()), {}}, {unstable, {}}};
+  result.platform.eigenvalues = real_eigenvalues(result.platform.K, true);
+  constexpr double rounding = 1e-13;
+  Index negative = 0;
+  for (const double value : result.platform.eigenvalues) {
+    if (!(std::abs(value) >
+          rounding * largest)) {  // critical, or badly scaled: the whole matrix knows
+      result.stability.force_controlled = unstable_modes(A_full, system.closure_count());
+      return result;
+    }
+    negative += value < 0 ? 1 : 0;
+  }
+  result.stability.force_controlled = unstable + negative;
+  return result;
+}
+
+}  // namespace
+
+Condensed condense(const System& system, const Matrix& A_full, const Workspace& work) {
+  if (!system.chains_coupled && system.redundant == 0 && A_full.allFinite())
+    if (auto result = condensed_chains(system, A_full)) return std::move(*result);
+  return {platform_stiffness(system, A_full), stability(system, A_full, work)};
+}
+
 std::optional<Index> unstable_modes(const Matrix& A, Index closures) {
   const auto inertia = inertia_of(A);
   if (!inertia || inertia->zero > 0) return std::nullopt;

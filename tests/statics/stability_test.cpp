@@ -64,6 +64,24 @@ TEST_P(Indices, CountTheUnstableMotions) {
   EXPECT_GE(force_indices.size(), 3u);
 }
 
+TEST_P(Indices, AreTheSameWhenTheChainsAreCondensedOneByOne) {
+  std::mt19937 random(83);
+  for (int trial = 0; trial < 120; ++trial) {
+    const ChainShape shape = GetParam() == TaskSpace::spatial ? ChainShape{1, 7} : ChainShape{1, 4};
+    const double load = std::pow(4.0, trial % 5) - 1;
+    State state = random_equilibrium(random, GetParam(), 2 + trial % 2, shape, load);
+    if (GetParam() == TaskSpace::spatial) state.inputs.W.tail(3).setZero();
+    const Matrix A = evaluate(state).A;
+    const Condensed together = condense(state.system, A);
+    const Stability counted = stability(state.system, A);
+    EXPECT_EQ(together.stability.pose_controlled, counted.pose_controlled) << "trial " << trial;
+    EXPECT_EQ(together.stability.force_controlled, counted.force_controlled) << "trial " << trial;
+    const PlatformStiffness platform = platform_stiffness(state.system, A);
+    ASSERT_EQ(together.platform.K.size(), platform.K.size());
+    EXPECT_LE((together.platform.K - platform.K).norm(), 1e-12 * platform.K.norm());
+  }
+}
+
 TEST_P(Indices, AddUpOverChainsAndPlatform) {
   // Haynsworth: force-controlled = pose-controlled + negative eigenvalues of the platform stiffness.
   std::mt19937 random(82);
@@ -134,6 +152,7 @@ TEST(Indices, AreEmptyInACriticalState) {
   const State state = column(1, 1);  // k / l = 1: an eigenvalue is zero
   const Stability counted = stability(state.system, evaluate(state).A);
   EXPECT_FALSE(counted.force_controlled.has_value());
+  EXPECT_FALSE(condense(state.system, evaluate(state).A).stability.force_controlled.has_value());
   EXPECT_FALSE(unstable_modes(Matrix::Zero(2, 2), 0).has_value());
 }
 

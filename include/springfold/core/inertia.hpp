@@ -21,6 +21,16 @@ struct Inertia {
 /// @returns nothing when A holds a value that is not finite
 std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance = 1e-13);
 
+/// A^-1 B and the inertia of A.
+struct SymmetricSolution {
+  Matrix X{};
+  Inertia inertia{};
+};
+
+/// Both of them from one factorisation.
+/// @returns nothing where solve_symmetric does
+std::optional<SymmetricSolution> solve_and_count(const Matrix& A, const Matrix& B);
+
 /// Solves A X = B for symmetric indefinite A by the same factorisation of the equilibrated matrix.
 /// @returns nothing when A is singular to working precision or not finite
 std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B);

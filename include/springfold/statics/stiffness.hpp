@@ -93,6 +93,20 @@ struct Stability {
 ///                      closures are redundant
 Stability stability(const System& system, const Matrix& A_full, const Workspace& work = {});
 
+/// Platform stiffness and stability together, the chains condensed one by one:
+///
+///     A = | A_1          B_1 |
+///         |      A_2     B_2 |      K = D - sum B_i^T A_i^-1 B_i,   n_minus(A) = sum n_minus(A_i) + n_minus(K)
+///         | B_1^T B_2^T  D   |
+///
+/// One factorisation of each A_i serves both. Where that does not go (chains that couple otherwise than
+/// through bodies, redundant closures, singular A_i) the two functions above do it.
+struct Condensed {
+  PlatformStiffness platform{};
+  Stability stability{};
+};
+Condensed condense(const System& system, const Matrix& A_full, const Workspace& work = {});
+
 /// Unstable modes of a reduced KKT matrix with `closures` multipliers among its unknowns; empty if
 /// an eigenvalue is zero.
 std::optional<Index> unstable_modes(const Matrix& A, Index closures);
