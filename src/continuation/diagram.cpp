@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include "coincide.hpp"
@@ -42,6 +43,7 @@ class Tracer {
   bool at_hit(const Hit& hit, bool ends = false);
   void follow(const Task& task);
   void attach_to_junction(const Task& task, Branch& branch);
+  std::optional<double> rest_of_way_back(const Way& way, const Curve& back, double gap) const;
   bool too_many() const {
     return static_cast<int>(diagram_.branches.size()) >= options_.maximum_branches;
   }
@@ -198,6 +200,24 @@ void Tracer::add_start(const DiagramStart& start, int number) {
     queue_.push_back({number, -1, -1, point_on_ray(walker_, point, ray), 0});
 }
 
+/// Where a point is nearly as symmetric as a circle, branches are hard to tell from each other beside it,
+/// and a trace back ends before it. It has arrived all the same if most of the way lies behind it, nothing
+/// singular was met, and the rest leads straight to the junction along the way's own tangent.
+/// @returns length of the rest
+std::optional<double> Tracer::rest_of_way_back(const Way& way, const Curve& back,
+                                               double gap) const {
+  constexpr double most = 0.35, straight = 0.99;
+  const CurvePoint& last = back.points.back();
+  const Direction rest = between(walker_, way.point, last);
+  const double length = length_of(walker_, rest);
+  const bool met = std::any_of(back.hits.begin(), back.hits.end(),
+                               [](const Hit& hit) { return hit.kind != HitKind::unresolved; });
+  if (met || back.stop == StopReason::observer || !(length > 0) || length > most * gap ||
+      cosine(walker_, rest, way.point.tangent) < straight)
+    return std::nullopt;
+  return length;
+}
+
 /// Puts the junction itself before the first point of a branch that begins beside it. The piece in
 /// between is traced back: it must lead to the junction without passing anything else.
 void Tracer::attach_to_junction(const Task& task, Branch& branch) {
@@ -219,7 +239,8 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
     const double distance = length_of(walker_, between(walker_, junction.point, hit.point));
     const bool level = std::abs(hit.point.lambda - junction.point.lambda) <= 1e-12 * scale;
-    return distance <= std::max(options_.same_place * scale, (level ? 0.2 : 1e-3) * gap);
+    const double blur = level ? 0.2 : hit.kind == HitKind::unresolved ? 0.1 : 1e-3;
+    return distance <= std::max(options_.same_place * scale, blur * gap);
   };
   const auto hit_on_the_way = [&](const Hit& hit) {
     reached = is_junction_itself(hit);
@@ -232,11 +253,16 @@ void Tracer::attach_to_junction(const Task& task, Branch& branch) {
                          near.trace, not_too_far, hit_on_the_way);
   // A kink ends the trace by itself.
   if (!reached && !way_back.hits.empty()) reached = is_junction_itself(way_back.hits.back());
-  if (!reached) {
+  double length = 0;
+  if (reached) {
+    length = way_back.hits.back().point.s;
+  } else if (const auto rest = rest_of_way_back(way, way_back, gap)) {
+    length = way_back.points.back().s + *rest;
+    std::erase_if(between_them, [](const Hit& hit) { return hit.kind == HitKind::unresolved; });
+  } else {
     doubt("a branch could not be traced back to its branch point", junction.point);
     return;
   }
-  const double length = way_back.hits.back().point.s;
   std::vector<CurvePoint> points{way.point};
   points.front().s = 0;
   const auto turned = [&](CurvePoint p) {
