@@ -14,19 +14,8 @@ constexpr Index jacobi_size = 32;
 
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
-}  // namespace
-
-Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau) {
-  const Index n = at.dF_dx.rows();
-  Matrix E(n + 1, n + 1);
-  E << at.dF_dx, at.dF_dlambda, (weights.array() * tau.dx.array()).matrix().transpose(),
-      tau.dlambda;
-  return E;
-}
-
-bool surely_regular(const Matrix& E0, const Matrix& E1) {
-  const Eigen::PartialPivLU<Matrix> lu(E0);
-  const Matrix X = lu.solve(E1 - E0).cwiseAbs();
+/// Is the spectral radius of the matrix X >= 0 below 1/2?
+bool is_small(const Matrix& X) {
   if (!X.allFinite()) return false;
   Vector d = Vector::Ones(X.cols());
   for (int i = 0; i < 8; ++i) {
@@ -37,6 +26,23 @@ bool surely_regular(const Matrix& E0, const Matrix& E1) {
     d = (Xd / largest).cwiseMax(1e-12);
   }
   return false;
+}
+
+}  // namespace
+
+Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau) {
+  const Index n = at.dF_dx.rows();
+  Matrix E(n + 1, n + 1);
+  E << at.dF_dx, at.dF_dlambda, (weights.array() * tau.dx.array()).matrix().transpose(),
+      tau.dlambda;
+  return E;
+}
+
+bool surely_regular(const std::vector<Matrix>& E, std::size_t middle) {
+  const Eigen::PartialPivLU<Matrix> lu(E[middle]);
+  for (std::size_t i = 0; i < E.size(); ++i)
+    if (i != middle && !is_small(lu.solve(E[i] - E[middle]).cwiseAbs())) return false;
+  return true;
 }
 
 Vector singular_values(const Matrix& E) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "springfold/continuation/newton.hpp"
 
@@ -16,11 +17,11 @@ namespace springfold::continuation {
 /// regular at limit points, singular exactly at branch points; its corank is theirs.
 Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau);
 
-/// False if a matrix that moves from E0 to E1 may become singular on the way. With
-/// X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if the spectral radius of |X| is below
-/// 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and Wielandt). A factor of two
-/// is left for motion that is not straight.
-bool surely_regular(const Matrix& E0, const Matrix& E1);
+/// False if a matrix that moves from E0 = E[middle] to one of the others may become singular on the way.
+/// With X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if the spectral radius of |X| is
+/// below 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and Wielandt). A factor of
+/// two is left for motion that is not straight.
+bool surely_regular(const std::vector<Matrix>& E, std::size_t middle);
 
 /// Fixed borders and the m x m function that they define (Govaerts 2000, chapter 3),
 ///

@@ -307,8 +307,6 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
             const StepObserver& observer, const HitObserver& at_hit) {
   assert(problems_in(options).empty());
   const Normalised own(problem, x, lambda, start.piece);
-  if (own.trivial())
-    return trace_in_own_units(problem, x, lambda, start, events, options, observer, at_hit);
   return own.outside(trace_in_own_units(own, own.inside(x), lambda, own.inside(start),
                                         own.inside(events), options, own.inside(observer),
                                         own.inside(at_hit)));

@@ -168,15 +168,10 @@ WatchedZeros singularities_on(const WatchedStep& arc,
     if (!matrix) return {.resolved = false};
     E.push_back(*matrix);
   }
-  bool regular = true;
-  double reach = 0;
   const std::size_t middle = E.size() / 2;
-  for (std::size_t i = 0; i < E.size(); ++i) {
-    if (i == middle) continue;
-    regular = regular && surely_regular(E[middle], E[i]);
-    reach = std::max(reach, (E[i] - E[middle]).norm());
-  }
-  if (regular) return {};
+  if (surely_regular(E, middle)) return {};
+  double reach = 0;
+  for (const Matrix& other : E) reach = std::max(reach, (other - E[middle]).norm());
   WatchedZeros result{.order = small_singular_values(E[middle], 2 * reach)};
   const Borders borders = borders_of(E[middle], result.order);
   double scale = 0;
