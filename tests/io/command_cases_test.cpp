@@ -184,6 +184,19 @@ TEST_F(CommandCases, LoadsThatGrowOrHaveNoPotentialAreRefused) {
   EXPECT_THAT(messages(follows), ElementsAre(HasSubstr("load \"F\" has no potential")));
 }
 
+TEST_F(CommandCases, SpringsCountedFromAStartPoseAreRefused) {
+  for (const std::string kind : {"kind = \"control\"\ntargets = [[0, 0]]",
+                                 "kind = \"workspace\"\nvelocity_factors = [0.5, 2]\nup_to = 1"}) {
+    std::string counted = text(kind);
+    const std::string law = "law = \"linear\",";
+    ASSERT_NE(counted.find(law), std::string::npos) << counted;
+    counted.replace(counted.find(law), law.size(), law + " origin = \"start\",");
+    EXPECT_THAT(messages(counted),
+                ElementsAre(HasSubstr("with origin = \"start\": this kind has no start pose, need "
+                                      "the spring's own origin")));
+  }
+}
+
 TEST_F(CommandCases, RedundantClosuresAreRefused) {
   const std::string rod = R"([[chain]]
 name = "ROD"
