@@ -39,8 +39,7 @@ class Grower {
 
  private:
   void run() {
-    // The two curves that leave a start count as one branch.
-    options_.maximum_branches = t_.study.branches.maximum + static_cast<int>(grown_.starts.size());
+    options_.maximum_branches = t_.study.branches.maximum;
     int points = 0;
     const auto observe = [&](const CurvePoint& point) {
       ++points;

@@ -61,39 +61,52 @@ bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
   return m >= n || values[n - m] <= gap * values[n - m - 1];
 }
 
+/// How far another place is from an interpolated one, along the interpolated curve and aside of it.
+struct Offset {
+  double at = 0;  ///< arc length of the other place
+  double along = 0, aside = 0;
+};
+
+Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePoint& interpolated,
+                 const CurvePoint& other) {
+  const Vector& weights = arc.walker().weights;
+  const Index n = other.x.size();
+  const Direction from_start{other.x - arc.from().x, other.lambda - arc.from().lambda};
+  Offset offset{.at = metric_product(weights, from_start, arc.from().tangent)};
+  offset.along = offset.at - place.at;
+  const Direction aside{other.x - interpolated.x - offset.along * place.along.head(n),
+                        other.lambda - interpolated.lambda - offset.along * place.along[n]};
+  offset.aside = std::sqrt(metric_product(weights, aside, aside));
+  return offset;
+}
+
 /// Takes over the exact place of a branch point, if it is this one: near the interpolated place, and on
-/// the interpolated curve.
-/// @returns false when the curves pass each other there
+/// the interpolated curve. Otherwise the interpolated one stays, with what is known of its error.
+/// @returns false when the curves pass each other there, or the place is not known
 bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Candidate& found) {
-  const auto exact =
-      place_branch_point(arc.walker(), found.point, static_cast<int>(m), 2 * together);
-  if (exact && exact->misfit <= merged) {
-    const Direction from_start{exact->point.x - arc.from().x,
-                               exact->point.lambda - arc.from().lambda};
-    const double at = metric_product(arc.walker().weights, from_start, arc.from().tangent);
-    const double along = at - place.at;
-    const Direction aside{
-        exact->point.x - found.point.x - along * place.along.head(found.point.x.size()),
-        exact->point.lambda - found.point.lambda - along * place.along[found.point.x.size()]};
-    const double length = std::sqrt(metric_product(arc.walker().weights, aside, aside));
-    if (std::abs(along) <= together && length <= 10 * merged) {
-      if (!(exact->left <= branches_apart)) {
-        arc.note_passing();
-        return false;
-      }
-      found.point = exact->point;
-      found.at = at;
-      found.off = exact->off;
-      found.before = std::min(found.before, at);
-      found.after = std::max(found.after, at);
-      return true;
-    }
-  }
+  const int corank = static_cast<int>(m);
+  const double reach = std::clamp(0.3 * place.free, together, 1e-3);
+  const auto exact = place_branch_point(arc.walker(), found.point, corank, 2 * reach);
   found.off = place.doubt;
+  if (exact) {
+    const Offset offset = offset_of(arc, place, found.point, exact->point);
+    const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * merged;
+    if (near && exact->misfit <= merged) {
+      if (exact->left <= branches_apart) {
+        found.point = exact->point;
+        found.at = offset.at;
+        found.off = exact->off;
+        found.before = std::min(found.before, offset.at);
+        found.after = std::max(found.after, offset.at);
+        return true;
+      }
+      arc.note_passing();
+      return false;
+    }
+    found.off = std::max({found.off, exact->misfit, std::abs(offset.along), offset.aside});
+  }
   if (!(place.doubt <= merged)) return false;
-  const auto left = [&] {
-    return left_of_residual(arc.walker(), found.point, static_cast<int>(m));
-  };
+  const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
   const double beside = left();
   polish(arc, found.point, m);
   // At the very point the problem may not be defined.

@@ -16,6 +16,7 @@ struct Singularity {
   Vector u{};        ///< (x, lambda)
   Vector along{};    ///< its rate along the arc
   double doubt = 0;  ///< how far the place may be off
+  double free = 0;   ///< distance to the next zero of the test function; 0: not known
 };
 
 /// The curve's points near t, interpolated.

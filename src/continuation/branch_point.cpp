@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "reduced_equation.hpp"
 
@@ -32,16 +33,18 @@ double least_rate(const ReducedEquation& e, double largest) {
   return J ? 1e-10 * J->norm() + 1e-9 * largest : HUGE_VAL;
 }
 
-/// One step from U with the kernels of e: along them, and what F asks for across them.
+/// One step from U with the kernels of e: first what F asks for across them, then along them from there.
 std::optional<Vector> step_from(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
                                 const Vector& U) {
-  const auto J = scaled_jacobian(*e.walker, U, e.root, e.piece);
   Vector F;
-  if (!J || !residual_at(e, U, F)) return std::nullopt;
-  const Vector c = rate.solve(-in_kernels(e, *J));
+  if (!residual_at(e, U, F)) return std::nullopt;
   Vector right = Vector::Zero(F.size() + e.k + 1);
   right.head(F.size()) = -F;
-  Vector step = e.N * c + e.bordered.solve(right).head(U.size());
+  const Vector across = e.bordered.solve(right).head(U.size());
+  if (!across.allFinite()) return std::nullopt;
+  const auto J = scaled_jacobian(*e.walker, U + across, e.root, e.piece);
+  if (!J) return std::nullopt;
+  Vector step = across + e.N * rate.solve(-in_kernels(e, *J));
   if (!step.allFinite()) return std::nullopt;
   return step;
 }
@@ -53,17 +56,48 @@ Vector aside(Index size, int k) {
   return d;
 }
 
-/// Largest distance between places that steps from around U lead to.
-double scatter_of_place(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
-                        const Vector& U) {
-  double scatter = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Vector start = U + 1e-9 * e.scale * aside(U.size(), k).normalized();
+/// Places that steps from around U lead to: their scatter is what rounding makes of a place, their mean is
+/// more exact than any of them.
+struct Places {
+  Vector mean{};
+  double scatter = HUGE_VAL;  ///< largest distance from the mean
+};
+
+Places places_around(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
+                     const Vector& U, int number) {
+  std::vector<Vector> ends;
+  Places places{.mean = Vector::Zero(U.size())};
+  for (int k = 0; k < number; ++k) {
+    const Vector start = U + 1e-11 * e.scale * aside(U.size(), k).normalized();
     const auto step = step_from(e, rate, start);
-    if (!step) return std::numeric_limits<double>::infinity();
-    scatter = std::max(scatter, (start + *step - U).norm());
+    if (!step) return places;
+    ends.push_back(start + *step - U);
+    places.mean += ends.back() / number;
   }
-  return scatter;
+  places.scatter = 0;
+  for (const Vector& end : ends)
+    places.scatter = std::max(places.scatter, (end - places.mean).norm());
+  places.mean += U;
+  return places;
+}
+
+/// Error of the place by rounding that is the same everywhere, so that no scatter shows it: a unit in the
+/// last place of every entry of J, independent of each other.
+double constant_error(const ReducedEquation& e, const Matrix& J, double least_rate) {
+  const Matrix squares = e.L.cwiseAbs2().transpose() * (J.cwiseAbs2() * e.N.cwiseAbs2());
+  return std::numeric_limits<double>::epsilon() * std::sqrt(squares.sum()) / least_rate;
+}
+
+/// Puts U, which is exact up to rounding, where many steps agree.
+/// @returns the estimated error
+double settle(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate, Vector& U) {
+  const Places few = places_around(e, rate, U, 4);
+  if (!(few.scatter > 1e-12 * e.scale) || !std::isfinite(few.scatter)) return few.scatter;
+  constexpr int many = 32;
+  const Places more = places_around(e, rate, U, many);
+  if (!std::isfinite(more.scatter)) return few.scatter;
+  U = more.mean;
+  return 2 * more.scatter / std::sqrt(many);
 }
 
 /// L^T F at U against its rounding, which is sampled around U: to first order L^T F is constant there.
@@ -100,7 +134,7 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
   const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
   Vector U = U_near;
   double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 10; ++iteration) {
+  for (int iteration = 0; iteration < 14; ++iteration) {
     place.point.x = U.head(n).cwiseQuotient(root.head(n));
     place.point.lambda = U[n];
     const auto e = reduce(walker, place.point, corank);
@@ -111,17 +145,19 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
     const auto step = step_from(*e, rate, U);
     if (!step) return std::nullopt;
     const double moved = step->norm();
-    if (moved <= 1e-7 * e->scale || (moved <= 1e-5 * e->scale && moved > 0.3 * before)) {
+    // What the kernels of a place nearby make of the step is of second order in the distance from it.
+    if (moved <= 1e-11 * e->scale || (moved <= 1e-5 * e->scale && moved > 0.3 * before)) {
       U += *step;
       for (int polish = 0; polish < 2; ++polish)
         if (const auto last = step_from(*e, rate, U)) U += *last;
+      place.off = settle(*e, rate, U);
       if (!((U - U_near).norm() <= reach)) return std::nullopt;
       place.point.x = U.head(n).cwiseQuotient(root.head(n));
       place.point.lambda = U[n];
       const auto J = scaled_jacobian(walker, U, root, near.piece);
       if (!J) return std::nullopt;
       place.misfit = in_kernels(*e, *J).norm() / values[corank];
-      place.off = scatter_of_place(*e, rate, U);
+      place.off = std::max(place.off, constant_error(*e, *J, values[corank]));
       place.left = left_at(*e, U);
       return place;
     }

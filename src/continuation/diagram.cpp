@@ -44,8 +44,21 @@ class Tracer {
   void follow(const Task& task);
   void attach_to_junction(const Task& task, Branch& branch);
   std::optional<double> rest_of_way_back(const Way& way, const Curve& back, double gap) const;
-  bool too_many() const {
-    return static_cast<int>(diagram_.branches.size()) >= options_.maximum_branches;
+  /// The two curves that leave a start count as one branch.
+  bool too_many(int start = -1) const {
+    int count = 0, twins = 0;
+    for (const Branch& branch : diagram_.branches) {
+      const bool second = branch.start >= 0 && branch.start == start;
+      twins += second ? 1 : 0;
+      count += branch.start < 0 || first_of_pair(branch) ? 1 : 0;
+    }
+    return twins % 2 == 0 && count >= options_.maximum_branches;
+  }
+  bool first_of_pair(const Branch& branch) const {
+    int before = 0;
+    for (const Branch* other = diagram_.branches.data(); other != &branch; ++other)
+      before += other->start == branch.start ? 1 : 0;
+    return before % 2 == 0;
   }
   void doubt(const std::string& what, const CurvePoint& where) {
     diagram_.doubts.push_back(what + " at lambda = " + rounded(where.lambda));
@@ -310,7 +323,7 @@ void Tracer::follow(const Task& task) {
       const bool twin = branch.start == task.start && branch.curve.stop != StopReason::closed;
       if (!twin && passes_through(walker_.problem, branch.curve, task.from, options_.trace)) return;
     }
-    if (too_many()) {
+    if (too_many(task.start)) {
       ++diagram_.not_followed;
       return;
     }

@@ -56,6 +56,7 @@ std::optional<Located> locate(const Walker& walker, const CurvePoint& from, doub
   if (fa == 0 || fb == 0) {
     low = high = fa == 0 ? a : b;
   } else {
+    if (!(a < b) || !std::isfinite(a) || !std::isfinite(b)) return std::nullopt;
     const double tolerance = walker.options.location_tolerance * std::abs(b - a);
     const auto close = [tolerance](double l, double h) { return std::abs(h - l) <= tolerance; };
     std::uintmax_t most = 100;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "watched_step.hpp"
+#include "words.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -162,6 +163,19 @@ Hit hit_of(const WatchedStep& arc, Candidate candidate) {
   return hit;
 }
 
+/// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
+std::optional<Hit> inexact_place(const Hit& hit, double off) {
+  constexpr double exact = 1e-10;
+  const double scale =
+      std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
+  if (hit.kind != HitKind::branch_point || off <= exact * scale) return std::nullopt;
+  Hit doubt = hit;
+  doubt.kind = HitKind::unresolved;
+  doubt.name = "unresolved: rounding lets the branch point be placed to " + rounded(off) + " only";
+  doubt.multiplicity = 0;
+  return doubt;
+}
+
 }  // namespace
 
 SingularPoints singular_points(const Walker& walker,
@@ -193,7 +207,11 @@ SingularPoints singular_points(const Walker& walker,
   if (walker.options.limit_points && walker.options.branch_points)
     result.doubt = accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
-  for (Candidate& candidate : found) result.hits.push_back(hit_of(arc, std::move(candidate)));
+  for (Candidate& candidate : found) {
+    const double off = candidate.off;
+    result.hits.push_back(hit_of(arc, std::move(candidate)));
+    if (auto doubt = inexact_place(result.hits.back(), off)) result.hits.push_back(*doubt);
+  }
   return result;
 }
 

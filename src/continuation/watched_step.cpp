@@ -100,7 +100,9 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   constexpr double unknown = std::numeric_limits<double>::infinity();
   std::vector<Candidate> result;
   const auto add = [&](const Singularity& place, Index m, bool touches) {
-    if (auto candidate = candidate_at(arc, place, zeros, m, touches))
+    Singularity alone = place;
+    alone.free = free;
+    if (auto candidate = candidate_at(arc, alone, zeros, m, touches))
       result.push_back(std::move(*candidate));
   };
   for (Index m = most; m > 1; --m) {
@@ -148,6 +150,20 @@ std::vector<double> singular_distances(const WatchedStep& arc, double t) {
   return distances;
 }
 
+/// A corrected point is off by the rounding of F over the smallest singular value, and that changes an entry
+/// of Sigma in proportion to the rate of E: this is the product of the entry and its change, the same at
+/// every distance from a singular point.
+double blur_of_entries(const WatchedStep& arc, const Matrix& E, const Borders& borders,
+                       double reach) {
+  const Index n = arc.from().x.size();
+  Vector sizes(n + 1);
+  sizes << arc.from().x.cwiseAbs().cwiseMax(1e-3), std::abs(arc.from().lambda);
+  const double rounding_of_F =
+      std::numeric_limits<double>::epsilon() *
+      (borders.B.topRows(n).cwiseAbs().transpose() * (E.topRows(n).cwiseAbs() * sizes)).norm();
+  return reach / arc.length() * rounding_of_F;
+}
+
 /// Distance from zeros[first..last] to the nearest other one.
 double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::size_t last,
                    double length) {
@@ -189,8 +205,12 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   const double entry = sigma_noise(E[middle], borders);
   const double noise = std::max(
       rounding * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
-  if (scale <= noise) return {.resolved = false};
-  const ZeroSearch found = find_zeros(determinant, 0, arc.high(), noise, resolution);
+  const double blur = result.order > 1 ? m * std::pow(scale, 1 - 2 / m) *
+                                             blur_of_entries(arc, E[middle], borders, reach)
+                                       : 0.0;
+  if (scale <= std::max(noise, blur)) return {.resolved = false};
+  const ZeroSearch found =
+      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   return result;

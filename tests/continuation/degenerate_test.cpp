@@ -71,5 +71,49 @@ TEST(Corank, IsNotRaisedByMembersOfVeryDifferentStiffness) {
   }
 }
 
+/// V = weight (x^4 / 4 - (lambda - 0.3) x^2 / 2) + (w - sin x)^2 / 2 in unknowns turned by 0.7 rad: beside the
+/// stiff member the terms that make the branch point are small.
+struct WeakCrossing {
+  double weight = 1;
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  static Matrix turn() {
+    return Matrix{{std::cos(0.7), -std::sin(0.7)}, {std::sin(0.7), std::cos(0.7)}};
+  }
+  bool residual(const Vector& q, double lambda, Vector& F) const {
+    const Vector z = turn().transpose() * q;
+    const double x = z[0], off = z[1] - std::sin(x);
+    F = turn() * Vector{{weight * (x * x - (lambda - 0.3)) * x - std::cos(x) * off, off}};
+    return true;
+  }
+  bool derivatives(const Vector& q, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    const Vector z = turn().transpose() * q;
+    const double x = z[0], c = std::cos(x), off = z[1] - std::sin(x);
+    dF_dx =
+        turn() *
+        Matrix{{weight * (3 * x * x - (lambda - 0.3)) + c * c + std::sin(x) * off, -c}, {-c, 1}} *
+        turn().transpose();
+    dF_dlambda = turn() * Vector{{-weight * x, 0}};
+    return true;
+  }
+};
+
+TEST(BranchPoint, OfCurvesThatCrossWeaklyIsPlacedToRoundingOrSaidToBeInexact) {
+  for (const double weight : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
+    for (const double from : {-0.3, -0.31, -0.33}) {
+      const WeakCrossing problem{weight};
+      const Curve curve =
+          follow(problem, {Vector::Zero(2), from, {}, {Vector::Zero(2), 1}}, {lambda_reaches(0.8)});
+      const auto points = hits_of(curve, HitKind::branch_point);
+      const auto doubts = hits_of(curve, HitKind::unresolved);
+      ASSERT_EQ(points.size(), 1u) << weight;
+      const double error =
+          std::max(std::abs(points[0].point.lambda - 0.3), points[0].point.x.norm());
+      EXPECT_TRUE(error < 1e-10 || !doubts.empty()) << weight << ": " << error;
+      EXPECT_TRUE(weight < 1e-4 || doubts.empty()) << weight;
+      EXPECT_LT(error * weight, 1e-14) << weight;
+    }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

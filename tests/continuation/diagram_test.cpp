@@ -270,5 +270,20 @@ TEST(Diagram, IsTheSameEveryTime) {
   }
 }
 
+TEST(Diagram, HasNoMoreBranchesThanAskedForAndCountsTheTwoHalvesOfAStartAsOne) {
+  const TwoModes modes{1, 1.4};
+  for (const double lambda :
+       {0.2, 1.0})  // a regular start, and one on a branch point with four ways
+    for (const int most : {1, 2, 3}) {
+      DiagramOptions options;
+      options.maximum_branches = most;
+      const Diagram diagram =
+          trace_diagram(modes, {{.x = Vector::Zero(2), .lambda = lambda, .piece = {}}},
+                        {lambda_reaches(0), lambda_reaches(2)}, options);
+      EXPECT_EQ(diagram.branches.size(), static_cast<std::size_t>(lambda < 1 ? most + 1 : most));
+      EXPECT_GT(diagram.not_followed, 0);
+    }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

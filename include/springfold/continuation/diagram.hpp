@@ -12,8 +12,8 @@ namespace springfold::continuation {
 
 struct DiagramOptions {
   TraceOptions trace{};
-  int maximum_branches = 100;
-  int maximum_depth = 4;      ///< special points between a branch and the start; 0: no branching
+  int maximum_branches = 100;  ///< the two curves that leave a start count as one
+  int maximum_depth = 4;       ///< special points between a branch and the start; 0: no branching
   double same_place = 1e-6;   ///< special points closer than this, relative to max(1, |x|), are one
   bool through_kinks = true;  ///< also follow the ways out of branching kinks
   /// Why the ways out of a special point are not searched for, in words; empty: they are. A point that
