@@ -1,11 +1,10 @@
 #include "springfold/core/frontal.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "dense_root.hpp"
 #include "front.hpp"
 #include "frontal_plan.hpp"
 #include "springfold/core/scaling.hpp"
@@ -44,8 +43,10 @@ struct Frontal::State {
   std::vector<Index> left_sizes{};
 
   std::vector<Index> root_ids{}, slots{};
-  Matrix schur{}, root{};  ///< of A; with borders
-  Eigen::FullPivLU<Matrix> root_lu{};
+  Index rest = 0;                               ///< variables in the root
+  std::vector<double> schur{};                  ///< of A, square
+  DenseRoot root{};                             ///< with borders
+  std::vector<double> right{}, inertia_work{};  ///< scratch
   bool regular = false;
   Index largest_front = 0;
   double growth = 0;
@@ -54,8 +55,8 @@ struct Frontal::State {
   void assemble(std::size_t f, const std::vector<double>& values);
   void leave(std::size_t f, Index pivots);
   void build_schur(const Matrix& given);
-  void solve_root();
-  bool solve(Matrix& X, bool transposed) const;
+  void factorise_root();
+  bool solve(Matrix& X, bool transposed);
 };
 
 /// Border columns scaled by powers of two to entries of size one.
@@ -130,7 +131,7 @@ void Frontal::State::assemble(std::size_t f, const std::vector<double>& values) 
 
 /// Hands what is not eliminated to the next front, or to the root.
 void Frontal::State::leave(std::size_t f, Index pivots) {
-  const Index n = front.size, rest = n - pivots;
+  const Index n = front.size, left = n - pivots;
   const bool ends = pattern.ends_string[f] != 0;
   std::vector<double>& to = ends ? left_values : carried;
   if (!ends) carried.clear();
@@ -141,7 +142,7 @@ void Frontal::State::leave(std::size_t f, Index pivots) {
   waiting_ids.clear();
   if (ends) {
     left_ids.insert(left_ids.end(), front.ids.begin() + pivots, front.ids.end());
-    left_sizes.push_back(rest);
+    left_sizes.push_back(left);
   } else {
     waiting_ids.assign(front.ids.begin() + pivots, front.ids.begin() + front.candidates);
   }
@@ -152,55 +153,57 @@ void Frontal::State::build_schur(const Matrix& given) {
   root_ids = plans.loose;
   for (const Index id : left_ids)
     if (id < first || id >= first + count) root_ids.push_back(id);
-  const auto waiting = static_cast<Index>(root_ids.size());
   for (Index i = 0; i < count; ++i) root_ids.push_back(first + i);
   for (std::size_t i = 0; i < root_ids.size(); ++i)
     slots[static_cast<std::size_t>(root_ids[i])] = static_cast<Index>(i);
-  schur.setZero(waiting + count, waiting + count);
-  if (count > 0) schur.bottomRightCorner(count, count) = given;
+  rest = static_cast<Index>(root_ids.size());
+  schur.assign(static_cast<std::size_t>(rest * rest), 0.0);
+  const auto entry = [&](Index row, Index column) -> double& {
+    return schur[static_cast<std::size_t>(column * rest + row)];
+  };
+  for (Index c = 0; c < count; ++c)
+    for (Index r = 0; r < count; ++r) entry(rest - count + r, rest - count + c) = given(r, c);
   const Index* ids = left_ids.data();
   const double* values = left_values.data();
   for (const Index n : left_sizes) {
     for (Index c = 0; c < n; ++c)
       for (Index r = 0; r < n; ++r)
-        schur(slots[static_cast<std::size_t>(ids[r])], slots[static_cast<std::size_t>(ids[c])]) +=
+        entry(slots[static_cast<std::size_t>(ids[r])], slots[static_cast<std::size_t>(ids[c])]) +=
             values[c * n + r];
     ids += n;
     values += n * n;
   }
 }
 
-void Frontal::State::solve_root() {
-  const Index n = schur.rows(), k = borders.count;
-  root.resize(n + k, n + k);
-  root.topLeftCorner(n, n) = schur;
+void Frontal::State::factorise_root() {
+  const Index n = rest, k = borders.count;
+  root.resize(n + k);
+  for (Index c = 0; c < n; ++c)
+    for (Index r = 0; r < n; ++r) root.at(r, c) = schur[static_cast<std::size_t>(c * n + r)];
   for (Index i = 0; i < n; ++i) {
     const double* row = borders.of(root_ids[static_cast<std::size_t>(i)]);
     for (Index c = 0; c < k; ++c) {
-      root(i, n + c) = row[c];
-      root(n + c, i) = row[k + c];
+      root.at(i, n + c) = row[c];
+      root.at(n + c, i) = row[k + c];
     }
   }
-  if (k > 0) root.bottomRightCorner(k, k) = borders.corner;
+  for (Index c = 0; c < k; ++c)
+    for (Index r = 0; r < k; ++r) root.at(n + r, n + c) = borders.corner(r, c);
   growth = 0;
   for (const double entry : borders.rows) growth = std::max(growth, std::abs(entry));
-  for (std::size_t f = 0; f < factors.fronts.size(); ++f)
-    if (k > 0) divide(factors, f, borders.rows.data(), 2 * k, 2 * k);
-  regular = true;
-  if (n + k == 0) return;
-  root_lu.compute(root);
-  const auto pivots = root_lu.matrixLU().diagonal().cwiseAbs();
-  regular = pivots.minCoeff() > singular_pivot * pivots.maxCoeff();
+  for (std::size_t f = 0; k > 0 && f < factors.fronts.size(); ++f)
+    divide(factors, f, borders.rows.data(), 2 * k, 2 * k);
+  regular = root.factorise() > singular_pivot;
 }
 
-bool Frontal::State::solve(Matrix& X, bool transposed) const {
-  const Index k = borders.count, n = schur.rows();
+bool Frontal::State::solve(Matrix& X, bool transposed) {
+  const Index k = borders.count, n = rest;
   assert(X.rows() == pattern.size + k);
   if (!regular) return false;
   const Index B = transposed ? k : 0, C = transposed ? 0 : k;  // where they begin in a border row
   const Vector& before = transposed ? column_scale : row_scale;
   const Vector& after = transposed ? row_scale : column_scale;
-  Vector right(n + k);
+  right.resize(static_cast<std::size_t>(n + k));
   for (Index column = 0; column < X.cols(); ++column) {
     double* x = data_of(X, column);
     double* corner = x + pattern.size;
@@ -214,20 +217,20 @@ bool Frontal::State::solve(Matrix& X, bool transposed) const {
       }
       divide(factors, f, x, 1, 1);
     }
-    for (Index i = 0; i < n; ++i) right[i] = x[root_ids[static_cast<std::size_t>(i)]];
-    for (Index c = 0; c < k; ++c) right[n + c] = corner[c];
-    if (n + k > 0)
-      right = transposed ? Vector(root_lu.transpose().solve(right)) : Vector(root_lu.solve(right));
-    for (Index i = 0; i < n; ++i) x[root_ids[static_cast<std::size_t>(i)]] = right[i];
+    double* rhs = right.data();
+    for (Index i = 0; i < n; ++i) rhs[i] = x[root_ids[static_cast<std::size_t>(i)]];
+    for (Index c = 0; c < k; ++c) rhs[n + c] = corner[c];
+    root.solve(rhs, transposed);
+    for (Index i = 0; i < n; ++i) x[root_ids[static_cast<std::size_t>(i)]] = rhs[i];
     for (std::size_t f = factors.fronts.size(); f-- > 0;) {
       const FrontFactors::Front& front_of = factors.fronts[f];
       for (Index t = 0; k > 0 && t < front_of.pivots; ++t) {
         const Index id = factors.ids[front_of.ids + static_cast<std::size_t>(t)];
-        for (Index c = 0; c < k; ++c) x[id] -= borders.of(id)[B + c] * right[n + c];
+        for (Index c = 0; c < k; ++c) x[id] -= borders.of(id)[B + c] * rhs[n + c];
       }
       backward(factors, f, x, 1, 1);
     }
-    for (Index c = 0; c < k; ++c) corner[c] = right[n + c] * after[c];
+    for (Index c = 0; c < k; ++c) corner[c] = rhs[n + c] * after[c];
   }
   return X.allFinite();
 }
@@ -264,8 +267,9 @@ bool Frontal::factorise(const std::vector<double>& values, const Matrix& root,
     s.leave(f, pivots);
   }
   s.build_schur(root);
-  if (!s.schur.allFinite()) return false;
-  s.solve_root();
+  for (const double entry : s.schur)
+    if (!std::isfinite(entry)) return false;
+  s.factorise_root();
   return true;
 }
 
@@ -277,15 +281,15 @@ bool Frontal::set_borders(const FrontalBorders& borders) {
     forward(s.factors, f, s.borders.rows.data(), width, width);
     add_to_corner(s.factors, f, s.borders);
   }
-  s.solve_root();
+  s.factorise_root();
   return true;
 }
 
-bool Frontal::solve(Matrix& X) const { return state_->solve(X, false); }
-bool Frontal::solve_transposed(Matrix& X) const { return state_->solve(X, true); }
+bool Frontal::solve(Matrix& X) { return state_->solve(X, false); }
+bool Frontal::solve_transposed(Matrix& X) { return state_->solve(X, true); }
 
-std::optional<Inertia> Frontal::inertia(double zero_tolerance) const {
-  const State& s = *state_;
+Inertia Frontal::inertia(double zero_tolerance) {
+  State& s = *state_;
   Inertia inertia;
   const FrontFactors& factors = s.factors;
   for (std::size_t t = 0; t < factors.two.size(); ++t) {
@@ -300,19 +304,25 @@ std::optional<Inertia> Frontal::inertia(double zero_tolerance) const {
     inertia.negative += one_of_each ? 1 : a < 0 ? 2 : 0;
     inertia.positive += one_of_each ? 1 : a < 0 ? 0 : 2;
   }
-  if (s.schur.rows() == 0) return inertia;
-  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (s.schur + s.schur.transpose()),
-                                                              Eigen::EigenvaluesOnly)
-                            .eigenvalues();
-  if (!values.allFinite()) return std::nullopt;
-  const double small = zero_tolerance * std::max(1.0, values.cwiseAbs().maxCoeff());
-  for (const double v : values)
-    ++(std::abs(v) <= small ? inertia.zero : v < 0 ? inertia.negative : inertia.positive);
+  const Index n = s.rest;
+  double largest = 1;
+  s.inertia_work.resize(s.schur.size());
+  for (Index c = 0; c < n; ++c)
+    for (Index r = 0; r < n; ++r) {
+      const double entry = 0.5 * (s.schur[static_cast<std::size_t>(c * n + r)] +
+                                  s.schur[static_cast<std::size_t>(r * n + c)]);
+      s.inertia_work[static_cast<std::size_t>(c * n + r)] = entry;
+      largest = std::max(largest, std::abs(entry));
+    }
+  const Inertia in_root = inertia_by_pivots(s.inertia_work, n, zero_tolerance * largest);
+  inertia.negative += in_root.negative;
+  inertia.zero += in_root.zero;
+  inertia.positive += in_root.positive;
   return inertia;
 }
 
 const FrontalPattern& Frontal::pattern() const { return state_->pattern; }
-Index Frontal::waiting() const { return state_->schur.rows() - state_->pattern.root_count; }
+Index Frontal::waiting() const { return state_->rest - state_->pattern.root_count; }
 Index Frontal::largest_front() const { return state_->largest_front; }
 double Frontal::border_growth() const { return state_->growth; }
 

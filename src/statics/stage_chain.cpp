@@ -187,16 +187,18 @@ void evaluate_chain(const ChainStages& stages, const System& system, std::size_t
   out.J.resize(chain.dimension(), n);
   out.force.setZero(n);
   out.force_from.setZero(from);
-  Vector poses(from + to);
+  Vector& poses = out.end_poses;
+  poses.resize(from + to);
   model::detail::BodyFrame<double> front;
   if (chain.from_moves) {
     poses.head(from) = z.segment(slice.from, from);
-    front = model::detail::body_frame<double>(chain.from_space, Vector(poses.head(from)), true);
+    front = model::detail::body_frame<double>(chain.from_space, poses.head(from), true);
   }
   if (chain.to_moves) poses.tail(to) = z.segment(slice.to, to);
   const Pose<double> end = walk_out(chain, slice, z, inputs.rho, front.pose, out);
 
-  const Vector F = z.segment(slice.F, slice.F_count);
+  Vector& F = out.wrench;
+  F = z.segment(slice.F, slice.F_count);
   model::evaluate_closure<double>(rigid(chain, front.pose, end), poses, &F, out.ends);
   out.e = out.ends.e;
   const EndWrench wrench(chain, F, out.e);
@@ -233,9 +235,12 @@ void add_chain_residual(const System& system, std::size_t i, const Vector& z, co
   const Index from = chain.first_joint();
   const auto F = z.segment(slice.F, slice.F_count);
   residual.segment(slice.F, slice.F_count) -= sums.e;
-  if (from > 0)
-    residual.segment(slice.from, from) -= sums.J.leftCols(from).transpose() * F + sums.force_from;
-  if (chain.to_moves) residual.segment(slice.to, chain.to_count()) -= sums.J_to.transpose() * F;
+  if (from > 0) {
+    residual.segment(slice.from, from).noalias() -= sums.J.leftCols(from).transpose() * F;
+    residual.segment(slice.from, from) -= sums.force_from;
+  }
+  if (chain.to_moves)
+    residual.segment(slice.to, chain.to_count()).noalias() -= sums.J_to.transpose() * F;
   for (std::size_t j = 0; j < slice.joint_coordinate.size(); ++j) {
     const Index row = slice.joint_coordinate[j], k = from + static_cast<Index>(j);
     if (row < 0) continue;

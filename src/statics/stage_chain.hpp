@@ -15,8 +15,7 @@ void add_chain_residual(const System& system, std::size_t i, const Vector& z, co
 
 /// Scales of the chain's variables: unit diagonals for the coordinates, unit compliance for wrench
 /// and moments. Joints much softer than the others keep small diagonals and wait for their wrench.
-void scale_chain(const StagePlan& plan, const System& system, std::size_t i,
-                 const StageMatrix& matrix, Vector& scale);
+void scale_chain(const StagePlan& plan, const System& system, std::size_t i, StageMatrix& matrix);
 
 /// Values of the chain's fronts, scaled.
 void fill_chain(const StagePlan& plan, const System& system, std::size_t i, StageMatrix& matrix);

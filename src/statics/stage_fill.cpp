@@ -14,39 +14,44 @@ using model::Vec3;
 /// So many joints may be far softer than the others without setting the scale.
 constexpr Index few_soft_joints = 8;
 
+/// Rows of a chain's end, columns of a body's root unknowns: on the stack.
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 8>;
+
 }  // namespace
 
-void scale_chain(const StagePlan& plan, const System& system, std::size_t i,
-                 const StageMatrix& matrix, Vector& scale) {
+void scale_chain(const StagePlan& plan, const System& system, std::size_t i, StageMatrix& matrix) {
   const ChainStages& stages = plan.chains[i];
   const ChainSlice& slice = system.chain_slices[i];
   const ChainSums& sums = matrix.sums[i];
   const Index from = system.chains[i].first_joint(), n = slice.x_count, r = stages.rank;
-  Vector diagonal(n);
-  for (Index a = 0; a < n; ++a) {
-    const Index k = from + stages.joints[static_cast<std::size_t>(a)];
-    diagonal[a] = matrix.stiffness[slice.x + a] - sums.turn.col(k).dot(sums.moment.col(k));
-  }
+  Vector& scale = matrix.scale;
+  std::vector<double>&diagonal = matrix.diagonal, &sorted = matrix.sorted;
+  diagonal.assign(static_cast<std::size_t>(n), 0.0);
   for (const StageGroup& entry : stages.groups) {
     const CoordinateGroup& group = system.coupled[entry.group];
     for (std::size_t a = 0; a < group.coordinates.size(); ++a)
-      diagonal[group.coordinates[a] - slice.x] +=
+      diagonal[static_cast<std::size_t>(group.coordinates[a] - slice.x)] +=
           group.stiffness(static_cast<Index>(a), static_cast<Index>(a));
   }
-  diagonal = diagonal.cwiseAbs();
+  for (Index a = 0; a < n; ++a) {
+    const Index k = from + stages.joints[static_cast<std::size_t>(a)];
+    double& entry = diagonal[static_cast<std::size_t>(a)];
+    entry =
+        std::abs(entry + matrix.stiffness[slice.x + a] - sums.turn.col(k).dot(sums.moment.col(k)));
+  }
   double usual = 1;
   if (n > 0) {
-    Vector sorted = diagonal;
-    auto* middle = sorted.data() + std::min(few_soft_joints, (n - 1) / 2);
-    std::nth_element(sorted.data(), middle, sorted.data() + n);
-    usual = *middle > 0 ? *middle : diagonal.maxCoeff();
+    sorted = diagonal;
+    const auto middle = sorted.begin() + std::min(few_soft_joints, (n - 1) / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    usual = *middle > 0 ? *middle : *std::max_element(diagonal.begin(), diagonal.end());
     if (!(usual > 0) || !std::isfinite(usual)) usual = 1;
   }
-  Vector wrench = Vector::Zero(slice.F_count);
+  Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();
   Vec3<double> turn = Vec3<double>::Zero();
   for (Index a = 0; a < n; ++a) {
     const Index k = from + stages.joints[static_cast<std::size_t>(a)];
-    const double stiffness = std::max(diagonal[a], usual);
+    const double stiffness = std::max(diagonal[static_cast<std::size_t>(a)], usual);
     scale[slice.x + a] = power_of_two_near(1 / std::sqrt(stiffness));
     for (Index c = 0; c < slice.F_count; ++c) wrench[c] += sums.J(c, k) * sums.J(c, k) / stiffness;
     turn += sums.turn.col(k).cwiseAbs2() / stiffness;
@@ -89,12 +94,10 @@ class StageFiller {
         system_{system},
         sums_{matrix.sums[i]},
         matrix_{matrix},
+        from_basis_{matrix.from_basis[i]},
+        to_basis_{matrix.to_basis[i]},
         r_{stages_.rank},
-        c0_{stages_.rank == 1 ? 2 : 0} {
-    if (chain_.from_moves)
-      from_basis_ = basis_of(slice_.from, chain_.first_joint(), stages_.from_root);
-    if (chain_.to_moves) to_basis_ = basis_of(slice_.to, chain_.to_count(), stages_.to_root);
-  }
+        c0_{stages_.rank == 1 ? 2 : 0} {}
 
   void fill() {
     group_ = 0;
@@ -109,15 +112,6 @@ class StageFiller {
   }
 
  private:
-  Matrix basis_of(Index t, Index count, const std::vector<Index>& root) const {
-    Matrix basis(count, static_cast<Index>(root.size()));
-    for (Index c = 0; c < basis.cols(); ++c)
-      basis.col(c) =
-          matrix_.basis.block(t - plan_.chain_unknowns,
-                              root[static_cast<std::size_t>(c)] - plan_.chain_unknowns, count, 1);
-    return basis;
-  }
-
   void begin(Index s) {
     const auto f = stages_.first_front + static_cast<std::size_t>(s);
     const auto& pattern = plan_.pattern;
@@ -176,8 +170,8 @@ class StageFiller {
 
   void add_front_body() {
     const Index from = chain_.first_joint();
-    const Matrix moment = -sums_.turn.leftCols(from) * from_basis_;
-    const Matrix wrench = -sums_.J.leftCols(from) * from_basis_;
+    const Small moment = -sums_.turn.leftCols(from) * from_basis_;
+    const Small wrench = -sums_.J.leftCols(from) * from_basis_;
     for (Index v = 0; v < from_basis_.cols(); ++v) {
       for (Index c = 0; c < r_; ++c) at(pose_ + v, moment_ + c) = moment(c0_ + c, v);
       for (Index c = 0; c < slice_.F_count; ++c) at(pose_ + v, F_ + c) = wrench(c, v);
@@ -186,7 +180,7 @@ class StageFiller {
 
   void add_end_body(Index s) {
     const Index first = pose_ + (s == 0 && chain_.from_moves ? from_basis_.cols() : 0);
-    const Matrix moment = -sums_.to_moment * to_basis_, wrench = -sums_.J_to * to_basis_;
+    const Small moment = -sums_.to_moment * to_basis_, wrench = -sums_.J_to * to_basis_;
     for (Index v = 0; v < to_basis_.cols(); ++v) {
       for (Index b = 0; b < m_; ++b)
         at(first + v, b) = sums_.turn.col(column_of(b)).dot(moment.col(v));
@@ -210,8 +204,8 @@ class StageFiller {
   const System& system_;
   const ChainSums& sums_;
   StageMatrix& matrix_;
+  const Matrix &from_basis_, &to_basis_;
   Index r_, c0_;
-  Matrix from_basis_{}, to_basis_{};
   std::size_t group_ = 0;
   double* values_ = nullptr;
   Index size_ = 0, first_ = 0, m_ = 0, moment_ = -1, turn_ = -1, next_ = -1, F_ = 0, pose_ = 0;

@@ -7,6 +7,9 @@
 namespace springfold::statics {
 namespace {
 
+/// Of one body, for a chain in stages: such blocks are kept on the stack.
+constexpr std::size_t most_root_unknowns = 8;
+
 const model::Anchor* anchor_of(const System& system, const PointLoad& load) {
   return load.number < 0 ? nullptr
                          : &system.mechanism.loads[static_cast<std::size_t>(load.number)].on;
@@ -116,6 +119,8 @@ class PartMaker {
       spring.to = add_point(spring.to);
       s.line_springs.push_back(spring);
     }
+    for (Index k = 0; k < own_; ++k) part_.places.push_back(slice_->x + k);
+    for (Index k = whole_.first_pose; k < whole_.size; ++k) part_.places.push_back(k);
     return std::move(part_);
   }
 
@@ -211,9 +216,10 @@ class Planner {
     const ChainSlice& slice = system_.chain_slices[i];
     const model::Chain& ends = system_.mechanism.chains[i];
     ChainStages chain;
-    chain.staged = has_stage_form(system_, i, options_);
     chain.from_root = root_of(ends.from);
     chain.to_root = root_of(ends.to);
+    chain.staged = has_stage_form(system_, i, options_) &&
+                   std::max(chain.from_root.size(), chain.to_root.size()) <= most_root_unknowns;
     chain.joints = joints_with_coordinate(slice);
     chain.first_front = plan_.pattern.front_count();
     plan_.dense.emplace_back();

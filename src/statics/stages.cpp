@@ -1,6 +1,8 @@
 #include "springfold/statics/stages.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "springfold/core/scaling.hpp"
 #include "stage_chain.hpp"
@@ -28,26 +30,14 @@ void refresh(const DensePart& part, const System& system, Index chain, System& o
   }
 }
 
-Piece part_of(const DensePart& part, const System& system, const Piece& piece) {
-  Piece own;
+void cut_piece(const DensePart& part, const System& system, const Piece& piece, Piece& own) {
+  own.clear();
   for (const std::size_t i : part.springs) {
     const CoordinateSpring& spring = system.springs[i];
     const auto first = piece.begin() + spring.first_switch;
     own.insert(own.end(), first,
                first + static_cast<std::ptrdiff_t>(spring.law.breakpoints.size()));
   }
-  return own;
-}
-
-/// Where the unknowns of a part stand in z.
-std::vector<Index> places_of(const System& system, Index chain) {
-  std::vector<Index> places;
-  if (chain >= 0) {
-    const ChainSlice& slice = system.chain_slices[static_cast<std::size_t>(chain)];
-    for (Index k = 0; k < slice.x_count + slice.F_count; ++k) places.push_back(slice.x + k);
-  }
-  for (Index k = system.first_pose; k < system.size; ++k) places.push_back(k);
-  return places;
 }
 
 /// Adds a dense part's residual; keeps its matrix and derivatives by commands.
@@ -57,20 +47,21 @@ bool add_part(const StagePlan& plan, std::size_t p, const System& system, const 
   const bool bodies = p == plan.chains.size();
   const DensePart& part = plan.dense[p];
   const Index chain = bodies ? -1 : static_cast<Index>(p);
-  System& own = matrix.parts[p];
-  refresh(part, system, chain, own);
-  const std::vector<Index> places = places_of(system, chain);
-  Inputs own_inputs = inputs;
-  if (!bodies) own_inputs.W.setZero();
-  const Piece own_piece = part_of(part, system, piece);
-  const Vector own_z = z(places);
-  Vector own_residual;
+  StageMatrix::Part& own = matrix.parts[p];
+  refresh(part, system, chain, own.system);
+  own.inputs = inputs;
+  if (!bodies) own.inputs.W.setZero();
+  cut_piece(part, system, piece, own.piece);
+  const auto n = static_cast<Index>(part.places.size());
+  own.z.resize(n);
+  for (Index k = 0; k < n; ++k) own.z[k] = z[part.places[static_cast<std::size_t>(k)]];
   const bool finite =
-      with_matrix
-          ? equilibrium_matrix(own, own_piece, own_z, own_inputs, matrix.dense, own_residual,
-                               matrix.blocks[p], &matrix.block_rates[p])
-          : equilibrium_residual(own, own_piece, own_z, own_inputs, matrix.dense, own_residual);
-  residual(places) += own_residual;
+      with_matrix ? equilibrium_matrix(own.system, own.piece, own.z, own.inputs, matrix.dense,
+                                       own.residual, matrix.blocks[p], &matrix.block_rates[p])
+                  : equilibrium_residual(own.system, own.piece, own.z, own.inputs, matrix.dense,
+                                         own.residual);
+  for (Index k = 0; k < n; ++k)
+    residual[part.places[static_cast<std::size_t>(k)]] += own.residual[k];
   return finite;
 }
 
@@ -103,23 +94,51 @@ void add_springs(const StagePlan& plan, const System& system, const Piece& piece
 
 /// Unit size for the couplings of a pose with the wrenches.
 void scale_root(const StagePlan& plan, const System& system, StageMatrix& matrix) {
-  Vector largest = Vector::Zero(plan.root_unknowns);
-  const auto see = [&](const Matrix& J, Index t, const ChainSlice& slice) {
-    const Matrix rows = J * matrix.basis.middleRows(t - plan.chain_unknowns, J.cols());
-    const Vector scale = matrix.scale.segment(slice.F, slice.F_count);
-    largest =
-        largest.cwiseMax((scale.asDiagonal() * rows).cwiseAbs().colwise().maxCoeff().transpose());
+  auto sizes = matrix.scale.segment(plan.chain_unknowns, plan.root_unknowns);
+  sizes.setZero();
+  const auto see = [&](const auto& J, const Matrix& basis, const std::vector<Index>& root,
+                       Index F) {
+    for (std::size_t c = 0; c < root.size(); ++c)
+      for (Index r = 0; r < J.rows(); ++r) {
+        double entry = 0;
+        for (Index k = 0; k < J.cols(); ++k) entry += J(r, k) * basis(k, static_cast<Index>(c));
+        double& size = matrix.scale[root[c]];
+        size = std::max(size, std::abs(entry) * matrix.scale[F + r]);
+      }
   };
   for (std::size_t i = 0; i < plan.chains.size(); ++i) {
-    if (!plan.chains[i].staged) continue;
-    const ChainSlice& slice = system.chain_slices[i];
-    if (slice.from >= 0)
-      see(matrix.sums[i].J.leftCols(system.chains[i].first_joint()), slice.from, slice);
-    if (slice.to >= 0) see(matrix.sums[i].J_to, slice.to, slice);
+    const ChainStages& chain = plan.chains[i];
+    if (!chain.staged) continue;
+    const ChainSums& sums = matrix.sums[i];
+    const Index F = system.chain_slices[i].F;
+    see(sums.J.leftCols(system.chains[i].first_joint()), matrix.from_basis[i], chain.from_root, F);
+    see(sums.J_to, matrix.to_basis[i], chain.to_root, F);
   }
-  for (Index c = 0; c < plan.root_unknowns; ++c)
-    matrix.scale[plan.chain_unknowns + c] =
-        largest[c] > 0 ? power_of_two_near(1 / largest[c]) : 1.0;
+  for (double& size : sizes) size = size > 0 ? power_of_two_near(1 / size) : 1.0;
+}
+
+/// Rows of the basis that belong to one body, columns as in `root`.
+void cut_basis(const StagePlan& plan, const Matrix& basis, Index t, Index count,
+               const std::vector<Index>& root, Matrix& out) {
+  out.resize(count, static_cast<Index>(root.size()));
+  for (Index c = 0; c < out.cols(); ++c)
+    out.col(c) = basis.block(t - plan.chain_unknowns,
+                             root[static_cast<std::size_t>(c)] - plan.chain_unknowns, count, 1);
+}
+
+void cut_bases(const StagePlan& plan, const System& system, StageMatrix& matrix) {
+  matrix.from_basis.resize(plan.chains.size());
+  matrix.to_basis.resize(plan.chains.size());
+  for (std::size_t i = 0; i < plan.chains.size(); ++i) {
+    const ChainSlice& slice = system.chain_slices[i];
+    const model::CompiledChain& chain = system.chains[i];
+    if (chain.from_moves)
+      cut_basis(plan, matrix.basis, slice.from, chain.first_joint(), plan.chains[i].from_root,
+                matrix.from_basis[i]);
+    if (chain.to_moves)
+      cut_basis(plan, matrix.basis, slice.to, chain.to_count(), plan.chains[i].to_root,
+                matrix.to_basis[i]);
+  }
 }
 
 /// One dense chain as one front.
@@ -144,9 +163,10 @@ void fill_dense(const StagePlan& plan, const System& system, std::size_t i, Stag
 }
 
 /// Everything between poses.
-Matrix root_of(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-               const Matrix& added) {
-  Matrix poses = matrix.blocks.back();
+void fill_root(const StagePlan& plan, const System& system, const Matrix& added,
+               StageMatrix& matrix) {
+  Matrix& poses = matrix.poses;
+  poses = matrix.blocks.back();
   const Index first = plan.chain_unknowns, count = poses.rows();
   for (std::size_t i = 0; i < plan.chains.size(); ++i) {
     const ChainSlice& slice = system.chain_slices[i];
@@ -159,10 +179,12 @@ Matrix root_of(const StagePlan& plan, const System& system, const StageMatrix& m
     if (from > 0) poses.block(slice.from - first, slice.from - first, from, from) -= sums.H_from;
     if (to > 0) poses.block(slice.to - first, slice.to - first, to, to) -= sums.H_to;
   }
-  Matrix root = matrix.basis.transpose() * poses * matrix.basis;
-  if (added.size() > 0) root += added;
-  const auto scale = matrix.scale.segment(first, plan.root_unknowns).asDiagonal();
-  return scale * root * scale;
+  matrix.half.noalias() = poses * matrix.basis;
+  matrix.root.noalias() = matrix.basis.transpose() * matrix.half;
+  if (added.size() > 0) matrix.root += added;
+  for (Index c = 0; c < plan.root_unknowns; ++c)
+    for (Index r = 0; r < plan.root_unknowns; ++r)
+      matrix.root(r, c) *= matrix.scale[first + r] * matrix.scale[first + c];
 }
 
 }  // namespace
@@ -195,17 +217,18 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
 
   matrix.basis = basis;
   if (basis.size() == 0) matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
+  cut_bases(plan, system, matrix);
   matrix.scale.setOnes(plan.pattern.size);
   matrix.values.resize(plan.pattern.first_value.back());
   for (std::size_t i = 0; i < chains; ++i)
-    if (plan.chains[i].staged) scale_chain(plan, system, i, matrix, matrix.scale);
+    if (plan.chains[i].staged) scale_chain(plan, system, i, matrix);
   scale_root(plan, system, matrix);
   for (std::size_t i = 0; i < chains; ++i)
     if (plan.chains[i].staged)
       fill_chain(plan, system, i, matrix);
     else
       fill_dense(plan, system, i, matrix);
-  matrix.root = root_of(plan, system, matrix, added);
+  fill_root(plan, system, added, matrix);
   return matrix.root.allFinite();
 }
 
@@ -224,7 +247,7 @@ Vector stage_product(const StagePlan& plan, const System& system, const StageMat
   for (std::size_t p = 0; p < matrix.blocks.size(); ++p) {
     const bool bodies = p == plan.chains.size();
     if (!bodies && plan.chains[p].staged) continue;
-    const std::vector<Index> places = places_of(system, bodies ? -1 : static_cast<Index>(p));
+    const std::vector<Index>& places = plan.dense[p].places;
     product(places) += matrix.blocks[p] * Vector(dz(places));
     if (drho.size() > 0) product(places) += matrix.block_rates[p] * drho;
   }
@@ -234,17 +257,19 @@ Vector stage_product(const StagePlan& plan, const System& system, const StageMat
 StageSolver::StageSolver(const StagePlan& plan, FrontalOptions options)
     : size_{plan.size()}, pairs_{plan.auxiliary_pairs}, frontal_{plan.pattern, options} {}
 
-FrontalBorders StageSolver::expanded(const FrontalBorders& borders) const {
-  FrontalBorders all = borders;
+const FrontalBorders& StageSolver::expanded(const FrontalBorders& borders) {
   const Index k = borders.B.cols(), n = scale_.size();
-  if (k == 0) return all;
-  assert(borders.B.rows() == size_ && borders.C.rows() == size_ && borders.C.cols() == k);
-  for (Matrix* side : {&all.B, &all.C}) {
-    side->conservativeResize(n, k);
-    side->bottomRows(n - size_).setZero();
-    side->topRows(size_) = scale_.head(size_).asDiagonal() * side->topRows(size_);
-  }
-  return all;
+  assert(k == 0 || (borders.B.rows() == size_ && borders.C.rows() == size_));
+  assert(borders.C.cols() == k && borders.D.cols() == k);
+  const auto expand = [&](const Matrix& side, Matrix& out) {
+    out.setZero(n, k);
+    for (Index c = 0; c < k; ++c)
+      out.col(c).head(size_) = scale_.head(size_).cwiseProduct(side.col(c));
+  };
+  expand(borders.B, borders_.B);
+  expand(borders.C, borders_.C);
+  borders_.D = borders.D;
+  return borders_;
 }
 
 bool StageSolver::factorise(const StageMatrix& matrix, const FrontalBorders& borders) {
@@ -256,25 +281,28 @@ bool StageSolver::set_borders(const FrontalBorders& borders) {
   return frontal_.set_borders(expanded(borders));
 }
 
-bool StageSolver::solve_with(Matrix& X, bool transposed) const {
+bool StageSolver::solve_with(Matrix& X, bool transposed) {
   const Index n = scale_.size(), k = X.rows() - size_;
-  Matrix all = Matrix::Zero(n + k, X.cols());
-  all.topRows(size_) = scale_.head(size_).asDiagonal() * X.topRows(size_);
-  all.bottomRows(k) = X.bottomRows(k);
-  if (!(transposed ? frontal_.solve_transposed(all) : frontal_.solve(all))) return false;
-  X.topRows(size_) = scale_.head(size_).asDiagonal() * all.topRows(size_);
-  X.bottomRows(k) = all.bottomRows(k);
+  all_.setZero(n + k, X.cols());
+  for (Index c = 0; c < X.cols(); ++c) {
+    all_.col(c).head(size_) = scale_.head(size_).cwiseProduct(X.col(c).head(size_));
+    all_.col(c).tail(k) = X.col(c).tail(k);
+  }
+  if (!(transposed ? frontal_.solve_transposed(all_) : frontal_.solve(all_))) return false;
+  for (Index c = 0; c < X.cols(); ++c) {
+    X.col(c).head(size_) = scale_.head(size_).cwiseProduct(all_.col(c).head(size_));
+    X.col(c).tail(k) = all_.col(c).tail(k);
+  }
   return X.allFinite();
 }
 
-bool StageSolver::solve(Matrix& X) const { return solve_with(X, false); }
-bool StageSolver::solve_transposed(Matrix& X) const { return solve_with(X, true); }
+bool StageSolver::solve(Matrix& X) { return solve_with(X, false); }
+bool StageSolver::solve_transposed(Matrix& X) { return solve_with(X, true); }
 
-std::optional<Inertia> StageSolver::inertia(double zero_tolerance) const {
-  auto inertia = frontal_.inertia(zero_tolerance);
-  if (!inertia) return inertia;
-  inertia->negative -= pairs_;
-  inertia->positive -= pairs_;
+Inertia StageSolver::inertia(double zero_tolerance) {
+  Inertia inertia = frontal_.inertia(zero_tolerance);
+  inertia.negative -= pairs_;
+  inertia.positive -= pairs_;
   return inertia;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "allocations.hpp"
 #include "staged.hpp"
 
 namespace springfold::statics {
@@ -60,8 +61,8 @@ TEST(Stages, AStraightChainHasAsManyUnstableModesAsBucklingLoadsBelow) {
       const double P = 0.5 * (buckling_load(N, j) + buckling_load(N, j + 1));
       chain.evaluate(P);
       ASSERT_TRUE(solver.factorise(chain.matrix));
-      EXPECT_EQ(solver.inertia()->negative - 2, j) << N;
-      EXPECT_EQ(solver.inertia()->zero, 0);
+      EXPECT_EQ(solver.inertia().negative - 2, j) << N;
+      EXPECT_EQ(solver.inertia().zero, 0);
     }
     chain.evaluate(0.9 * buckling_load(N, 1));
     ASSERT_TRUE(solver.factorise(chain.matrix));
@@ -120,6 +121,38 @@ TEST(Stages, PassiveJointsAndUndeterminedWrenchesWaitForTheirPartners) {
         expect_solved(both, random_borders(random, both.plan.size(), zero + 1), random);
       }
 }
+
+#ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
+TEST(Stages, AllocateNothingOnceTheStorageIsThere) {
+  std::mt19937 random(11);
+  const Sort sort{false, 12, true, true};
+  const Both both(random, random_mechanism(random, sort, {TaskSpace::spatial, TaskSpace::spatial},
+                                           {{0, 1}, {1, 2}, {0, 2}}));
+  const FrontalBorders borders = random_borders(random, both.plan.size(), 2);
+  const Matrix R = random_vector(random, both.plan.size() + 2, 1);
+  const Matrix basis = Matrix::Identity(12, 12);
+  StageMatrix matrix;
+  StageSolver solver(both.plan);
+  Vector residual;
+  Matrix X = R;
+  const auto once = [&] {
+    EXPECT_TRUE(equilibrium_stages(both.plan, both.system, both.piece, both.z, both.inputs, basis,
+                                   {}, residual, matrix));
+    EXPECT_TRUE(solver.factorise(matrix, borders));
+    X = R;
+    EXPECT_TRUE(solver.solve(X));
+    EXPECT_TRUE(solver.set_borders(borders));
+    EXPECT_TRUE(solver.solve_transposed(X));
+    return solver.inertia().negative;
+  };
+  const Index negative = once();
+  const long before = allocations;
+  EXPECT_EQ(once(), negative);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(Vector(Vector::Ones(100)).allFinite());
+  EXPECT_GT(allocations, before);  // the counter counts
+}
+#endif
 
 }  // namespace
 }  // namespace springfold::statics

@@ -5,14 +5,12 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "allocations.hpp"
 #include "examples.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#define SPRINGFOLD_COUNTS_ALLOCATIONS
-namespace {
+#ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
 long allocations = 0;
-}
 // Every allocation of this program is counted, Eigen's too.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" void* malloc(std::size_t size) {

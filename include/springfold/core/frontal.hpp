@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +53,8 @@ struct FrontalOptions {
 
 /// Factorisation A = L D L^T and what it takes to solve with M, also where A is singular and M is
 /// not. A variable without an acceptable pivot waits in the next front of its string, at last in the
-/// root, which is solved with complete pivoting. Storage is reused from call to call.
+/// root, which is solved with complete pivoting. Storage is reused from call to
+/// call: once it is large enough nothing is allocated.
 ///
 /// Duff, Reid, "The multifrontal solution of indefinite sparse symmetric linear equations" (1983),
 /// for the pivots; Irons, "A frontal solution program" (1970).
@@ -77,12 +77,13 @@ class Frontal {
 
   /// Replaces the columns of X (size + k rows) by M^-1 X or M^-T X.
   /// @returns false when M is singular to working precision; X is undefined then
-  bool solve(Matrix& X) const;
-  bool solve_transposed(Matrix& X) const;
+  bool solve(Matrix& X);
+  bool solve_transposed(Matrix& X);
 
-  /// Inertia of A with the symmetric part of `root`. Zero are eigenvalues of what the root holds of A
-  /// below zero_tolerance times the largest one, or times 1 where that is larger.
-  std::optional<Inertia> inertia(double zero_tolerance = 1e-13) const;
+  /// Inertia of A with the symmetric part of `root`. What the root holds of A is eliminated with
+  /// complete pivoting; where only entries below zero_tolerance times its largest entry, or times 1
+  /// where that is larger, are left, the rest counts as zero.
+  Inertia inertia(double zero_tolerance = 1e-13);
 
   const FrontalPattern& pattern() const;
   Index waiting() const;  ///< variables that came to the root without having been meant for it

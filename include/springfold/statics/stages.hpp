@@ -2,7 +2,6 @@
 // statics/system.hpp is quadratic and its factorisation cubic. docs/theory.md derives the form.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "springfold/core/frontal.hpp"
@@ -55,7 +54,8 @@ struct ChainStages {
 struct DensePart {
   System system{};
   std::vector<std::size_t> springs{}, groups{}, points{}, loads{},
-      line_springs{};  ///< in the whole
+      line_springs{};           ///< in the whole
+  std::vector<Index> places{};  ///< its unknowns in z
 };
 
 /// Who stands where. Made once for a mechanism; systems of the same structure (other numbers, turned
@@ -73,7 +73,8 @@ struct StagePlan {
 };
 
 /// @param root_columns  per body: the root unknowns that its pose depends on. A root unknown belongs
-///                      to one body. Empty: the root unknowns are the poses.
+///                      to one body; chains of bodies with more than 8 are one dense front. Empty:
+///                      the root unknowns are the poses.
 /// @pre has_stage_form(system)
 StagePlan plan_stages(const System& system,
                       const std::vector<std::vector<Index>>& root_columns = {},
@@ -96,9 +97,11 @@ struct ChainSums {
   Columns dp{};                               ///< scratch: motion of the chain's end
   std::vector<model::Pose<double>> frames{};  ///< scratch: before every joint turns or slides
   model::Closure<double> ends{};              ///< scratch
+  Vector end_poses{}, wrench{};               ///< scratch
 };
 
 /// The matrix by fronts, as Frontal::factorise takes it: scale A scale, with auxiliary variables.
+/// Storage is reused.
 struct StageMatrix {
   std::vector<double> values{};
   Matrix root{};
@@ -109,8 +112,18 @@ struct StageMatrix {
   std::vector<Matrix> blocks{}, block_rates{};
   Matrix basis{};  ///< poses by root unknowns
 
-  std::vector<System> parts{};  ///< scratch: the dense parts with present numbers
-  Workspace dense{};            ///< scratch
+  /// A dense part with present numbers and in its own unknowns.
+  struct Part {
+    System system{};
+    Inputs inputs{};
+    Piece piece{};
+    Vector z{}, residual{};
+  };
+  std::vector<Part> parts{};                     ///< scratch
+  Workspace dense{};                             ///< scratch
+  std::vector<Matrix> from_basis{}, to_basis{};  ///< scratch: basis of each chain's ends
+  Matrix poses{}, half{};                        ///< scratch
+  std::vector<double> diagonal{}, sorted{};      ///< scratch
 };
 
 /// Residual as equilibrium_residual() gives it, in time linear in the number of joints, loads along
@@ -145,21 +158,23 @@ class StageSolver {
   bool set_borders(const FrontalBorders& borders);
 
   /// Replaces X (plan.size() + k rows) by M^-1 X or M^-T X. false: M is singular.
-  bool solve(Matrix& X) const;
-  bool solve_transposed(Matrix& X) const;
+  bool solve(Matrix& X);
+  bool solve_transposed(Matrix& X);
 
   /// Of A_y; see Frontal::inertia.
-  std::optional<Inertia> inertia(double zero_tolerance = 1e-13) const;
+  Inertia inertia(double zero_tolerance = 1e-13);
 
   const Frontal& frontal() const { return frontal_; }
 
  private:
-  FrontalBorders expanded(const FrontalBorders& borders) const;
-  bool solve_with(Matrix& X, bool transposed) const;
+  const FrontalBorders& expanded(const FrontalBorders& borders);
+  bool solve_with(Matrix& X, bool transposed);
 
   Index size_ = 0, pairs_ = 0;
   Frontal frontal_;
   Vector scale_{};
+  FrontalBorders borders_{};  ///< with rows for the auxiliary variables
+  Matrix all_{};              ///< the same of right-hand sides
 };
 
 }  // namespace springfold::statics
