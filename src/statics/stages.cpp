@@ -254,6 +254,32 @@ Vector stage_product(const StagePlan& plan, const System& system, const StageMat
   return product;
 }
 
+Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                        const Vector& dz) {
+  StageMatrix sizes;  // all signs such that the terms of the product add up
+  sizes.stiffness = -matrix.stiffness.cwiseAbs();
+  for (const ChainSums& sums : matrix.sums) {
+    ChainSums& size = sizes.sums.emplace_back();
+    size.turn = sums.turn.cwiseAbs();
+    size.moment = sums.moment.cwiseAbs();
+    size.J = sums.J.cwiseAbs();
+    size.to_moment = sums.to_moment.cwiseAbs();
+    size.J_to = sums.J_to.cwiseAbs();
+    size.H_from = sums.H_from.cwiseAbs();
+    size.H_to = sums.H_to.cwiseAbs();
+  }
+  for (const Matrix& block : matrix.blocks) sizes.blocks.push_back(-block.cwiseAbs());
+  const Vector size = dz.cwiseAbs();
+  Vector magnitudes = -stage_product(plan, system, sizes, size, {});
+  for (const ChainStages& chain : plan.chains)
+    for (const StageGroup& entry : chain.groups) {  // which the product has with their own sign
+      const CoordinateGroup& group = system.coupled[entry.group];
+      const Vector own = size(group.coordinates);
+      magnitudes(group.coordinates) += (group.stiffness + group.stiffness.cwiseAbs()) * own;
+    }
+  return magnitudes;
+}
+
 StageSolver::StageSolver(const StagePlan& plan, FrontalOptions options)
     : size_{plan.size()}, pairs_{plan.auxiliary_pairs}, frontal_{plan.pattern, options} {}
 

@@ -126,5 +126,18 @@ TEST(Stages, PosesMayDependOnOtherUnknowns) {
   EXPECT_LT((both.schur() - A).cwiseAbs().maxCoeff(), 1e-12 * A.cwiseAbs().maxCoeff());
 }
 
+TEST(Stages, MagnitudesBoundTheTermsOfTheProduct) {
+  std::mt19937 random(12);
+  for (const auto& [bodies, chains] : kinds) {
+    const Sort sort{in_plane(bodies), 9, true, true};
+    const Both both(random, random_mechanism(random, sort, bodies, chains));
+    const Vector dz = random_vector(random, both.system.size, 1);
+    const Vector sizes = stage_magnitudes(both.plan, both.system, both.matrix, dz);
+    const Vector dense = both.A.cwiseAbs() * dz.cwiseAbs();
+    EXPECT_GE((sizes - dense).minCoeff(), -1e-12 * dense.maxCoeff());
+    EXPECT_LT(sizes.maxCoeff(), 4 * dense.maxCoeff());
+  }
+}
+
 }  // namespace
 }  // namespace springfold::statics

@@ -146,6 +146,11 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
 Vector stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
                      const Vector& dz, const Vector& drho);
 
+/// |A| |dz| or more: the sizes of what is summed up in A dz, for estimates of its rounding. Entries of
+/// A that are sums themselves count with the sizes of their terms.
+Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                        const Vector& dz);
+
 /// Solves with M = | A_y B; C^T D | and counts the eigenvalues of A_y.
 class StageSolver {
  public:
