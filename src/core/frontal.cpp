@@ -53,6 +53,10 @@ struct Frontal::State {
 
   bool start_borders(const FrontalBorders& given);
   void assemble(std::size_t f, const std::vector<double>& values);
+  bool front_is_finite() const {
+    return std::all_of(front.values.begin(), front.values.end(),
+                       [](double value) { return std::isfinite(value); });
+  }
   void leave(std::size_t f, Index pivots);
   void build_schur(const Matrix& given);
   void factorise_root();
@@ -262,6 +266,8 @@ bool Frontal::factorise(const std::vector<double>& values, const Matrix& root,
   for (std::size_t f = 0; f < s.plans.fronts.size(); ++f) {
     s.assemble(f, values);
     const Index pivots = eliminate(s.front, s.borders, s.options);
+    const Index waiting = s.front.candidates - pivots;
+    if (waiting > s.options.many && !s.front_is_finite()) return false;  // no pivot among NaN
     keep(s.front, pivots, s.factors);
     add_to_corner(s.factors, f, s.borders);
     s.leave(f, pivots);

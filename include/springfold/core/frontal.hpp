@@ -67,7 +67,7 @@ class Frontal {
 
   /// @param values  of all fronts, first_value.back() numbers; lower triangles are read
   /// @param root    root_count x root_count, added to A; need not be symmetric
-  /// @returns false when a number is not finite
+  /// @returns false when a number is not finite; nothing else may be asked then
   bool factorise(const std::vector<double>& values, const Matrix& root,
                  const FrontalBorders& borders = {});
 
