@@ -91,6 +91,7 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
   if (exact) {
     const Offset offset = offset_of(arc, place, found.point, exact->point);
     const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * merged;
+    if (near && exact->off > poor) return false;
     if (near && exact->misfit <= merged) {
       if (exact->left <= branches_apart) {
         found.point = exact->point;
@@ -111,6 +112,24 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
   polish(arc, found.point, m);
   // At the very point the problem may not be defined.
   return std::min(beside, left()) <= branches_apart;
+}
+
+/// Does Sigma leave a multiple branch point in a bend, because it vanishes once more nearby? At a point that
+/// stands alone, and where lambda does not turn, it grows with the distance.
+bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
+  constexpr double nearer = 1.0 / 8, bent = 3;
+  const auto E = arc.matrix(found.point);
+  if (!E) return false;
+  const Borders borders = borders_of(*E, m);
+  const double far = 0.2 * arc.length();
+  for (const double side : {-1.0, 1.0}) {
+    const double at = found.at + side * far;
+    if (at < arc.low() || at > arc.high()) continue;
+    const auto beyond = arc.sigma(at, borders);
+    const auto near = arc.sigma(found.at + side * nearer * far, borders);
+    if (beyond && near && nearer * beyond->norm() > bent * near->norm()) return true;
+  }
+  return false;
 }
 
 /// Gives a branch point the exact direction of its branch, where second derivatives tell it.
@@ -176,6 +195,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m))
     return std::nullopt;
   result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
+  if (m > 1 && !result.turns && has_company(arc, result, m)) return std::nullopt;
   return result;
 }
 
