@@ -127,7 +127,7 @@ struct StageMatrix {
 };
 
 /// Residual as equilibrium_residual() gives it, in time linear in the number of joints, loads along
-/// the chains included; and, unless `matrix` is nullptr, the matrix of the same state in stages.
+/// the chains included; and, if `with_matrix`, the matrix of the same state in stages.
 ///
 /// The unknowns are y = (z up to the poses, root unknowns) with d(poses) = basis d(root unknowns);
 /// the matrix is A_y = Q^T A Q with Q = diag(1, basis). Eliminating the auxiliary variables from it
