@@ -211,6 +211,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
 /// The main loop: steps until something ends the curve.
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
+  constexpr double level = 1e-8;
   curve.stop = StopReason::max_points;
   Anchor anchor;
   while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
@@ -219,7 +220,8 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
                        progress.here.s > anchor.before.here.s + anchor.before.ds))
       anchor = {};
     Refusal refused;
-    const bool report = !anchor.set || anchor.tried;
+    // Where lambda stands still, short steps are as good as long ones; elsewhere they would be led by rounding.
+    const bool report = std::abs(before.here.tangent.dlambda) <= level;
     Outcome outcome = advance(walker, events, at_hit, report, progress, curve, refused);
     if (outcome == Outcome::stop) return;
     if (outcome == Outcome::shorten) {
