@@ -169,6 +169,7 @@ Event end_event(const Entry& entry, std::size_t row, const Stop& stop, const Eva
               .detail = stop.reason,
               .row = row};
   event.stiffness = evaluator.platform_stiffness(entry.point);
+  event.compliance = evaluator.rigid_compliance(entry.point);
   event.rates_before = evaluator.rates(quantities, entry.point, &entry.turns);
   event.rates_after = event.rates_before;
   return event;
@@ -181,6 +182,7 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   Event event{.kind = kind_of(hit), .detail = hit.name, .row = row};
   if (hit.multiplicity > 1) event.detail += ", " + std::to_string(hit.multiplicity) + "-fold";
   event.stiffness = evaluator.platform_stiffness(entry.point);
+  event.compliance = evaluator.rigid_compliance(entry.point);
   event.rates_before = evaluator.rates(quantities, entry.point, &entry.turns);
   event.rates_after = event.rates_before;
   if (next == nullptr || next->hit != entry.hit) return event;

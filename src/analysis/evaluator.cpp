@@ -256,6 +256,20 @@ Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) cons
          pose_scales(space, scales_).cwiseInverse().asDiagonal();
 }
 
+Matrix Evaluator::rigid_compliance(const continuation::CurvePoint& point) const {
+  const Assembled* at = assemble(point);
+  if (!at || at->body.size() > 0) return {};
+  const statics::System& system = problem_.system(point.lambda);
+  const Index body = problem_.rule().body;
+  const auto C = statics::body_compliance(system, at->A, body, problem_.symmetric());
+  if (!C) return {};
+  const model::TaskSpace space =
+      system.mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
+  return pose_scales(space, scales_).asDiagonal() *
+         compliance_in_world_axes(system, at->z, *C, body) *
+         wrench_scales(space, scales_).cwiseInverse().asDiagonal();
+}
+
 std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
     const continuation::CurvePoint& point) const {
   const Assembled* at = assemble(point);

@@ -90,6 +90,9 @@ class Evaluator {
   /// Stiffness of the study's body, all others free (K_Sigma where it is the only one), physical
   /// units, world axes; empty if undefined.
   Matrix platform_stiffness(const continuation::CurvePoint& point) const;
+  /// Compliance of the study's body where it has no stiffness matrix because it is rigid in some
+  /// directions; likewise. Empty where it has one, or is singular.
+  Matrix rigid_compliance(const continuation::CurvePoint& point) const;
   /// Eigenvalues of the reduced tangent stiffness, real and imaginary parts [force/length].
   std::vector<std::pair<double, double>> tangent_eigenvalues(
       const continuation::CurvePoint& point) const;

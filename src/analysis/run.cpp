@@ -192,6 +192,7 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
     if (!result.start.found) return result;
     report_tangent(evaluator, start, result.start);
     result.start.stiffness = evaluator.platform_stiffness(start);
+    result.start.compliance = evaluator.rigid_compliance(start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
     if (study.kind == StudyKind::equilibrium)
       result.branches.push_back(single_point(start, evaluator, quantities, problem));

@@ -27,6 +27,7 @@ struct Point {
   const Event* event = nullptr;
   const Matrix* stiffness = nullptr;
   double potential = nothing;
+  const Matrix* compliance = nullptr;  ///< where there is no stiffness
 };
 
 double value_at(const StudyResult& result, const Point& point, const std::string& quantity) {
@@ -36,7 +37,7 @@ double value_at(const StudyResult& result, const Point& point, const std::string
 }
 
 Point point_of(const Branch& branch, const Event& event) {
-  return {&branch.samples[event.row], &event, &event.stiffness};
+  return {&branch.samples[event.row], &event, &event.stiffness, nothing, &event.compliance};
 }
 
 Point point_of(const analysis::Equilibrium& e) {
@@ -137,12 +138,13 @@ std::optional<Point> point_of(const ExpectedValue& expected, const StudyResult& 
   if (expected.at == "start") {
     Point point{&first.samples[first.start_row], event_in(first, first.start_row)};
     point.stiffness = &result.start.stiffness;
+    point.compliance = &result.start.compliance;
     return point;
   }
   if (expected.at == "end") {
     const std::size_t last = first.samples.size() - 1;
     const Event* event = event_in(first, last);
-    return Point{&first.samples[last], event, event ? &event->stiffness : nullptr};
+    return event ? point_of(first, *event) : Point{&first.samples[last]};
   }
   for (const Branch& branch : result.branches)
     for (const Event& event : branch.events)
@@ -226,7 +228,10 @@ double found_value(const ExpectedValue& expected, const StudyResult& result) {
   if (quantity == "corank" || quantity == "ways") return of_junction(result, *point, quantity);
   if (!expected.per.empty()) return slope(expected, result, *point);
   if (!expected.entry) return value_at(result, *point, quantity);
-  return point->stiffness ? matrix_entry(*point->stiffness, *expected.entry) : nothing;
+  const MatrixEntry& entry = *expected.entry;
+  if (entry.is_compliance && point->compliance && point->compliance->size() > 0)
+    return (*point->compliance)(entry.row, entry.column);
+  return point->stiffness ? matrix_entry(*point->stiffness, entry) : nothing;
 }
 
 }  // namespace springfold::io

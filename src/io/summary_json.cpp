@@ -50,6 +50,7 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
   json["rates_before"] = by_quantity(result, event.rates_before);
   json["rates_after"] = by_quantity(result, event.rates_after);
   json["stiffness"] = json_of(event.stiffness);
+  json["compliance"] = json_of(event.compliance);
   return json;
 }
 
@@ -161,6 +162,7 @@ Json json_of(const StudyResult& result, const PlannedRun* planned) {
           {"zero_modes", start.zero_modes},
           {"redundant_closures", json_of(start.redundant)},
           {"stiffness", json_of(start.stiffness)},
+          {"compliance", json_of(start.compliance)},
           {"chain_stiffnesses", chain_stiffnesses(start.chain_stiffnesses, planned)}};
 }
 

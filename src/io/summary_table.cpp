@@ -153,26 +153,33 @@ std::string caution_lines(const StudyResult& result) {
                          rounded(redundant.smallest_kept, 2) + " kept");
 }
 
-std::string stiffness_lines(const Matrix& stiffness) {
-  if (stiffness.size() == 0)
-    return line("stiffness",
-                "not defined here: rigid in some direction, or a chain is critical by itself");
-  const int shown = stiffness.rows() <= 3 ? digits : 6;
+/// A matrix under its name, and its eigenvalues.
+std::string matrix_lines(const std::string& name, const Matrix& matrix) {
+  const int shown = matrix.rows() <= 3 ? digits : 6;
   // Eigenvalues of the symmetric part are real whatever rounding has left of asymmetry.
-  const Matrix symmetric = (stiffness + stiffness.transpose()) / 2;
+  const Matrix symmetric = (matrix + matrix.transpose()) / 2;
   std::vector<std::vector<std::string>> rows;
-  for (Index r = 0; r < stiffness.rows(); ++r) {
+  for (Index r = 0; r < matrix.rows(); ++r) {
     auto& row = rows.emplace_back();
-    for (Index c = 0; c < stiffness.cols(); ++c) row.push_back(rounded(stiffness(r, c), shown));
+    for (Index c = 0; c < matrix.cols(); ++c) row.push_back(rounded(matrix(r, c), shown));
   }
-  const std::vector<Align> right(static_cast<std::size_t>(stiffness.cols()), Align::right);
+  const std::vector<Align> right(static_cast<std::size_t>(matrix.cols()), Align::right);
   const std::string table = aligned(rows, right, indent + blank_label.size());
-  std::string text = "    stiffness" + table.substr(indent + 9);
+  std::string text = "    " + name + table.substr(indent + name.size());
   std::string values;
   const Eigen::SelfAdjointEigenSolver<Matrix> solver{symmetric, Eigen::EigenvaluesOnly};
   for (const double value : solver.eigenvalues())
     values += (values.empty() ? "" : ", ") + rounded(value, shown);
   return text + line("eigenvalues", values);
+}
+
+std::string stiffness_lines(const analysis::StartReport& start) {
+  if (start.stiffness.size() > 0) return matrix_lines("stiffness", start.stiffness);
+  if (start.compliance.size() == 0)
+    return line("stiffness",
+                "not defined here: rigid in some direction, or a chain is critical by itself");
+  return line("stiffness", "infinite in some direction: the body is rigid there; its compliance:") +
+         matrix_lines("compliance", start.compliance);
 }
 
 /// Empty where the quantity is not defined, as in the tables.
@@ -371,7 +378,7 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += line("index", std::isnan(index) ? "not defined at this point" : rounded(index, digits));
   text += way_lines(the_case, result);
   text += caution_lines(result);
-  text += stiffness_lines(result.start.stiffness);
+  text += stiffness_lines(result.start);
   for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
   return text + diagram_lines(result, plan_of(the_case, result));
 }

@@ -179,6 +179,14 @@ Matrix body_stiffness(const System& system, const Matrix& A_full, const Platform
   return K ? *K : Matrix();
 }
 
+std::optional<Matrix> body_compliance(const System& system, const Matrix& A_full, Index body,
+                                      bool symmetric) {
+  const BodySlice& b = system.body_slices[static_cast<std::size_t>(body - 1)];
+  const auto C = compliance(system, A_full, symmetric);
+  if (!C) return std::nullopt;
+  return Matrix(C->block(b.W, b.W, b.count, b.count));
+}
+
 Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work) {
   const Split split = split_of(system, system.size);
   const Matrix J = without_gauge(A_full, work)(split.wrenches, split.motions);
@@ -224,6 +232,16 @@ Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K, Ind
         model::left_jacobian(phi).inverse();
   }
   return twist_to_pose.transpose() * K * twist_to_pose;
+}
+
+Matrix compliance_in_world_axes(const System& system, const Vector& z, const Matrix& C,
+                                Index body) {
+  const auto b = static_cast<std::size_t>(body - 1);
+  if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) return C;
+  Matrix pose_to_twist = Matrix::Identity(6, 6);
+  pose_to_twist.bottomRightCorner(3, 3) =
+      model::left_jacobian(model::Vec3<double>(z.segment(system.body_slices[b].t + 3, 3)));
+  return pose_to_twist * C * pose_to_twist.transpose();
 }
 
 std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t chain,

@@ -75,5 +75,25 @@ TEST(StiffMembers, DoNotHideAMotionWithoutStiffness) {
   }
 }
 
+TEST(RigidDirections, HaveAComplianceWhereThereIsNoStiffness) {
+  const StudyResult result = run(R"(
+[[body]]
+name = "slide"
+task_space = "planar"
+[[chain]]
+name = "rail"
+elements = [ { rigid = { rotate = { axis = "z", angle = "30*deg" } } }, { joint = "prismatic", axis = "x", role = "virtual", stiffness = 4 } ]
+[[study]]
+name = "rest"
+kind = "equilibrium"
+)")
+                                 .of("rest");
+  EXPECT_EQ(result.start.stiffness.size(), 0);
+  const double c = std::sqrt(0.75), s = 0.5;
+  const Matrix expected{{c * c / 4, c * s / 4, 0}, {c * s / 4, s * s / 4, 0}, {0, 0, 0}};
+  ASSERT_EQ(result.start.compliance.rows(), 3);
+  EXPECT_LT((result.start.compliance - expected).norm(), 1e-15);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -66,6 +66,7 @@ struct Event {
   std::string detail{};  ///< in words: "spring leg_x.knee becomes active"
   std::size_t row = 0;   ///< its row in Branch::samples; a switching has the rows `row`, `row` + 1
   Matrix stiffness{};    ///< platform stiffness K_Sigma, d x d, world axes; empty if undefined
+  Matrix compliance{};   ///< where the body is rigid in some directions: its compliance instead
   std::vector<double> rates_before{};  ///< d(values)/ds along the branch, arriving; NaN: undefined
   std::vector<double> rates_after{};   ///< the same, leaving; differs at a switching only
 };
@@ -148,6 +149,7 @@ struct StartReport {
   /// Stiffness of the study's body at the start, all other bodies free, d x d, world axes: K_Sigma
   /// where it is the only one; empty if undefined.
   Matrix stiffness{};
+  Matrix compliance{};  ///< where the body is rigid in some directions: its compliance instead
   std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
   double guess_residual = 0;   ///< the same residual at the guess, with the wrenches that suit best
   double moved = 0;            ///< largest change of a coordinate or pose from the guess [-]

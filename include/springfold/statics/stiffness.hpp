@@ -56,6 +56,12 @@ PlatformStiffness platform_stiffness(const System& system, const Matrix& A_full,
 Matrix body_stiffness(const System& system, const Matrix& A_full, const PlatformStiffness& platform,
                       Index body, bool symmetric = true);
 
+/// Compliance of one body, all others free: its pose per wrench. It exists where A is regular, also where
+/// the body is rigid in some directions and has no stiffness matrix; those have none.
+/// @returns count x count in pose coordinates; nothing where A is singular
+std::optional<Matrix> body_compliance(const System& system, const Matrix& A_full, Index body,
+                                      bool symmetric = true);
+
 /// Tangent stiffness of the whole mechanism, reduced to the motions that joints and closures allow:
 ///
 ///     T = Z^T H Z,   A = | H  -J^T |,   Z: orthonormal basis of the motions with J Z = 0
@@ -80,6 +86,9 @@ double tangent_determinant(const System& system, const Matrix& A_full);
 /// Exact where no external moment acts.
 /// @param body  K is that of this body alone; 0: of all bodies
 Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K, Index body = 0);
+
+/// The same for the compliance of one body.
+Matrix compliance_in_world_axes(const System& system, const Vector& z, const Matrix& C, Index body);
 
 /// Numbers of unstable modes. Empty where the closure equations are dependent or the state is
 /// critical, so that the count is not defined.
