@@ -272,7 +272,9 @@ bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
   if (std::any_of(found.begin(), found.end(), known)) return true;
   const auto curve = curve_near(arc, turn.at, 0.2 * arc.length());
   if (!curve) return false;
-  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), 0};
+  // Only the exact place can tell: a fold of curves that pass each other closely lies on its curve, too.
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), unknown};
   const auto near = std::count_if(distances.begin(), distances.end(), [&](double d) {
     return d <= 10 * std::max(distances.front(), too_near);
   });

@@ -228,5 +228,18 @@ TEST(CloseCall, AFlawFarBelowTheStepIsNeverSteppedOver) {
   EXPECT_GT(finished, 30);  // of 40; the others say that they are unresolved
 }
 
+TEST(CloseCall, TheFoldOfABranchThatAFlawHasDetachedIsALimitPoint) {
+  for (double flaw = 1e-8; flaw > 5e-13; flaw /= 10) {
+    const FlawedStrut strut{flaw};
+    const Matrix turn = FlawedStrut::turn();
+    const double x = 0.9, lambda = x * x + flaw / x, fold = std::cbrt(flaw / 2);
+    const StartPoint start{turn * Vector{{x, x * x}}, lambda, {}, {turn * Vector{{-1, 0}}, 0}};
+    const Curve curve = follow(strut, start, {lambda_reaches(-0.5), lambda_reaches(1.5)});
+    EXPECT_TRUE(hits_of(curve, HitKind::branch_point).empty()) << flaw;
+    for (const Hit& hit : hits_of(curve, HitKind::limit_point))
+      EXPECT_NEAR((turn.transpose() * hit.point.x)[0], fold, 1e-3 * fold) << flaw;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::continuation
