@@ -317,7 +317,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
 }
 
 void settle_families(Curve& curve) {
-  constexpr double certain = 0.02;  // longer than any inflection stays flat to rounding
+  constexpr double certain = 0.1;  // longer than any inflection stays flat to rounding
   for (Hit& hit : curve.hits) {
     if (hit.kind != HitKind::family || hit.s_after - hit.s_before >= certain) continue;
     if (kink_at(curve, hit.s_before) || kink_at(curve, hit.s_after)) continue;
