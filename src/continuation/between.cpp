@@ -169,8 +169,7 @@ class Filler {
         continue;
       }
       point.tangent = {rate_.head(n), rate_[n]};
-      const double length =
-          std::sqrt(metric_product(walker_.weights, point.tangent, point.tangent));
+      const double length = length_of(walker_, point.tangent);
       point.tangent.dx /= length;
       point.tangent.dlambda /= length;
       point.negative = stretch_->from.negative;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coincide.hpp"
 #include "reduced_equation.hpp"
 #include "springfold/continuation/branch_point.hpp"
 
@@ -144,7 +145,7 @@ std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint
   if (!c) return std::nullopt;
   const Vector d = (e->N * *c).cwiseQuotient(e->root);
   Direction tangent{d.head(n), d[n]};
-  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
+  const double length = length_of(arc.walker(), tangent);
   tangent.dx /= length;
   tangent.dlambda /= length;
   if (metric_product(arc.walker().weights, tangent, point.tangent) < 0.99) return std::nullopt;
@@ -186,7 +187,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   result.point.lambda = place.u[n];
   Direction& tangent = result.point.tangent;
   tangent = {place.along.head(n), place.along[n]};
-  const double length = std::sqrt(metric_product(arc.walker().weights, tangent, tangent));
+  const double length = length_of(arc.walker(), tangent);
   tangent.dx /= length;
   tangent.dlambda /= length;
   result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "chebyshev.hpp"
+#include "coincide.hpp"
 #include "singular.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "zeros.hpp"
@@ -36,7 +37,7 @@ std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePo
   point.x = u.head(n);
   point.lambda = u[n];
   point.tangent = {rate.head(n), rate[n]};
-  const double length = std::sqrt(metric_product(walker.weights, point.tangent, point.tangent));
+  const double length = length_of(walker, point.tangent);
   point.tangent.dx /= length;
   point.tangent.dlambda /= length;
   point.negative.reset();

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coincide.hpp"
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-double length(const Vector& weights, const Direction& d) {
-  return std::sqrt(metric_product(weights, d, d));
-}
 
 Direction between(const CurvePoint& a, const CurvePoint& b) {
   return {b.x - a.x, b.lambda - a.lambda};
@@ -55,7 +52,7 @@ Direction rate(const Walker& walker, const CurvePoint& from, const CurvePoint& p
 /// Part of a direction across the tangent.
 double across(const Walker& walker, const Direction& d, const Direction& tangent) {
   const double along = metric_product(walker.weights, d, tangent);
-  return length(walker.weights, {d.dx - along * tangent.dx, d.dlambda - along * tangent.dlambda});
+  return length_of(walker, {d.dx - along * tangent.dx, d.dlambda - along * tangent.dlambda});
 }
 
 /// Distance of the corrected middle from the cubic through both ends.
@@ -108,7 +105,7 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     const double along = p.s - from.s;
     d.dx -= along * from.tangent.dx;
     d.dlambda -= along * from.tangent.dlambda;
-    return length(walker.weights, d);
+    return length_of(walker, d);
   };
   constexpr double share = 0.1, smaller_share = 0.01;
   constexpr double noise = 1e-11;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "coincide.hpp"
+
 namespace springfold::continuation {
 
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds) {
@@ -34,7 +36,7 @@ std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& 
   if (!result.point) return std::nullopt;
   const Direction slope{from.tangent.dx + t * (2 * a + 3 * t * b),
                         from.tangent.dlambda + t * (2 * a_l + 3 * t * b_l)};
-  const double length = std::sqrt(metric_product(walker.weights, slope, slope));
+  const double length = length_of(walker, slope);
   if (metric_product(walker.weights, result.point->tangent, slope) < same_direction * length)
     return std::nullopt;
   result.point->s = from.s + ds;

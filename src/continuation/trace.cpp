@@ -215,19 +215,19 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
   curve.stop = StopReason::max_points;
   Anchor anchor;
   while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
-    const Progress before = progress;
     if (anchor.set && (curve.hits.size() != anchor.hits ||
                        progress.here.s > anchor.before.here.s + anchor.before.ds))
       anchor = {};
     Refusal refused;
     // Where lambda stands still, short steps are as good as long ones; elsewhere they would be led by rounding.
-    const bool report = std::abs(before.here.tangent.dlambda) <= level;
+    const bool report = std::abs(progress.here.tangent.dlambda) <= level;
     Outcome outcome = advance(walker, events, at_hit, report, progress, curve, refused);
     if (outcome == Outcome::stop) return;
     if (outcome == Outcome::shorten) {
-      curve.log.push_back({before.here.s, before.ds, refused.reason});
+      // A refused step has changed nothing in `progress`.
+      curve.log.push_back({progress.here.s, progress.ds, refused.reason});
       if (refused.special && !anchor.set)
-        anchor = {before, curve.points.size(), curve.hits.size(), true, false, false};
+        anchor = {progress, curve.points.size(), curve.hits.size(), true, false, false};
       anchor.passing = anchor.passing || refused.passing;
       progress.ds *= 0.5;
       const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
