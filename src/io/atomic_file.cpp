@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -56,9 +57,10 @@ int write_all(int file, std::string_view bytes) {
 /// Some file systems cannot synchronise and say EINVAL: that is no loss.
 int synchronise(int file) { return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno; }
 
-int synchronise_folder(const fs::path& folder) {
-  const Descriptor open_folder{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-  return open_folder.number() < 0 ? errno : synchronise(open_folder.number());
+/// A file or, with O_DIRECTORY, a folder.
+int synchronise(const fs::path& path, int flags) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags)};
+  return file.number() < 0 ? errno : synchronise(file.number());
 }
 
 int create_with(const fs::path& path, std::string_view bytes) {
@@ -66,14 +68,17 @@ int create_with(const fs::path& path, std::string_view bytes) {
   Descriptor file{::open(path.c_str(), flags, 0666)};
   if (file.number() < 0) return errno;
   if (const int error = write_all(file.number(), bytes)) return error;
-  if (const int error = synchronise(file.number())) return error;
   return file.close();
 }
 
-/// 0 or the error.
+/// 0 or the error. Where a file is replaced, the two change places and the old one is removed:
+/// renaming over it would make some file systems (ext4) wait for the disk.
 int rename_into_place(const fs::path& from, const fs::path& to) {
-  if (::rename(from.c_str(), to.c_str()) != 0) return errno;
-  return synchronise_folder(folder_of(to));
+  struct stat old {};
+  if (::lstat(to.c_str(), &old) == 0 && S_ISREG(old.st_mode) &&
+      ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0)
+    return ::unlink(from.c_str()) == 0 ? 0 : errno;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace
@@ -90,10 +95,13 @@ void write_file(const fs::path& path, std::string_view bytes) {
 }
 
 void publish_file(const fs::path& from, const fs::path& to) {
-  const Descriptor file{::open(from.c_str(), O_RDONLY | O_CLOEXEC)};
-  int error = file.number() < 0 ? errno : synchronise(file.number());
-  if (error == 0) error = rename_into_place(from, to);
-  if (error != 0) fail("cannot write", to, error);
+  if (const int error = rename_into_place(from, to)) fail("cannot write", to, error);
+}
+
+void put_on_disk(const fs::path& path) {
+  int error = synchronise(path, 0);
+  if (error == 0) error = synchronise(folder_of(path), O_DIRECTORY);
+  if (error != 0) fail("cannot write", path, error);
 }
 
 void make_folder(const fs::path& folder) {
@@ -103,7 +111,6 @@ void make_folder(const fs::path& folder) {
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
     throw std::runtime_error{"cannot create folder " + folder.string() + ": " + error.message()};
-  synchronise_folder(folder_of(folder));  // best effort: a parent need not be readable
 }
 
 std::string read_file(const fs::path& path) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "atomic_file.hpp"
+#include "manifest.hpp"
 #include "springfold/version.hpp"
 #include "text.hpp"
 
@@ -75,6 +76,7 @@ void write_checkpoint(const fs::path& folder, const Case& the_case, const Planne
   }
   text += "end\n";
   write_file(path_of(folder, planned), text);
+  put_on_disk(path_of(folder, planned));
 }
 
 std::optional<PartialRows> read_checkpoint(const fs::path& folder, const Case& the_case,
@@ -95,10 +97,15 @@ std::optional<PartialRows> read_checkpoint(const fs::path& folder, const Case& t
 }
 
 void remove_checkpoints(const fs::path& folder, const Case& the_case) {
-  for (const PlannedRun& planned : the_case.runs) {
-    std::error_code ignored;
-    fs::remove(path_of(folder, planned), ignored);
-  }
+  std::vector<fs::path> there;
+  std::error_code ignored;
+  for (const PlannedRun& planned : the_case.runs)
+    if (fs::exists(path_of(folder, planned), ignored)) there.push_back(path_of(folder, planned));
+  if (there.empty()) return;
+  const auto files = files_listed_in(folder);
+  for (const std::string& file : files) put_on_disk(folder / file);
+  if (!files.empty()) put_on_disk(folder / "manifest.json");
+  for (const fs::path& checkpoint : there) fs::remove(checkpoint, ignored);
 }
 
 }  // namespace springfold::io

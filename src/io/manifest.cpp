@@ -51,13 +51,15 @@ Json read_manifest(const fs::path& folder) {
   }
 }
 
-/// "name", "branches/name" or "plots/name".
+/// "name", or a name in one of the folders that results have.
 bool stays_in_the_set(const std::string& path) {
   const auto slash = path.find('/');
   const auto folder = slash == std::string::npos ? "" : path.substr(0, slash);
   const auto name = slash == std::string::npos ? path : path.substr(slash + 1);
-  return (folder.empty() || folder == "branches" || folder == "plots") && !name.empty() &&
-         name.find('/') == std::string::npos && name != "." && name != "..";
+  const bool is_ours =
+      folder.empty() || folder == "branches" || folder == "equilibria" || folder == "plots";
+  return is_ours && !name.empty() && name.find('/') == std::string::npos && name != "." &&
+         name != "..";
 }
 
 std::string path_in(const Json& entry) {

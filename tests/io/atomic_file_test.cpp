@@ -77,6 +77,15 @@ TEST(WriteFile, KeepsTheOldFileWhenTheDiskIsFull) {
   EXPECT_EQ(count_files(scratch.path()), 1);
 }
 
+TEST(PutOnDisk, NamesPathAndReasonWhenTheFileIsMissing) {
+  const ScratchFolder scratch;
+  const fs::path file = scratch.path() / "a.txt";
+  EXPECT_EQ(message_of([&] { put_on_disk(file); }),
+            "cannot write " + file.string() + ": No such file or directory");
+  write_file(file, "text");
+  EXPECT_EQ(message_of([&] { put_on_disk(file); }), "nothing was thrown");
+}
+
 TEST(MakeFolder, MakesParentsAndAcceptsWhatIsThere) {
   const ScratchFolder scratch;
   make_folder(scratch.path() / "a" / "b");

@@ -119,6 +119,17 @@ TEST(WriteResults, RemovesFilesOfTheEarlierSetAndNoOthers) {
   EXPECT_TRUE(fs::exists(scratch.path() / "notes.txt"));
 }
 
+TEST(WriteResults, RemovesTablesOfEquilibriaOfTheEarlierSet) {
+  const ScratchFolder scratch;
+  auto results = sample::two_results();
+  results.front().equilibria.emplace();
+  write_results(scratch.path(), sample::two_runs(), results);
+  const fs::path table = scratch.path() / "equilibria" / "push_from_Q2-1.csv";
+  ASSERT_TRUE(fs::exists(table));
+  write_results(scratch.path(), sample::two_runs(), sample::two_results());
+  EXPECT_FALSE(fs::exists(table));
+}
+
 TEST(WriteResults, RemovesNothingOutsideItsFolderWhateverTheOldManifestSays) {
   const ScratchFolder scratch;
   put_text(scratch.path() / "outside.txt", "keep");

@@ -9,7 +9,8 @@
 
 namespace springfold::io {
 
-/// Writes the rows that are done, in place of an earlier checkpoint of this run.
+/// Writes the rows that are done, in place of an earlier checkpoint of this run, and waits until they
+/// are on the disk.
 /// @throws std::runtime_error when it cannot be written
 void write_checkpoint(const std::filesystem::path& folder, const Case& the_case,
                       const PlannedRun& planned, const analysis::PartialRows& rows);
@@ -20,7 +21,8 @@ std::optional<analysis::PartialRows> read_checkpoint(const std::filesystem::path
                                                      const Case& the_case,
                                                      const PlannedRun& planned);
 
-/// Removes the checkpoints of all runs of the case.
+/// Removes the checkpoints of all runs of the case, once the results in the folder are on the disk.
+/// @throws std::runtime_error when they cannot be put there
 void remove_checkpoints(const std::filesystem::path& folder, const Case& the_case);
 
 }  // namespace springfold::io
