@@ -12,22 +12,26 @@ namespace springfold::bench {
 /// The wrench on the only body is lambda * direction.
 struct LoadPath {
   LoadPath(const model::Mechanism& mechanism, Vector d)
-      : system{statics::prepare(mechanism)}, direction{std::move(d)} {}
+      : system{statics::prepare(mechanism)}, direction{std::move(d)}, present{inputs(0)} {}
 
   statics::System system;
   Vector direction;
   mutable statics::Workspace work{};
+  mutable statics::Inputs present{};
   mutable Vector scratch{};
 
   Index size() const { return system.size; }
   static bool symmetric() { return true; }
   statics::Inputs inputs(double lambda) const { return {system.commands, lambda * direction}; }
   bool residual(const Vector& z, double lambda, Vector& F) const {
-    return statics::equilibrium_residual(system, {}, z, inputs(lambda), work, F);
+    present.W = lambda * direction;
+    return statics::equilibrium_residual(system, {}, z, present, work, F);
   }
   bool derivatives(const Vector& z, double lambda, Matrix& dF_dz, Vector& dF_dlambda) const {
-    dF_dlambda = statics::load_columns(system, z) * direction;
-    return statics::equilibrium_matrix(system, {}, z, inputs(lambda), work, scratch, dF_dz);
+    present.W = lambda * direction;
+    dF_dlambda.setZero(system.size);
+    statics::add_wrench_rate(system, z, direction, dF_dlambda);
+    return statics::equilibrium_matrix(system, {}, z, present, work, scratch, dF_dz);
   }
   Vector metric() const {  // chain wrenches do not count in the arc length
     Vector weights = Vector::Ones(system.size);

@@ -21,6 +21,11 @@ PathProblem::PathProblem(statics::System system, PathRule rule)
   d_ = body.count;
   plain_size_ = system_.size - d_ + rule_.N.cols();
   assert(rule_.N.rows() == d_);
+  is_whole_ = rule_.N.cols() == d_ && rule_.N.isIdentity(0);
+  moves_pose_ = !rule_.t_rate.isZero(0);
+  moves_commands_ = !rule_.rho_rate.isZero(0);
+  moves_wrench_ = !rule_.W_rate.isZero(0);
+  moves_loads_ = !rule_.load_rate.isZero(0);
   find_free_rotations();
   if (!rotations_.empty()) turned_ = system_;
 }
@@ -53,40 +58,6 @@ void PathProblem::find_free_rotations() {
     if (turns && v == rotation->v) rotation->y = size_;
     size_ += !turns ? 1 : v == rotation->v ? 4 : 0;
   }
-}
-
-/// v with four entries instead of three for every free rotation: those of `q_of` (in y), or zeros.
-Vector PathProblem::with_quaternions(const Vector& v, const Vector* q_of) const {
-  Vector y = Vector::Zero(size_);
-  for (Index i = 0; i < plain_size_; ++i)
-    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) y[p] = v[i];
-  if (q_of != nullptr)
-    for (const FreeRotation& r : rotations_) y.segment<4>(r.y) = q_of->segment<4>(r.y);
-  return y;
-}
-
-/// y with rotation vectors zero instead of quaternions.
-Vector PathProblem::without_quaternions(const Vector& y) const {
-  Vector v = Vector::Zero(plain_size_);
-  for (Index i = 0; i < plain_size_; ++i)
-    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) v[i] = y[p];
-  return v;
-}
-
-std::vector<model::Mat3<double>> PathProblem::frames(const Vector& y) const {
-  std::vector<model::Mat3<double>> list(system_.body_slices.size(),
-                                        model::Mat3<double>::Identity());
-  for (const FreeRotation& r : rotations_) list[r.body] = rotation_of(y.segment<4>(r.y));
-  return list;
-}
-
-/// dv/dy at y, v being rotation vectors against the present rotation.
-Matrix PathProblem::quaternion_rows(const Vector& y) const {
-  Matrix rows = Matrix::Zero(plain_size_, size_);
-  for (Index i = 0; i < plain_size_; ++i)
-    if (const Index p = place_[static_cast<std::size_t>(i)]; p >= 0) rows(i, p) = 1;
-  for (const FreeRotation& r : rotations_) rows.block<3, 4>(r.v, r.y) = rate_of(y.segment<4>(r.y));
-  return rows;
 }
 
 const statics::System& PathProblem::system(double lambda) const {
@@ -123,28 +94,6 @@ const statics::System& PathProblem::turned_to_pose(const Vector& y, double lambd
   if (rotations_.empty()) turned_ = plain;
   turn_frames(plain, list, turned_);
   return turned_;
-}
-
-statics::Inputs PathProblem::inputs(double lambda) const {
-  statics::Inputs in{rule_.rho_start + lambda * rule_.rho_rate,
-                     rule_.W_start + lambda * rule_.W_rate,
-                     rule_.load_start + lambda * rule_.load_rate};
-  if (rule_.family) {
-    in.rho = system(lambda).commands;
-    in.W = family_->second;
-  }
-  return in;
-}
-
-Vector PathProblem::local(const Vector& y, double lambda) const {
-  const Vector v = without_quaternions(y);
-  const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Vector z(system_.size);
-  z.head(t_) = v.head(t_);
-  z.segment(t_, d_) = rule_.t_start + lambda * rule_.t_rate + rule_.N * v.segment(t_, free);
-  z.tail(tail) = v.tail(tail);
-  for (const FreeRotation& r : rotations_) z.segment<3>(r.z).setZero();
-  return z;
 }
 
 Turns PathProblem::turns(const Vector& y, const Turns* before) const {
@@ -186,106 +135,6 @@ Vector PathProblem::expand_rate(const Vector& y, const Vector& dy, double dlambd
   return dz;
 }
 
-Vector PathProblem::local_rate(const Vector& y, const Vector& dy, double dlambda) const {
-  Vector dv = without_quaternions(dy);
-  for (const FreeRotation& r : rotations_)
-    dv.segment<3>(r.v) = rate_of(y.segment<4>(r.y)) * dy.segment<4>(r.y);
-  const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Vector dz(system_.size);
-  dz.head(t_) = dv.head(t_);
-  dz.segment(t_, d_) = dlambda * rule_.t_rate + rule_.N * dv.segment(t_, free);
-  dz.tail(tail) = dv.tail(tail);
-  return dz;
-}
-
-Vector PathProblem::reduce(const Vector& z) const {
-  Vector from_start = z;
-  from_start.segment(t_, d_) -= rule_.t_start;
-  Vector y = with_quaternions(reduce_rows(from_start), nullptr);
-  for (const FreeRotation& r : rotations_) y.segment<4>(r.y) = quaternion_of(z.segment<3>(r.z));
-  return y;
-}
-
-/// Rows of the residual that belong to v.
-Vector PathProblem::reduce_rows(const Vector& r) const {
-  const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Vector reduced(plain_size_);
-  reduced.head(t_) = r.head(t_);
-  reduced.segment(t_, free) = rule_.N.transpose() * r.segment(t_, d_);
-  reduced.tail(tail) = r.tail(tail);
-  return reduced;
-}
-
-bool PathProblem::residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const {
-  for (const FreeRotation& r : rotations_)
-    if (!(y.segment<4>(r.y).norm() > 0.1)) return false;
-  const bool finite =
-      equilibrium_residual(turned(y, lambda), piece, local(y, lambda), inputs(lambda), work_, r_);
-  const Vector plain = reduce_rows(r_);
-  F = with_quaternions(plain, nullptr);
-  for (const FreeRotation& r : rotations_) {
-    const Quaternion q = y.segment<4>(r.y);
-    F.segment<4>(r.y) = rate_of(q).transpose() * plain.segment<3>(r.v) + (q.squaredNorm() - 1) * q;
-  }
-  return finite;
-}
-
-bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dF_dy,
-                              Vector& dF_dlambda) const {
-  for (const FreeRotation& r : rotations_)
-    if (!(y.segment<4>(r.y).norm() > 0.1)) return false;
-  const Vector z = local(y, lambda);
-  const statics::System& present = turned(y, lambda);
-  if (!equilibrium_matrix(present, piece, z, inputs(lambda), work_, r_, A_, &dR_drho_))
-    return false;
-  const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
-  Matrix columns(system_.size, plain_size_);
-  columns.leftCols(t_) = A_.leftCols(t_);
-  columns.middleCols(t_, free) = A_.middleCols(t_, d_) * rule_.N;
-  columns.rightCols(tail) = A_.rightCols(tail);
-  Matrix plain(plain_size_, plain_size_);
-  plain.topRows(t_) = columns.topRows(t_);
-  plain.middleRows(t_, free) = rule_.N.transpose() * columns.middleRows(t_, d_);
-  plain.bottomRows(tail) = columns.bottomRows(tail);
-
-  Vector rate;
-  if (rule_.family) {
-    const auto at = [&](double l) -> std::optional<Vector> {
-      auto [system, W] = rule_.family(l);
-      if (!rotations_.empty()) turn_frames(statics::System{system}, frames(y), system);
-      Vector r;
-      if (!equilibrium_residual(system, piece, z, {system.commands, W, rule_.load_start}, work_, r))
-        return std::nullopt;
-      return r;
-    };
-    const auto by_parameter = six_point_derivative(at, lambda, rule_.family_step);
-    if (!by_parameter) return false;
-    rate = *by_parameter;
-  } else {
-    rate = A_.middleCols(t_, d_) * rule_.t_rate + dR_drho_ * rule_.rho_rate;
-    if (!rule_.W_rate.isZero(0)) rate += load_columns(present, z) * rule_.W_rate;
-    if (!rule_.load_rate.isZero(0))
-      rate += statics::load_rate(present, z, inputs(lambda).rho, rule_.load_rate);
-  }
-  if (rotations_.empty()) {
-    dF_dy = plain;
-    dF_dlambda = reduce_rows(rate);
-    return true;
-  }
-  // dF/dy = T^T (dr/dv) T + second derivatives of T + the equation for the length of q.
-  const Matrix T = quaternion_rows(y);
-  dF_dy = T.transpose() * plain * T;
-  dF_dlambda = T.transpose() * reduce_rows(rate);
-  const Vector r_plain = reduce_rows(r_);
-  for (const FreeRotation& r : rotations_) {
-    const Quaternion q = y.segment<4>(r.y);
-    dF_dy.block<4, 4>(r.y, r.y) += curvature_of(q, r_plain.segment<3>(r.v)) +
-                                   (q.squaredNorm() - 1) * Eigen::Matrix4d::Identity() +
-                                   2 * q * q.transpose();
-  }
-  return true;
-}
-
 bool PathProblem::switches(const Vector& y, double lambda, Vector& g) const {
   const auto& list = system(lambda).switches;
   g.resize(static_cast<Index>(list.size()));
@@ -323,7 +172,8 @@ Vector PathProblem::metric() const {
   Vector weights = Vector::Ones(plain_size_);
   for (Index i = 0; i < t_; ++i)
     if (system_.is_wrench[static_cast<std::size_t>(i)]) weights[i] = 0;
-  Vector metric = with_quaternions(weights, nullptr);
+  Vector metric;
+  spread(weights, metric);
   for (const FreeRotation& r : rotations_) metric.segment<4>(r.y).setConstant(4);  // |dq| = angle/2
   return metric;
 }
@@ -343,7 +193,9 @@ std::vector<bool> PathProblem::angles() const {
           std::abs(std::abs(rule_.N(r, c)) - 1) < 1e-14)
         angles[t_ + c] = 1;
   std::vector<bool> list;
-  for (const double angle : with_quaternions(angles, nullptr)) list.push_back(angle > 0);
+  Vector in_y;
+  spread(angles, in_y);
+  for (const double angle : in_y) list.push_back(angle > 0);
   return list;
 }
 
@@ -361,7 +213,9 @@ Vector PathProblem::periods() const {
   if (system_.mechanism.bodies[static_cast<std::size_t>(rule_.body - 1)].task_space ==
       model::TaskSpace::spatial)
     periods.segment(t_, rule_.N.cols()).setZero();  // rotation vectors
-  return with_quaternions(periods, nullptr);
+  Vector in_y;
+  spread(periods, in_y);
+  return in_y;
 }
 
 std::vector<Index> PathProblem::double_covers() const {

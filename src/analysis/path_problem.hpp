@@ -102,23 +102,35 @@ class PathProblem {
 
  private:
   void find_free_rotations();
-  Vector reduce_rows(const Vector& r) const;
-  Vector with_quaternions(const Vector& v, const Vector* q_of) const;
-  Vector without_quaternions(const Vector& y) const;
-  std::vector<model::Mat3<double>> frames(const Vector& y) const;
-  Matrix quaternion_rows(const Vector& y) const;
+  void put_inputs(double lambda, statics::Inputs& in) const;
+  void put_local(const Vector& y, double lambda, Vector& z) const;
+  void put_expanded(const Vector& v, Vector& z) const;
+  bool put_rate(const Vector& y, double lambda, const Piece& piece, const statics::System& present,
+                const Matrix& A, Vector& rate) const;
+  void put_quaternions(const Vector& y, const Matrix& plain, Matrix& result) const;
+  void put_quaternions(const Vector& y, const Vector& plain, Vector& result) const;
+  void reduce_rows(const Vector& r, Vector& reduced) const;
+  void reduce_matrix(const Matrix& A, Matrix& reduced) const;
+  void spread(const Vector& v, Vector& y) const;
+  void gather(const Vector& y, Vector& v) const;
+  bool has_rotations(const Vector& y) const;
+  const std::vector<model::Mat3<double>>& frames(const Vector& y) const;
   std::optional<Vector> breakpoints(double lambda) const;
 
   statics::System system_;
   PathRule rule_;
   Index t_ = 0, d_ = 0, size_ = 0;  ///< size_: of y
   Index plain_size_ = 0;            ///< of v, the unknowns with rotation vectors
+  bool is_whole_ = false;           ///< N = 1: all pose coordinates are free
+  bool moves_pose_ = false, moves_commands_ = false, moves_wrench_ = false, moves_loads_ = false;
   std::vector<FreeRotation> rotations_{};
   std::vector<Index> place_{};  ///< of the entries of v in y; -1 for free rotations
   mutable statics::System turned_{};
   mutable statics::Workspace work_{};
-  mutable Vector r_{};
-  mutable Matrix A_{}, dR_drho_{};
+  mutable statics::Inputs inputs_{};
+  mutable Vector z_{}, v_{}, r_{}, rate_{};
+  mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
+  mutable std::vector<model::Mat3<double>> frames_{};
   mutable double family_lambda_ = 0;
   mutable std::optional<std::pair<statics::System, Vector>> family_{};
 };

@@ -1,6 +1,7 @@
 #include "springfold/model/mechanism.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -219,6 +220,20 @@ std::string coordinate_name(const Joint& joint) {
   return joint.role == JointRole::actuated ? joint.name + ".theta" : joint.name;
 }
 
+bool is_flat(const CompiledChain& chain) {
+  const auto about_z = [](const Pose<double>& T) {
+    return T.R.col(2) == Vec3<double>::UnitZ() && T.R.row(2).transpose() == Vec3<double>::UnitZ();
+  };
+  const auto step_is_flat = [&](const CompiledChain::JointStep& step) {
+    return about_z(step.before) &&
+           (!step.revolute || step.axis.cwiseAbs() == Vec3<double>::UnitZ());
+  };
+  return is_planar(chain.space) && (!chain.from_moves || is_planar(chain.from_space)) &&
+         (!chain.to_moves || is_planar(chain.to_space)) && about_z(chain.last) &&
+         about_z(chain.to_attachment) &&
+         std::all_of(chain.joints.begin(), chain.joints.end(), step_is_flat);
+}
+
 CompiledChain compile(const Mechanism& mechanism, const Chain& chain) {
   CompiledChain compiled;
   compiled.space = task_space_of(mechanism, chain);
@@ -242,6 +257,7 @@ CompiledChain compile(const Mechanism& mechanism, const Chain& chain) {
     pending = Pose<double>{};
   }
   compiled.last = pending;
+  compiled.flat = is_flat(compiled);
   return compiled;
 }
 

@@ -16,10 +16,13 @@ void gather(const System& system, std::size_t i, const Vector& z, const Vector& 
   const model::CompiledChain& chain = system.chains[i];
   Vector& v = work.variables[i];
   v.resize(chain.variable_count());
-  for (Index k = 0; k < v.size(); ++k) {
-    const Place place = place_of(slice, chain, k);
-    v[k] = (place.z >= 0 ? z[place.z] : 0.0) + (place.rho >= 0 ? rho[place.rho] : 0.0);
+  Index k = 0;
+  for (; k < chain.first_joint(); ++k) v[k] = z[slice.from + k];
+  for (std::size_t j = 0; j < chain.joints.size(); ++j, ++k) {
+    const Index x = slice.joint_coordinate[j], command = slice.joint_command[j];
+    v[k] = (x >= 0 ? z[x] : 0.0) + (command >= 0 ? rho[command] : 0.0);
   }
+  for (Index t = slice.to; k < v.size(); ++k, ++t) v[k] = z[t];
   work.wrenches[i] = z.segment(slice.F, slice.F_count);
 }
 
@@ -69,10 +72,14 @@ void add_springs(const System& system, const Piece& piece, const Vector& z, Vect
 void scatter_residual(const System& system, std::size_t i, Workspace& work, Vector& residual) {
   const ChainSlice& slice = system.chain_slices[i];
   const auto& at = work.closures[i];
-  residual.segment(slice.F, slice.F_count) -= at.e;
+  const Vector& F = work.wrenches[i];
+  for (Index r = 0; r < slice.F_count; ++r) residual[slice.F + r] -= at.e[r];
   for (Index k = 0; k < at.J.cols(); ++k) {
     const Index row = place_of(slice, system.chains[i], k).z;
-    if (row >= 0) residual[row] -= at.J.col(k).dot(work.wrenches[i]);
+    if (row < 0) continue;
+    double force = 0;
+    for (Index r = 0; r < slice.F_count; ++r) force += at.J(r, k) * F[r];
+    residual[row] -= force;
   }
 }
 
@@ -88,9 +95,9 @@ void scatter_matrix(const System& system, std::size_t i, Workspace& work, Matrix
       if (column.z >= 0) A(row, column.z) -= at.H(j, k);
       if (dR_drho != nullptr && column.rho >= 0) (*dR_drho)(row, column.rho) -= at.H(j, k);
     }
-    if (column.z >= 0) {
-      A.block(slice.F, column.z, slice.F_count, 1) -= at.J.col(k);
-      A.block(column.z, slice.F, 1, slice.F_count) -= at.J.col(k).transpose();
+    for (Index r = 0; column.z >= 0 && r < slice.F_count; ++r) {
+      A(slice.F + r, column.z) -= at.J(r, k);
+      A(column.z, slice.F + r) -= at.J(r, k);
     }
     if (dR_drho != nullptr && column.rho >= 0)
       dR_drho->block(slice.F, column.rho, slice.F_count, 1) -= at.J.col(k);
@@ -138,6 +145,10 @@ bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& 
   add_point_terms(system, z, inputs, work, residual, &A, dR_drho);
   add_gauge(system, z, work, residual, &A, dR_drho);
   return residual.allFinite() && A.allFinite();
+}
+
+void add_wrench_rate(const System& system, const Vector& z, const Vector& W_rate, Vector& rate) {
+  add_loads(system, z, W_rate, rate, nullptr);
 }
 
 Matrix load_columns(const System& system, const Vector& z) {

@@ -27,8 +27,9 @@ VectorOf<double> random_variables(std::mt19937& random, const CompiledChain& cha
 TEST_P(ClosureDerivatives, JacobianAgreesWithTheComplexStep) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 200; ++trial) {
-    const CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
-                                             GetParam().to_moves, trial % 6);
+    CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
+                                       GetParam().to_moves, trial % 6);
+    chain.flat = trial % 2 == 0 && is_flat(chain);
     const VectorOf<double> v = random_variables(random, chain);
     Closure<double> at;
     evaluate_closure<double>(chain, v, nullptr, at);
@@ -47,8 +48,9 @@ TEST_P(ClosureDerivatives, JacobianAgreesWithTheComplexStep) {
 TEST_P(ClosureDerivatives, ContractedHessianAgreesWithTheComplexStepOfTheJacobian) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 200; ++trial) {
-    const CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
-                                             GetParam().to_moves, trial % 6);
+    CompiledChain chain = random_chain(random, GetParam().space, GetParam().from_moves,
+                                       GetParam().to_moves, trial % 6);
+    chain.flat = trial % 2 == 0 && is_flat(chain);
     const VectorOf<double> v = random_variables(random, chain);
     const VectorOf<double> F = random_vector(random, chain.dimension(), 2.0);
     Closure<double> at;
@@ -65,6 +67,54 @@ TEST_P(ClosureDerivatives, ContractedHessianAgreesWithTheComplexStepOfTheJacobia
           << "trial " << trial << ", variable " << j;
     }
   }
+}
+
+TEST(FlatClosure, IsThatOfTheGeneralWay) {
+  std::mt19937 random(10);
+  constexpr TaskSpace plane[] = {TaskSpace::xy, TaskSpace::planar};
+  for (int trial = 0; trial < 400; ++trial) {
+    CompiledChain chain =
+        random_chain(random, plane[trial % 2], trial % 3 > 0, trial % 5 > 0, trial % 7);
+    chain.from_space = plane[trial / 2 % 2];
+    chain.to_space = plane[trial / 4 % 2];
+    if (chain.space == TaskSpace::planar) chain.from_space = chain.to_space = chain.space;
+    for (auto& step : chain.joints) {
+      step.before.p[2] = 0.3;
+      if (!step.revolute) step.axis = random_unit(random);
+    }
+    ASSERT_TRUE(is_flat(chain));
+    const VectorOf<double> v = random_variables(random, chain);
+    const VectorOf<double> F = random_vector(random, chain.dimension(), 2.0);
+    Closure<double> general, flat;
+    evaluate_closure<double>(chain, v, &F, general);
+    chain.flat = true;
+    evaluate_closure<double>(chain, v, &F, flat);
+    EXPECT_LT((flat.e - general.e).norm(), 2e-14) << trial;
+    if (v.size() == 0) continue;
+    EXPECT_LT((flat.J - general.J).norm(), 2e-14) << trial;
+    EXPECT_LT((flat.H - general.H).norm(), 5e-14) << trial;
+  }
+}
+
+TEST(FlatClosure, IsNotForChainsThatLeaveThePlane) {
+  std::mt19937 random(11);
+  const CompiledChain chain = random_chain(random, TaskSpace::planar, true, true, 3);
+  EXPECT_TRUE(is_flat(chain));
+  const auto with = [&](const auto& change) {
+    CompiledChain other = chain;
+    change(other);
+    return is_flat(other);
+  };
+  const Mat3<double> tilted = rotation_about(Vec3<double>::UnitX(), 1e-9);
+  EXPECT_FALSE(with([&](CompiledChain& c) { c.last.R = tilted; }));
+  EXPECT_FALSE(with([&](CompiledChain& c) { c.to_attachment.R = tilted; }));
+  EXPECT_FALSE(with([&](CompiledChain& c) { c.joints[1].before.R = tilted; }));
+  EXPECT_FALSE(with([&](CompiledChain& c) { c.from_space = TaskSpace::spatial; }));
+  EXPECT_FALSE(with([&](CompiledChain& c) { c.space = TaskSpace::xyz; }));
+  EXPECT_FALSE(with([&](CompiledChain& c) {
+    c.joints[0].revolute = true;
+    c.joints[0].axis = Vec3<double>::UnitX();
+  }));
 }
 
 /// Ends in different task spaces: a point on a plate, a planar body in a spatial mechanism.

@@ -161,6 +161,9 @@ TEST_P(EveryTaskSpace, LoadColumnsAreTheDerivativeOfTheResidual) {
     unloaded.inputs.W.setZero();
     const Vector by_load = residual_at(state, state.piece()) - residual_at(unloaded, state.piece());
     EXPECT_LT((columns * state.inputs.W - by_load).lpNorm<Eigen::Infinity>(), 1e-13);
+    Vector rate = Vector::Zero(state.system.size);
+    add_wrench_rate(state.system, state.z, state.inputs.W, rate);
+    EXPECT_LT((rate - by_load).lpNorm<Eigen::Infinity>(), 1e-13);
   }
 }
 

@@ -3,72 +3,11 @@
 #pragma once
 
 #include <cassert>
-#include <vector>
 
-#include "springfold/model/mechanism.hpp"
-#include "springfold/model/rotation_vector.hpp"
+#include "springfold/model/compiled_chain.hpp"
+#include "springfold/model/flat_closure.hpp"
 
 namespace springfold::model {
-
-/// A chain as the kinematics wants it: one entry per joint, rigid links merged.
-struct CompiledChain {
-  struct JointStep {
-    Pose<double> before{};  ///< rigid transform from the previous joint to this one
-    Vec3<double> axis = Vec3<double>::UnitZ();
-    bool revolute = true;
-  };
-  TaskSpace space = TaskSpace::spatial;                                      ///< in which it closes
-  TaskSpace from_space = TaskSpace::spatial, to_space = TaskSpace::spatial;  ///< of the end bodies
-  bool from_moves = false, to_moves = true;  ///< whether the ends are moving bodies
-  std::vector<JointStep> joints{};
-  Pose<double> last{};           ///< rigid transform behind the last joint
-  Pose<double> to_attachment{};  ///< in the frame of the end body
-
-  Index dimension() const { return springfold::model::dimension(space); }
-  Index joint_count() const { return static_cast<Index>(joints.size()); }
-  /// Variables of the closure in this order: (pose of `from` if it moves, joint displacements,
-  /// pose of `to` if it moves).
-  Index variable_count() const { return first_to() + to_count(); }
-  Index first_joint() const { return from_moves ? springfold::model::dimension(from_space) : 0; }
-  Index to_count() const { return to_moves ? springfold::model::dimension(to_space) : 0; }
-  Index first_to() const { return first_joint() + joint_count(); }
-};
-
-/// @pre problems_in(mechanism).empty()
-CompiledChain compile(const Mechanism& mechanism, const Chain& chain);
-
-template <class S>
-using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-template <class S>
-using MatrixOf = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-
-namespace detail {
-
-/// One variable as a motion of the world: its first-order twist at the end point, and what the
-/// second-order terms need.
-template <class S>
-struct Motion {
-  Vec3<S> dp = Vec3<S>::Zero();      ///< d(point of the end)/dv
-  Vec3<S> omega = Vec3<S>::Zero();   ///< rotation of the closure's relative rotation
-  Vec3<S> spin = Vec3<S>::Zero();    ///< rotation of everything behind (zero for translations)
-  Vec3<S> origin = Vec3<S>::Zero();  ///< a point on the axis of that rotation
-  int group = 0;                     ///< variables of one rotation vector share a group
-  bool of_end_body = false;
-};
-
-}  // namespace detail
-
-/// Closure e of a chain with n variables v and its derivatives. e = 0 where the chain's end and
-/// the body's attachment coincide; rows as the task space's pose coordinates, world axes, lengths
-/// first; the rotational rows are Log(R_end R_attachment^T).
-template <class S>
-struct Closure {
-  VectorOf<S> e{};  ///< d
-  MatrixOf<S> J{};  ///< d x n, de/dv
-  MatrixOf<S> H{};  ///< n x n, d2(F . e)/dv2, symmetric; the paper's H^F where v are coordinates
-
-  std::vector<detail::Motion<S>> motions{};  ///< scratch, kept so that storage is reused
-};
 
 namespace detail {
 
@@ -109,19 +48,6 @@ Vec3<S> pose_spin(TaskSpace space, const BodyFrame<S>& body, Index i) {
   return Vec3<S>::Zero();
 }
 
-template <class S>
-S wrapped_angle(const Mat3<S>& R) {
-  using std::atan2;
-  if constexpr (std::is_floating_point_v<S>)
-    return atan2(R(1, 0), R(0, 0));
-  else {
-    // atan2 for complex step: turn by the real angle first, then the rest is small.
-    const double a = std::atan2(std::real(R(1, 0)), std::real(R(0, 0)));
-    const double c = std::cos(a), s = std::sin(a);
-    return S(a) + atan((R(1, 0) * c - R(0, 0) * s) / (R(0, 0) * c + R(1, 0) * s));
-  }
-}
-
 }  // namespace detail
 
 /// Evaluates closure, Jacobian and, if `F` is given, the Hessian contracted with F.
@@ -141,7 +67,8 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   const TaskSpace space = chain.space;
   const Index d = chain.dimension(), n = chain.variable_count(), nj = chain.joint_count();
   const Index from_count = chain.first_joint(), to_count = chain.to_count();
-  assert(v.size() == n);
+  assert(v.size() == n && (F == nullptr || F->size() == d));
+  if (chain.flat) return detail::evaluate_flat_closure(chain, v, F, out);
   const Index lengths = translations(space);
   const Index from_lengths = translations(chain.from_space);
   const Index to_lengths = translations(chain.to_space);
@@ -193,7 +120,7 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   const Mat3<S> E = frame.R * attachment.R.transpose();
   Vec3<S> phi = Vec3<S>::Zero();
   for (Index i = 0; i < lengths; ++i) out.e[i] = gap[i];
-  if (space == TaskSpace::planar) out.e[2] = detail::wrapped_angle<S>(E);
+  if (space == TaskSpace::planar) out.e[2] = detail::angle_of<S>(E(0, 0), E(1, 0));
   Mat3<S> log_J = Mat3<S>::Identity();
   if (space == TaskSpace::spatial) {
     phi = log_rotation<S>(E);
@@ -230,7 +157,6 @@ void evaluate_closure(const CompiledChain& chain, const VectorOf<S>& v, const Ve
   if (F == nullptr) return;
 
   // Second derivatives, contracted with F = (f, m).
-  assert(F->size() == d);
   Vec3<S> f = Vec3<S>::Zero(), h = Vec3<S>::Zero();
   for (Index i = 0; i < lengths; ++i) f[i] = (*F)[i];
   Mat3<S> log_S = Mat3<S>::Zero();

@@ -193,6 +193,9 @@ LineSpringState line_spring_state(const System& system, std::size_t spring, cons
 /// times its rate. @returns size entries
 Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates);
 
+/// Adds d residual/dW times W_rate to `rate`: load_columns times W_rate, without the columns.
+void add_wrench_rate(const System& system, const Vector& z, const Vector& W_rate, Vector& rate);
+
 /// Columns d residual/dW: minus the generalised force of a unit wrench component on each body,
 /// size x load_size.
 Matrix load_columns(const System& system, const Vector& z);
