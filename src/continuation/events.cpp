@@ -104,6 +104,7 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   result.doubt = singular.doubt;
   result.unexplained = singular.unexplained;
   result.passing = singular.passing;
+  result.flat = singular.flat;
   std::vector<Found> found;
   for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
   for (const Event& event : events)

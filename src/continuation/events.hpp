@@ -16,6 +16,7 @@ struct StepEvents {
                               ///< a shorter step may separate it
   int unexplained = 1;        ///< with a doubt: how many eigenvalues change sign unexplained
   bool passing = false;  ///< with a doubt: branches pass each other closely; the curve turns aside
+  bool flat = false;  ///< with a doubt: lambda stands still to rounding; shorter steps do not help
 };
 
 /// @param middle  the curve's point half-way, or empty: then only the ends are compared

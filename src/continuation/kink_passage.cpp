@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bordered_test.hpp"
+#include "flat_turns.hpp"
 #include "kink_half_branches.hpp"
 #include "kink_rays.hpp"
 #include "springfold/continuation/locate.hpp"
@@ -56,16 +57,17 @@ Hit* open_family(const CurvePoint& from, Curve& curve) {
 }
 
 /// Does lambda stand still along the step? On a short one its rate must vanish to rounding, or an
-/// inflection would do; not so where it has been seen to stand still.
+/// inflection would do; not so where it has been seen to stand still. Where its rate rises clear of its rounding
+/// on both sides of a step, it does not stand still, but turns, or almost does.
 bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
                   const CurvePoint& to, bool seen) {
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
   if (rate > (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical)) return false;
   Linearisation at;
-  constexpr double many = 100;  // what is told from rounding is no standstill
-  return seen || !linearise(walker.problem, from.x, from.lambda, from.piece, at) ||
-         rate <= many * rate_noise(extended_matrix(at, walker.weights, from.tangent));
+  if (seen || !linearise(walker.problem, from.x, from.lambda, from.piece, at)) return true;
+  const double noise = rate_noise(extended_matrix(at, walker.weights, from.tangent));
+  return rate <= clear_of_rounding * noise && !widened(walker, from, to, noise);
 }
 
 /// Negative eigenvalues of dF/dx + tau tau^T: within a family tau is in the kernel of dF/dx, and this

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flat_turns.hpp"
 #include "watched_step.hpp"
 #include "words.hpp"
 
@@ -42,17 +43,47 @@ bool may_turn(const WatchedStep& arc, const std::vector<const CurvePoint*>& samp
   return !(low > far * high && high > 0) && !(high < far * low && low < 0);
 }
 
-/// Zeros of lambda's rate.
-WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+/// Are these two turns so badly placed that they may be in the other order, or one?
+bool too_close(const ZeroOf& one, const ZeroOf& next) {
+  return next.at - one.at < 30 * (next.off + one.off);
+}
+
+/// Rounding of lambda's rate on the step.
+double noise_of_rate(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
   double scale = 0;
   for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
-  if (!arc.walker().options.limit_points || !may_turn(arc, samples)) return {};
   const auto E = arc.matrix(*samples[samples.size() / 2]);
-  const double noise = std::max(rounding * scale, E ? rate_noise(*E) : scale);
-  if (scale <= noise) return {.resolved = false};  // lambda stands still to rounding
-  const ZeroSearch found =
-      find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution);
-  return {found.zeros, found.resolved};
+  return std::max(rounding * scale, E ? rate_noise(*E) : scale);
+}
+
+/// Are all turns well placed and apart, and each of them no more than one turn or one touch?
+bool stand_alone(const std::vector<ZeroOf>& turns) {
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (turns[i].several || turns[i].off > 0.1 * poor ||
+        (i > 0 && too_close(turns[i - 1], turns[i])))
+      return false;
+  return true;
+}
+
+/// Zeros of lambda's rate. What they are must depend on the curve, not on the step: where the rate is lost in its
+/// rounding at an end of the step, they are looked for on a wider one.
+WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+  constexpr double perhaps_lost = 1e-8;
+  const double first = std::abs(samples.front()->tangent.dlambda),
+               last = std::abs(samples.back()->tangent.dlambda);
+  if (!arc.walker().options.limit_points) return {};
+  if (std::min(first, last) > perhaps_lost && !may_turn(arc, samples)) return {};
+  const double noise = noise_of_rate(arc, samples);
+  const bool clear = std::min(first, last) > clear_of_rounding * noise;
+  if (clear && !may_turn(arc, samples)) return {};
+  ZeroSearch found{.resolved = false};
+  if (std::max(first, last) > noise)
+    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution);
+  if (clear && found.resolved && stand_alone(found.zeros)) return {found.zeros, true};
+  if (auto turns = turns_on_widened(arc.walker(), arc.from(), *samples.back(), arc.high(), noise))
+    return {std::move(*turns), true};
+  const bool flat = std::max(first, last) <= clear_of_rounding * noise;
+  return {.zeros = found.zeros, .resolved = found.resolved && !flat, .flat = flat};
 }
 
 /// Turns of lambda that rounding places worse than `poor`, though not far apart: one cluster with
@@ -75,7 +106,7 @@ Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) 
 bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& point,
               std::vector<Candidate>& found) {
   bool regular = true;
-  if (turn.off > poor || !examine_turn(arc, turn, regular, found)) return false;
+  if (turn.off > worst_place || !examine_turn(arc, turn, regular, found)) return false;
   if (regular)
     found.push_back({.at = turn.at,
                      .before = turn.before,
@@ -94,9 +125,7 @@ bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
     const auto& point = arc.point(turn.at);
     if (!point) return false;
     std::size_t last = i;
-    while (last + 1 < turns.size() &&
-           turns[last + 1].at - turns[last].at < 100 * (turns[last + 1].off + turns[last].off))
-      ++last;
+    while (last + 1 < turns.size() && too_close(turns[last], turns[last + 1])) ++last;
     if (last > i || turn.several) {
       const std::vector<ZeroOf> group(turns.begin() + static_cast<std::ptrdiff_t>(i),
                                       turns.begin() + static_cast<std::ptrdiff_t>(last) + 1);
@@ -186,7 +215,9 @@ SingularPoints singular_points(const Walker& walker,
   WatchedZeros turns = turns_on(arc, samples);
   const WatchedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
-    result.doubt = "special points too close together";
+    result.flat = turns.flat && singular.resolved && singular.zeros.empty();
+    result.doubt = result.flat ? "lambda stands still to rounding, it may turn here several times"
+                               : "special points too close together";
     return result;
   }
   std::vector<Candidate> found;

@@ -13,6 +13,8 @@ struct SingularPoints {
   std::string doubt{};  ///< set: the zeros of tangent and eigenvalues do not fit together
   int unexplained = 0;
   bool passing = false;  ///< with a doubt: branches pass each other closely and do not meet
+  bool flat =
+      false;  ///< with a doubt: lambda stands still to rounding, and shorter steps do not help
 };
 
 /// Finds every zero of the tangent's lambda-component and of the eigenvalues of dF/dx between the

@@ -25,7 +25,7 @@ void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEven
   if (!curve.hits.empty() && curve.hits.back().kind == HitKind::unresolved &&
       from.s - curve.hits.back().s_after < 1000 * unresolved_length) {
     curve.hits.back().s_after = to.s;
-    curve.hits.back().multiplicity += count;
+    if (!found.flat) curve.hits.back().multiplicity += count;
     return;
   }
   Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
@@ -176,7 +176,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     refusal = found.doubt;
     refused.special = true;
     refused.passing = found.passing;
-    if (progress.ds > unresolved_length || !report || found.passing) return Outcome::shorten;
+    const bool shortest = progress.ds <= unresolved_length && report && !found.passing;
+    if (!shortest && !found.flat) return Outcome::shorten;
     add_unresolved(progress.here, end, found, curve);
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
@@ -202,7 +203,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     return Outcome::stop;
   }
   // Past something unresolved the next step gets away from it.
-  progress.ds = found.doubt.empty()
+  progress.ds = found.doubt.empty() || found.flat
                     ? next_step_length(progress.ds, step.measures, walker.options.step)
                     : std::min(100 * unresolved_length, walker.options.step.maximum);
   return Outcome::go_on;

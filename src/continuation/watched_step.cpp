@@ -261,9 +261,11 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
 
 bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
                   std::vector<Candidate>& found) {
-  constexpr double too_near = 1e-6;
+  constexpr double too_near = 1e-6, far_enough = 1000;
   regular = true;
   const std::vector<double> distances = singular_distances(arc, turn.at);
+  if (turn.off > poor && !(distances.empty() || distances.front() > far_enough * turn.off))
+    return false;
   if (distances.empty() || distances.front() > blurred || !arc.walker().options.branch_points)
     return true;
   const auto known = [&](const Candidate& c) {

@@ -15,7 +15,9 @@ inline constexpr double resolution = 1e-7;  // of features of one function
 inline constexpr double rounding = 1e-11;   // of a function against its size
 inline constexpr double merged = 1e-7;      // zeros that are closer are one multiple zero
 inline constexpr double blurred = 2e-4;     // around a branch point corrected points are less exact
-inline constexpr double poor = 1e-6;  // a limit point that cannot be placed better is not resolved
+// A limit point that rounding lets be placed no better than this is not resolved: beside a singular E, and
+// anywhere.
+inline constexpr double poor = 1e-6, worst_place = 1e-4;
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
 
 /// One step, its points (each computed once), and what is watched on it.
@@ -76,6 +78,7 @@ struct WatchedZeros {
   std::vector<ZeroOf> zeros{};
   bool resolved = true;
   Index order = 1;
+  bool flat = false;  ///< the function is lost in its rounding, here and beside the step
 };
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.

@@ -54,8 +54,8 @@ std::vector<double> features_of(const Interpolant& p, double level) {
 }
 
 /// The interval's ends and the polynomial's extrema between them.
-std::vector<double> extrema_of(const Interpolant& p, double a, double b) {
-  constexpr int pieces = 24;
+std::vector<double> extrema_of(const Interpolant& p, double a, double b, double spacing) {
+  const int pieces = std::max(24, static_cast<int>((b - a) / spacing));
   const auto slope = [&](double t) { return p.first_slope(t); };
   std::vector<double> knots{a};
   for (int i = 0; i < pieces; ++i) {
@@ -81,6 +81,8 @@ class Search {
   static constexpr double location = 1e-11, poor_location = 1e-6;
   /// A parabola that touches zero between two points of the grid is less than this off at them.
   static constexpr double touching = 1e-4;
+  /// Values this many times the noise have a sign beyond doubt.
+  static constexpr double clear = 10;
   /// A function that needs more is noise.
   static constexpr int most_intervals = 200;
 
@@ -98,16 +100,18 @@ class Search {
     // Zero all along: a family, not a point; or a point too flat to be resolved.
     if (scale <= noise_) return depth > 0 ? give_up() : void();
     const bool last = b - a < resolution_ || depth > 24;
-    if (!last && fit.error > 1e-4 * scale) {
+    if (!last && fit.error > std::max(1e-4 * scale, noise_)) {
       if (least < 0.5 * scale) split(a, b, depth);
       return;
     }
     const std::vector<double> places = features_of(p, level_of(fit.error, scale));
     const bool accurate = fit.error * (b - a) <= location * scale || fit.error <= noise_;
+    const auto one_feature = [&](double left, double right) {
+      return accurate ? lost_between(fit, left, right) : right - left < 0.15 * (b - a);
+    };
     for (std::size_t i = 0; i < places.size();) {
       std::size_t end = i;
-      while (!accurate && end + 1 < places.size() && places[end + 1] - places[end] < 0.15 * (b - a))
-        ++end;
+      while (end + 1 < places.size() && one_feature(places[end], places[end + 1])) ++end;
       if (!look(fit, places[i], places[end], last, depth)) return split(a, b, depth);
       i = end + 1;
     }
@@ -119,18 +123,18 @@ class Search {
     const Interpolant& p = *fit.polynomial;
     const double length = p.b - p.a, scale = p.values.cwiseAbs().maxCoeff();
     const bool accurate = fit.error * length <= location * scale || fit.error <= noise_;
-    if (first == end && accurate && locate(fit, first, false)) return true;
+    if (accurate && locate(fit, first, end, false)) return true;
     const double from = std::max(p.a, first - 0.07 * length),
                  to = std::min(p.b, end + 0.07 * length);
     if (last) {
-      if (first != end || fit.error > 1e-5 * scale || !locate(fit, first, true)) give_up();
+      if (first != end || fit.error > 1e-5 * scale || !locate(fit, first, end, true)) give_up();
       return true;
     }
     if (to - from > 0.6 * length) return false;
     const Fit closer = fit_on(from, to);
     const bool better = closer.polynomial && closer.error < 0.3 * fit.error;
     if (!better && first == end && fit.error * length <= poor_location * scale)
-      locate(fit, first, true);
+      locate(fit, first, end, true);
     else
       examine(closer, from, to, depth + 1);
     return true;
@@ -161,8 +165,16 @@ class Search {
   }
 
   void split(double a, double b, int depth) {
-    // Uneven, so that a feature in the middle does not fall on the seam.
-    const double middle = a + 0.4871 * (b - a);
+    // Uneven, so that a feature in the middle does not fall on the seam, and where the function is not lost in
+    // its noise.
+    double middle = a + 0.4871 * (b - a), largest = 0;
+    for (const double share : {0.4871, 0.5613, 0.4127, 0.6371, 0.3389}) {
+      const auto value = f_(a + share * (b - a));
+      if (!value || std::abs(*value) <= largest) continue;
+      largest = std::abs(*value);
+      middle = a + share * (b - a);
+      if (largest > clear * noise_) break;
+    }
     examine(a, middle, depth + 1);
     examine(middle, b, depth + 1);
   }
@@ -171,20 +183,31 @@ class Search {
     return std::max({4 * error, touching * scale, 2 * noise_});
   }
 
-  /// Everything that the polynomial does near a place: it is cut at its extrema, so that each piece
+  double noise_of(const Fit& fit) const { return std::max(noise_, 30 * fit.error); }
+
+  /// Is the polynomial lost in its noise all the way from one place to another?
+  bool lost_between(const Fit& fit, double left, double right) const {
+    const double cell = (fit.polynomial->b - fit.polynomial->a) / grid, noise = noise_of(fit);
+    for (double t = left + 0.5 * cell; t < right; t += 0.5 * cell)
+      if (std::abs(fit.polynomial->first(t)) > noise) return false;
+    return true;
+  }
+
+  /// Everything that the polynomial does near two places, between which it is lost in its noise: it is cut at its extrema, so that each piece
   /// crosses zero at most once; extrema that reach zero are touches, or with a change of sign
   /// around them a crossing of higher order.
   /// @param best  it will not become more accurate
   /// @returns false when the polynomial is not accurate enough to tell a touch from others
-  bool locate(const Fit& fit, double near, bool best) {
+  bool locate(const Fit& fit, double first, double end, bool best) {
     const Interpolant& p = *fit.polynomial;
-    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
+    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error, noise = noise_of(fit);
     const auto value = [&](double t) { return p.first(t); };
     const double scale = p.values.cwiseAbs().maxCoeff();
-    const double noise = std::max(noise_, 30 * error);
     const bool accurate = best || error <= std::max(noise_, 1e-9 * scale);
-    const std::vector<double> knots =
-        extrema_of(p, std::max(p.a, near - cell), std::min(p.b, near + cell));
+    double low = std::max(p.a, first - cell), high = std::min(p.b, end + cell);
+    while (low > p.a && std::abs(value(low)) <= noise) low = std::max(p.a, low - cell);
+    while (high < p.b && std::abs(value(high)) <= noise) high = std::min(p.b, high + cell);
+    const std::vector<double> knots = extrema_of(p, low, high, cell / 12);
     double before = knots.front();
     bool touched = false;
     double touch = 0;

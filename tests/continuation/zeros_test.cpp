@@ -25,6 +25,20 @@ TEST(Zeros, ThatTouchAreFoundBesideALargerHump) {
   }
 }
 
+TEST(Zeros, ThatTouchWithinNoiseOverAWideStretchAreOneTouch) {
+  constexpr double noise = 1e-12;
+  const auto f = [](double t) -> std::optional<double> {
+    return 1e-8 * (t - 0.47) * (t - 0.47) + 0.05 * noise * std::sin(1e9 * t);
+  };
+  for (const double begin : {0.0, 0.1, 0.2, 0.31}) {
+    const ZeroSearch found = find_zeros(f, begin, 1.0, noise, 1e-7);
+    ASSERT_TRUE(found.resolved) << "from " << begin;
+    ASSERT_EQ(found.zeros.size(), 1u) << "from " << begin;
+    EXPECT_TRUE(found.zeros[0].touches);
+    EXPECT_NEAR(found.zeros[0].at, 0.47, 1e-4);
+  }
+}
+
 TEST(Zeros, OfNoiseAreGivenUpSoon) {
   int asked = 0;
   const auto noise = [&](double t) -> std::optional<double> {
