@@ -6,12 +6,11 @@
 #include <cmath>
 #include <vector>
 
+#include "equal_sizes.hpp"
 #include "springfold/core/scaling.hpp"
 
 namespace springfold {
 namespace {
-
-constexpr double rounding = 1e-13;  // of the median row
 
 double median_of(Vector values) {
   const Index middle = values.size() / 2;
@@ -22,7 +21,7 @@ double median_of(Vector values) {
 /// Largest entries of rows or columns; where they are nothing but rounding: zero.
 Vector sizes_of(const Vector& largest) {
   if (largest.size() == 0) return largest;
-  const double floor = rounding * median_of(largest);
+  const double floor = equal_sizes::rounding * median_of(largest);
   return (largest.array() > floor).select(largest, 0);
 }
 
@@ -34,8 +33,7 @@ Equilibration equilibrate(const Matrix& A) {
   Matrix B = A.cwiseAbs();
   const Vector rows = sizes_of(B.rowwise().maxCoeff());
   const Vector columns = sizes_of(B.colwise().maxCoeff().transpose());
-  constexpr int passes = 8;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < equal_sizes::passes; ++pass) {
     const auto factors = [](const Vector& first, const Vector& largest) {
       Vector f(largest.size());
       for (Index i = 0; i < f.size(); ++i)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "equal_sizes.hpp"
+#include "small_symmetric.hpp"
 #include "springfold/core/equilibration.hpp"
 
 namespace springfold {
@@ -20,8 +22,7 @@ struct Factorisation {
 };
 
 /// Are all rows of nearly one size already? Most matrices are, and then nothing is gained by scaling.
-bool rows_are_alike(const Matrix& A) {
-  constexpr double factor = 256;
+bool rows_are_alike(const Eigen::Ref<const Matrix>& A) {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (Index i = 0; i < A.rows(); ++i) {
     double size = 0;
@@ -30,10 +31,10 @@ bool rows_are_alike(const Matrix& A) {
     smallest = std::min(smallest, size);
     largest = std::max(largest, size);
   }
-  return smallest * factor >= largest && smallest > 0;
+  return smallest * equal_sizes::alike >= largest && smallest > 0;
 }
 
-std::optional<Factorisation> factorise(const Matrix& A) {
+std::optional<Factorisation> factorise(const Eigen::Ref<const Matrix>& A) {
   assert(A.rows() == A.cols());
   if (!A.allFinite()) return std::nullopt;
   Factorisation f{A, std::vector<lapack_int>(static_cast<std::size_t>(A.rows())),
@@ -45,8 +46,7 @@ std::optional<Factorisation> factorise(const Matrix& A) {
   const auto n = static_cast<lapack_int>(A.rows());
   // A positive return value means an exactly zero pivot: harmless here, D is still right.
   Vector work(A.rows());
-  if (n > 0)
-    LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', n, f.LD.data(), n, f.pivots.data(), work.data(), n);
+  LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', n, f.LD.data(), n, f.pivots.data(), work.data(), n);
   return f;
 }
 
@@ -71,11 +71,14 @@ std::vector<double> pivot_eigenvalues(const Factorisation& f) {
   return values;
 }
 
-Inertia counted(const std::vector<double>& pivots, double zero_tolerance) {
+/// @param value  of pivot i
+template <class Value>
+Inertia counted(Index size, const Value& value, double zero_tolerance) {
   double largest = 0;
-  for (const double v : pivots) largest = std::max(largest, std::abs(v));
+  for (Index i = 0; i < size; ++i) largest = std::max(largest, std::abs(value(i)));
   Inertia inertia;
-  for (const double v : pivots) {
+  for (Index i = 0; i < size; ++i) {
+    const double v = value(i);
     if (std::abs(v) <= zero_tolerance * largest)
       ++inertia.zero;
     else
@@ -86,29 +89,51 @@ Inertia counted(const std::vector<double>& pivots, double zero_tolerance) {
 
 }  // namespace
 
-std::optional<Inertia> inertia_of(const Matrix& A, double zero_tolerance) {
+std::optional<Inertia> inertia_of(const Eigen::Ref<const Matrix>& A, double zero_tolerance) {
+  if (A.rows() <= SmallSymmetric::largest) {
+    SmallSymmetric small;
+    if (!small.factorise(A)) return std::nullopt;
+    return counted(
+        A.rows(), [&](Index i) { return small.value(i); }, zero_tolerance);
+  }
   const auto f = factorise(A);
   if (!f) return std::nullopt;
-  return counted(pivot_eigenvalues(*f), zero_tolerance);
+  const auto values = pivot_eigenvalues(*f);
+  return counted(
+      A.rows(), [&](Index i) { return values[static_cast<std::size_t>(i)]; }, zero_tolerance);
 }
 
-std::optional<SymmetricSolution> solve_and_count(const Matrix& A, const Matrix& B) {
+std::optional<SymmetricSolution> solve_and_count(const Eigen::Ref<const Matrix>& A,
+                                                 const Eigen::Ref<const Matrix>& B) {
   assert(A.rows() == B.rows());
   constexpr double singular = 1e-13;
+  if (!B.allFinite()) return std::nullopt;
+  SymmetricSolution result{B, {}};
+  if (A.rows() <= SmallSymmetric::largest) {
+    SmallSymmetric small;
+    if (!small.factorise(A)) return std::nullopt;
+    result.inertia = counted(
+        A.rows(), [&](Index i) { return small.value(i); }, singular);
+    if (result.inertia.zero > 0) return std::nullopt;
+    small.solve(result.X);
+    return result;
+  }
   const auto f = factorise(A);
-  if (!f || !B.allFinite()) return std::nullopt;
-  const Inertia inertia = counted(pivot_eigenvalues(*f), singular);
-  if (inertia.zero > 0) return std::nullopt;
-  Matrix X = f->S.asDiagonal() * B;
+  if (!f) return std::nullopt;
+  const auto values = pivot_eigenvalues(*f);
+  result.inertia = counted(
+      A.rows(), [&](Index i) { return values[static_cast<std::size_t>(i)]; }, singular);
+  if (result.inertia.zero > 0) return std::nullopt;
+  result.X.array().colwise() *= f->S.array();
   const auto n = static_cast<lapack_int>(A.rows());
-  if (n > 0)
-    LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(),
-                        n, f->pivots.data(), X.data(), n);
-  X = f->S.asDiagonal() * X;
-  return SymmetricSolution{std::move(X), inertia};
+  LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(B.cols()), f->LD.data(), n,
+                      f->pivots.data(), result.X.data(), n);
+  result.X.array().colwise() *= f->S.array();
+  return result;
 }
 
-std::optional<Matrix> solve_symmetric(const Matrix& A, const Matrix& B) {
+std::optional<Matrix> solve_symmetric(const Eigen::Ref<const Matrix>& A,
+                                      const Eigen::Ref<const Matrix>& B) {
   auto solution = solve_and_count(A, B);
   if (!solution) return std::nullopt;
   return std::move(solution->X);

@@ -14,7 +14,7 @@ namespace springfold::statics {
 namespace {
 
 /// The part of A_full that belongs to chain i's own unknowns (x_i, F_i).
-Matrix chain_block(const System& system, std::size_t i, const Matrix& A_full) {
+auto chain_block(const System& system, std::size_t i, const Matrix& A_full) {
   const ChainSlice& s = system.chain_slices[i];
   const Index n = s.x_count + s.F_count;
   return A_full.block(s.x, s.x, n, n);
@@ -297,7 +297,7 @@ std::optional<Condensed> condensed_chains(const System& system, const Matrix& A_
     const auto B = A_full.block(s.x, t, n, nt);
     const auto solution = solve_and_count(chain_block(system, i, A_full), B);
     if (!solution) return std::nullopt;
-    K.noalias() -= B.transpose() * solution->X;
+    K.noalias() -= B.transpose().lazyProduct(solution->X);
     if (K.size() > 0) largest = std::max(largest, K.cwiseAbs().maxCoeff());
     unstable += solution->inertia.negative - s.F_count;
   }

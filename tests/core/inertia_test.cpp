@@ -120,6 +120,30 @@ TEST(SolveSymmetric, SolvesIndefiniteSystemsWithSeveralRightSides) {
   }
 }
 
+/// Few rows are factorised on the stack, many by LAPACK: a matrix and the same one beside the identity.
+TEST(SolveSymmetric, GivesTheSameForFewRowsAndForMany) {
+  std::mt19937 random(28);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index n = 1 + trial % 24;
+    Matrix A = random_matrix(random, n, n);
+    if (trial % 2 == 0 && n > 3) A = chain_like_matrix(random, n - n / 3, n / 3, n - 2 * (n / 3));
+    const Vector sizes = (trial % 3 * random_matrix(random, n, 1).array()).exp();
+    A = sizes.asDiagonal() * (A + A.transpose()).eval() * sizes.asDiagonal();
+    Matrix large = Matrix::Identity(n + 25, n + 25);
+    large.topLeftCorner(n, n) = A;
+    const Matrix B = random_matrix(random, n + 25, 2);
+    const auto few = solve_and_count(A, B.topRows(n)), many = solve_and_count(large, B);
+    ASSERT_TRUE(few.has_value() && many.has_value()) << "trial " << trial;
+    EXPECT_EQ(few->inertia.negative, many->inertia.negative) << "trial " << trial;
+    EXPECT_EQ(few->inertia, *inertia_of(A)) << "trial " << trial;
+    const Matrix S = sizes.cwiseInverse().asDiagonal() * A * sizes.cwiseInverse().asDiagonal();
+    const double condition = S.norm() * S.inverse().norm();
+    const Matrix difference = sizes.asDiagonal() * (few->X - many->X.topRows(n));
+    EXPECT_LT(difference.norm(), 1e-14 * condition * (sizes.asDiagonal() * few->X).norm())
+        << "trial " << trial;
+  }
+}
+
 TEST(SolveSymmetric, RefusesSingularMatrices) {
   std::mt19937 random(27);
   EXPECT_FALSE(solve_symmetric(chain_like_matrix(random, 6, 4, 1), Matrix::Ones(10, 1)));
