@@ -6,6 +6,7 @@
 
 #include "coincide.hpp"
 #include "reduced_equation.hpp"
+#include "sigma_touch.hpp"
 #include "springfold/continuation/branch_point.hpp"
 
 namespace springfold::continuation {
@@ -116,7 +117,7 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
 }
 
 /// Does Sigma leave a multiple branch point in a bend, because it vanishes once more nearby? At a point that
-/// stands alone, and where lambda does not turn, it grows with the distance.
+/// stands alone it grows with the distance; where lambda turns, at least one of its modes does.
 bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
   constexpr double nearer = 1.0 / 8, bent = 3;
   const auto E = arc.matrix(found.point);
@@ -128,7 +129,10 @@ bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
     if (at < arc.low() || at > arc.high()) continue;
     const auto beyond = arc.sigma(at, borders);
     const auto near = arc.sigma(found.at + side * nearer * far, borders);
-    if (beyond && near && nearer * beyond->norm() > bent * near->norm()) return true;
+    if (!beyond || !near) continue;
+    if (found.turns ? shrunk(*beyond, *near).maxCoeff() * bent < nearer
+                    : nearer * beyond->norm() > bent * near->norm())
+      return true;
   }
   return false;
 }
@@ -196,7 +200,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m))
     return std::nullopt;
   result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
-  if (m > 1 && !result.turns && has_company(arc, result, m)) return std::nullopt;
+  if (m > 1 && has_company(arc, result, m)) return std::nullopt;
   return result;
 }
 

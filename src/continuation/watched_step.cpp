@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "branch_candidate.hpp"
+#include "sigma_touch.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -122,6 +123,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   }
   if (zeros.size() > 1) return {};
   const bool touches = zeros.front().touches;
+  if (touches && most > 1 && !one_mode_vanishes(arc, most, zeros.front())) return {};
   const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
   if (places.size() == 1)
     add(places.front(), 1, false);
@@ -213,6 +215,10 @@ WatchedZeros singularities_on(const WatchedStep& arc,
       find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
+  if (result.order == 1) return result;
+  std::erase_if(result.zeros, [&](const ZeroOf& zero) {
+    return zero.touches && !sigma_may_vanish(arc, borders, zero);
+  });
   return result;
 }
 

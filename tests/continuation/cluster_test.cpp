@@ -11,18 +11,20 @@ namespace {
 
 /// Three springs (stiffness 1, free length 1) from a ring of radius R to a point, pushed down by
 /// lambda: gradient of 1/2 sum (L_i - 1)^2 + lambda z. On the axis: limit point at L^3 = R^2, double
-/// branch points at L^3 - L^2 + R^2/2 = 0. All three fall together at R^2 = 8/27.
+/// branch points at L^3 - L^2 + R^2/2 = 0. All three fall together at R^2 = 8/27. The second unknown is y / unit.
 struct Dome {
-  double R = 0.5;
+  double R = 0.5, unit = 1;
   static Index size() { return 3; }
   static bool symmetric() { return true; }
   Vector arm(const Vector& u, int i) const {
     const double angle = 2 * std::numbers::pi * i / 3;
-    return u - Vector{{R * std::cos(angle), R * std::sin(angle), 0}};
+    return Vector{{u[0], unit * u[1], u[2]}} -
+           Vector{{R * std::cos(angle), R * std::sin(angle), 0}};
   }
   bool residual(const Vector& u, double lambda, Vector& F) const {
     F = Vector{{0, 0, lambda}};
     for (int i = 0; i < 3; ++i) F += (1 - 1 / arm(u, i).norm()) * arm(u, i);
+    F[1] *= unit;
     return true;
   }
   bool derivatives(const Vector& u, double, Matrix& dF_dx, Vector& dF_dlambda) const {
@@ -32,6 +34,8 @@ struct Dome {
       const double L = a.norm();
       dF_dx += (1 - 1 / L) * Matrix::Identity(3, 3) + a * a.transpose() / (L * L * L);
     }
+    dF_dx.row(1) *= unit;
+    dF_dx.col(1) *= unit;
     dF_dlambda = Vector{{0, 0, 1}};
     return true;
   }
@@ -44,7 +48,9 @@ struct Dome {
   }
 };
 
-Dome nearly_degenerate(double off) { return {std::sqrt(8.0 / 27 * (1 - off))}; }
+Dome nearly_degenerate(double off, double unit = 1) {
+  return {std::sqrt(8.0 / 27 * (1 - off)), unit};
+}
 
 TEST(Cluster, HasTheTotalMultiplicityOfItsPointsHoweverCloseTheyAre) {
   for (double off = 1e-2; off > 1e-14; off /= 10) {
@@ -69,6 +75,19 @@ TEST(Cluster, IsAnIntervalAroundItsPoints) {
   EXPECT_NEAR(cluster.point.x[2], dome.limit_height(), 0.01);
   for (const CurvePoint& p : curve.points)
     EXPECT_FALSE(p.s > cluster.s_before && p.s < cluster.s_after) << "a point within it";
+}
+
+TEST(CloseCall, EigenvaluesThatTurnBackTogetherJustBeforeZeroAreNoTouch) {
+  for (double off = 1e-2; off > 5e-15; off /= 10)
+    for (const double unit : {1.0, 0.07, 0.03}) {
+      constexpr double share = 3.3;
+      const Curve curve = nearly_degenerate(-share * off, unit).pushed_down();
+      ASSERT_EQ(curve.stop, StopReason::event) << share * off << ": " << curve.stop_detail;
+      ASSERT_EQ(curve.hits.size(), 2u) << share * off;
+      EXPECT_TRUE(curve.hits[0].kind == HitKind::limit_point ||
+                  (off < 5e-9 && curve.hits[0].kind == HitKind::unresolved))
+          << share * off;
+    }
 }
 
 TEST(CloseCall, BranchPointsOfSwayThatNearlyMeetAreTwo) {

@@ -1,0 +1,20 @@
+// Is a touch of det Sigma one of Sigma itself? Private to the engine.
+#pragma once
+
+#include "watched_step.hpp"
+
+namespace springfold::continuation {
+
+/// Where two eigenvalues come close to zero together and turn back, their product is lost in its rounding long
+/// before they are. Sigma's entries are fitted around the place, and their own scatter shows what can be told.
+/// @returns whether Sigma may be singular at the touch
+bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const ZeroOf& touch);
+
+/// Shares to which the modes of one Sigma have shrunk in another: |eigenvalues| of from^-1 to, ascending. They do not
+/// depend on the units of the unknowns.
+Vector shrunk(const Matrix& from, const Matrix& to);
+
+/// Is it one of the m smallest modes alone that comes to zero at the touch? Several are a cluster.
+bool one_mode_vanishes(const WatchedStep& arc, Index m, const ZeroOf& touch);
+
+}  // namespace springfold::continuation
