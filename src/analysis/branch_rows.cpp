@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "closure_rank.hpp"
@@ -33,12 +34,13 @@ void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProbl
 }
 
 /// Points and special points of one direction in the order of s, without the start.
-std::vector<Entry> entries_of(const Curve& curve, const std::vector<CurvePoint>& between) {
+std::vector<Entry> entries_of(const Curve& curve, std::vector<CurvePoint>&& between) {
   std::vector<Entry> entries;
+  entries.reserve(curve.points.size() + between.size() + 2 * curve.hits.size());
   std::size_t h = 0, b = 0;
   const auto add_between = [&](double s) {
     for (; b < between.size() && between[b].s < s; ++b)
-      entries.push_back({between[b], nullptr, false, {}});
+      entries.push_back({std::move(between[b]), nullptr, false, {}});
   };
   const auto add_hit = [&](const Hit& hit) {
     add_between(hit.point.s);
@@ -259,16 +261,18 @@ Curve nothing_behind(const Curve& curve) {
   return behind;
 }
 
-BranchRows join(const BranchSource& source, const Evaluator& evaluator,
+BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
-  const Curve backward = with_merged_force_limits(source.backward);
-  const Curve forward = with_merged_force_limits(source.forward);
-  std::vector<Entry> entries = reversed(entries_of(backward, source.backward_between));
+  const Curve backward = with_merged_force_limits(std::move(source.backward));
+  const Curve forward = with_merged_force_limits(std::move(source.forward));
+  std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
   BranchRows rows;
   Branch& branch = rows.branch;
   branch.start_row = entries.size();
   entries.push_back({forward.points.front(), nullptr, false, {}});
-  for (Entry& e : entries_of(forward, source.forward_between)) entries.push_back(std::move(e));
+  std::vector<Entry> behind = entries_of(forward, std::move(source.forward_between));
+  entries.insert(entries.end(), std::make_move_iterator(behind.begin()),
+                 std::make_move_iterator(behind.end()));
   count_turns(entries, branch.start_row, problem);
   branch.backward = explained(source.backward_stop, entries.front(), entries.back(), problem);
   branch.forward = explained(source.forward_stop, entries.back(), entries.front(), problem);

@@ -37,7 +37,7 @@ struct BranchRows {
 
 /// Rows from the backward end through the start to the forward end, special points as rows of their
 /// own.
-BranchRows join(const BranchSource& source, const Evaluator& evaluator,
+BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem);
 
 /// How a junction is called, and as what it is seen on the first branch that shows it.

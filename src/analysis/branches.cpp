@@ -164,7 +164,7 @@ class Writer {
       source.backward_stop = {"the start, which several curves leave", true};
     }
     add_between(t_, source);
-    return join(source, t_.evaluator, t_.quantities, t_.problem);
+    return join(std::move(source), t_.evaluator, t_.quantities, t_.problem);
   }
 
   /// Number of the branch on which a junction was met first; 0: it is a start itself.

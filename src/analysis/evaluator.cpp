@@ -46,9 +46,10 @@ double Evaluator::force(const continuation::CurvePoint& point) const {
   return conjugate_.dot(r.segment(t_, d_));
 }
 
-Evaluator::State Evaluator::state_of(const continuation::CurvePoint& point,
-                                     const Turns* turns) const {
-  return {problem_.expand(point.x, point.lambda, turns), problem_.inputs(point.lambda)};
+void Evaluator::put_state(const continuation::CurvePoint& point, const Turns* turns,
+                          State& state) const {
+  problem_.put_expanded(point.x, point.lambda, turns, state.z);
+  problem_.put_inputs(point.lambda, state.inputs);
 }
 
 double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
@@ -75,7 +76,8 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
     default:
       break;
   }
-  return value_at(q, point, state_of(point, turns));
+  put_state(point, turns, state_);
+  return value_at(q, point, state_);
 }
 
 double Evaluator::value_at(const QuantityDefinition& q, const continuation::CurvePoint& point,
@@ -117,8 +119,8 @@ const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& 
   Assembled& at = scratch_;
   const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
   at.is_plain = &system == &problem_.system(point.lambda);
-  if (!equilibrium_matrix(system, point.piece, at.z, problem_.inputs(point.lambda), at.work, at.r,
-                          at.A))
+  problem_.put_inputs(point.lambda, at.inputs);
+  if (!equilibrium_matrix(system, point.piece, at.z, at.inputs, at.work, at.r, at.A))
     return nullptr;
   if (problem_.symmetric()) {
     auto condensed = statics::condense(system, at.A, at.work);
@@ -175,11 +177,11 @@ std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& qua
                                       const continuation::CurvePoint& point,
                                       const Turns* turns) const {
   const Assembled* at = assemble(point);
-  const State state = state_of(point, turns);
+  put_state(point, turns, state_);
   std::vector<double> values;
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
-    values.push_back(at ? from_matrix(q, point, *at, state) : undefined);
+    values.push_back(at ? from_matrix(q, point, *at, state_) : undefined);
   raise_indices(quantities, point, values);
   return values;
 }

@@ -55,7 +55,7 @@ void PathProblem::gather(const Vector& y, Vector& v) const {
 }
 
 /// The pose coordinates of a rate or a point, N v_t, added to z.
-void PathProblem::put_expanded(const Vector& v, Vector& z) const {
+void PathProblem::add_motion(const Vector& v, Vector& z) const {
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
   z.head(t_) = v.head(t_);
   if (is_whole_)
@@ -69,7 +69,7 @@ void PathProblem::put_local(const Vector& y, double lambda, Vector& z) const {
   gather(y, v_);
   z.resize(system_.size);
   z.segment(t_, d_) = rule_.t_start + lambda * rule_.t_rate;
-  put_expanded(v_, z);
+  add_motion(v_, z);
   for (const FreeRotation& r : rotations_) z.segment<3>(r.z).setZero();
 }
 
@@ -85,7 +85,7 @@ Vector PathProblem::local_rate(const Vector& y, const Vector& dy, double dlambda
     v_.segment<3>(r.v) = rate_of(y.segment<4>(r.y)) * dy.segment<4>(r.y);
   Vector dz(system_.size);
   dz.segment(t_, d_) = dlambda * rule_.t_rate;
-  put_expanded(v_, dz);
+  add_motion(v_, dz);
   return dz;
 }
 

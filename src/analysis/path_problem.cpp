@@ -80,8 +80,9 @@ const statics::System& PathProblem::turned(const Vector& y, double lambda) const
 const statics::System& PathProblem::turned_to_pose(const Vector& y, double lambda,
                                                    Vector& z) const {
   const statics::System& plain = system(lambda);
-  z = expand(y, lambda);
-  std::vector<model::Mat3<double>> list(plain.body_slices.size(), model::Mat3<double>::Identity());
+  put_expanded(y, lambda, nullptr, z);
+  std::vector<model::Mat3<double>>& list = frames_;
+  list.assign(plain.body_slices.size(), model::Mat3<double>::Identity());
   bool any = false;
   for (std::size_t b = 0; b < list.size(); ++b) {
     if (plain.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
@@ -117,10 +118,17 @@ Turns PathProblem::turns(const Vector& y, const Turns* before) const {
 }
 
 Vector PathProblem::expand(const Vector& y, double lambda, const Turns* turns_of_y) const {
-  Vector z = local(y, lambda);
+  Vector z;
+  put_expanded(y, lambda, turns_of_y, z);
+  return z;
+}
+
+void PathProblem::put_expanded(const Vector& y, double lambda, const Turns* turns_of_y,
+                               Vector& z) const {
+  put_local(y, lambda, z);
+  if (rotations_.empty()) return;
   const Turns phi = turns_of_y != nullptr ? *turns_of_y : turns(y);
   for (std::size_t k = 0; k < rotations_.size(); ++k) z.segment<3>(rotations_[k].z) = phi[k].phi;
-  return z;
 }
 
 Vector PathProblem::expand_rate(const Vector& y, const Vector& dy, double dlambda,

@@ -76,6 +76,9 @@ class PathProblem {
   /// All unknowns of the statics at a point of the path, and back. @param turns  of this point
   Vector expand(const Vector& y, double lambda, const Turns* turns = nullptr) const;
   Vector reduce(const Vector& z) const;
+  /// expand() and inputs() into memory that is there.
+  void put_expanded(const Vector& y, double lambda, const Turns* turns, Vector& z) const;
+  void put_inputs(double lambda, statics::Inputs& in) const;
   /// The same point as it is evaluated: by `turned(y, lambda)`, with free rotations at zero.
   Vector local(const Vector& y, double lambda) const;
   const statics::System& turned(const Vector& y, double lambda) const;
@@ -102,9 +105,8 @@ class PathProblem {
 
  private:
   void find_free_rotations();
-  void put_inputs(double lambda, statics::Inputs& in) const;
   void put_local(const Vector& y, double lambda, Vector& z) const;
-  void put_expanded(const Vector& v, Vector& z) const;
+  void add_motion(const Vector& v, Vector& z) const;
   bool put_rate(const Vector& y, double lambda, const Piece& piece, const statics::System& present,
                 const Matrix& A, Vector& rate) const;
   void put_quaternions(const Vector& y, const Matrix& plain, Matrix& result) const;

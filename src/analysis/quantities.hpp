@@ -109,6 +109,7 @@ class Evaluator {
   struct Assembled {
     Vector z{}, r{};
     Matrix A{};
+    statics::Inputs inputs{};
     statics::PlatformStiffness platform{};
     Matrix body{};
     std::vector<std::pair<double, double>> tangent{};
@@ -124,7 +125,7 @@ class Evaluator {
     Vector z{};  ///< all unknowns, rotations continued by `turns`
     statics::Inputs inputs{};
   };
-  State state_of(const continuation::CurvePoint& point, const Turns* turns) const;
+  void put_state(const continuation::CurvePoint& point, const Turns* turns, State& state) const;
   double value_at(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                   const State& state) const;
   double force(const continuation::CurvePoint& point) const;
@@ -143,6 +144,7 @@ class Evaluator {
   Vector measured_{};            ///< d entries
   Vector conjugate_{};           ///< d entries: direction with which the force is conjugate
   mutable Assembled scratch_{};  ///< kept for its memory
+  mutable State state_{};        ///< likewise
 };
 
 }  // namespace springfold::analysis

@@ -49,9 +49,9 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
   add_between(t, source);
-  std::vector<BranchRows> rows{join(source, t.evaluator, t.quantities, t.problem)};
+  std::vector<BranchRows> rows{join(std::move(source), t.evaluator, t.quantities, t.problem)};
   label_events(rows, 0, t.quantities);
-  return rows.front().branch;
+  return std::move(rows.front().branch);
 }
 
 /// What is special about a start, as far as it is seen at once; branch points are found later.

@@ -259,7 +259,7 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
     stretch.to.tangent = direction_seen_from(walker, stretch.from.x, to);
     filler.fill(stretch);
   }
-  for (CurvePoint& point : result.points) point = own.outside(point);
+  for (CurvePoint& point : result.points) point = own.outside(std::move(point));
   return result;
 }
 

@@ -58,7 +58,8 @@ void Normalised::scale_switches(const Vector& x, double lambda) {
 }
 
 bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
-  if (!problem_.residual(y.cwiseProduct(unit_), lambda, piece, G)) return false;
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.residual(x_, lambda, piece, G)) return false;
   G.array() *= force_.array();
   return true;
 }
@@ -71,7 +72,8 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
       dG_dlambda = place.dG_dlambda;
       return true;
     }
-  if (!problem_.derivatives(y.cwiseProduct(unit_), lambda, piece, dG_dy, dG_dlambda)) return false;
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
   dG_dy.array().colwise() *= force_.array();
   dG_dy.array().rowwise() *= unit_.transpose().array();
   dG_dlambda.array() *= force_.array();
@@ -90,7 +92,8 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
 }
 
 bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
-  if (!problem_.switches(y.cwiseProduct(unit_), lambda, h)) return false;
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.switches(x_, lambda, h)) return false;
   h.array() *= surface_.array();
   return true;
 }
@@ -123,17 +126,16 @@ CurvePoint Normalised::inside(const CurvePoint& point) const {
   return result;
 }
 
-CurvePoint Normalised::outside(const CurvePoint& point) const {
-  CurvePoint result = point;
-  result.x = point.x.cwiseProduct(unit_);
-  if (point.tangent.dx.size() > 0) result.tangent.dx = point.tangent.dx.cwiseProduct(unit_);
-  return result;
+CurvePoint Normalised::outside(CurvePoint point) const {
+  point.x.array() *= unit_.array();
+  if (point.tangent.dx.size() > 0) point.tangent.dx.array() *= unit_.array();
+  return point;
 }
 
 Hit Normalised::outside(const Hit& hit) const {
   Hit result = hit;
   result.point = outside(hit.point);
-  for (CurvePoint& point : result.leaving) point = outside(point);
+  for (CurvePoint& point : result.leaving) point = outside(std::move(point));
   return result;
 }
 
@@ -157,7 +159,7 @@ HitObserver Normalised::inside(const HitObserver& observer) const {
 }
 
 Curve Normalised::outside(Curve curve) const {
-  for (CurvePoint& point : curve.points) point = outside(point);
+  for (CurvePoint& point : curve.points) point = outside(std::move(point));
   for (Hit& hit : curve.hits) hit = outside(hit);
   return curve;
 }

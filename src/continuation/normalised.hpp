@@ -46,7 +46,7 @@ class Normalised {
   Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
   Ray inside(const Ray& ray) const;
   CurvePoint inside(const CurvePoint& point) const;
-  CurvePoint outside(const CurvePoint& point) const;
+  CurvePoint outside(CurvePoint point) const;
   Hit outside(const Hit& hit) const;
   Ray outside(const Ray& ray) const;
   std::vector<Event> inside(const std::vector<Event>& events) const;
@@ -75,6 +75,7 @@ class Normalised {
   };
   static constexpr std::size_t most_places = 4;
   mutable std::vector<Place> places_{};
+  mutable Vector x_{};
   mutable std::size_t oldest_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include "result_tables.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "result_access.hpp"
 #include "text.hpp"
@@ -22,6 +24,36 @@ std::vector<std::string> all_quantities(const std::vector<StudyResult>& results)
   return names;
 }
 
+/// Numbers of rows, each with a comma behind it. Digits that stand in the row before are copied: many columns
+/// change rarely.
+class CsvNumbers {
+ public:
+  explicit CsvNumbers(std::size_t columns) : last_(columns) {}
+
+  void append(std::string& csv, const std::vector<double>& values) {
+    last_.resize(std::max(last_.size(), values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      Cell& last = last_[i];
+      const auto bits = std::bit_cast<std::uint64_t>(values[i]);
+      const std::size_t begin = csv.size();
+      if (last.length > 0 && last.bits == bits) {
+        csv.append(csv, last.begin, last.length);
+      } else {
+        append_csv_number(csv, values[i]);
+        csv += ',';
+      }
+      last = {bits, begin, csv.size() - begin};
+    }
+  }
+
+ private:
+  struct Cell {
+    std::uint64_t bits = 0;
+    std::size_t begin = 0, length = 0;
+  };
+  std::vector<Cell> last_;
+};
+
 /// "study,run,label,branch," of a row.
 std::string row_start(const StudyResult& result, std::size_t branch) {
   return csv_text(result.study) + "," + std::to_string(result.run) + "," + csv_text(result.label) +
@@ -38,16 +70,16 @@ std::string branch_csv(const StudyResult& result, const Branch& branch) {
                   [](const analysis::Sample& sample) { return !sample.status.empty(); });
   for (const auto& quantity : result.quantities) csv += csv_text(quantity.name) + ",";
   csv += has_status ? "piece,event,status\n" : "piece,event\n";
+  constexpr std::size_t usual = 18;  // characters of a number and its comma
+  csv.reserve(csv.size() + branch.samples.size() * (usual * result.quantities.size() + 8));
+  CsvNumbers numbers{result.quantities.size()};
   for (const auto& sample : branch.samples) {
-    for (const double value : sample.values) {
-      append_csv_number(csv, value);
-      csv += ',';
-    }
-    csv += csv_text(sample.piece);
+    numbers.append(csv, sample.values);
+    append_csv_text(csv, sample.piece);
     csv += ',';
-    csv += csv_text(sample.event);
-    if (has_status) csv += "," + csv_text(sample.status);
-    csv += "\n";
+    append_csv_text(csv, sample.event);
+    if (has_status) append_csv_text(csv += ',', sample.status);
+    csv += '\n';
   }
   return csv;
 }

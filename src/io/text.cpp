@@ -54,14 +54,23 @@ void append_csv_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-std::string csv_text(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string{text};
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+void append_csv_text(std::string& line, std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    line += text;
+    return;
   }
-  return quoted + '"';
+  line += '"';
+  for (const char c : text) {
+    if (c == '"') line += '"';
+    line += c;
+  }
+  line += '"';
+}
+
+std::string csv_text(std::string_view text) {
+  std::string quoted;
+  append_csv_text(quoted, text);
+  return quoted;
 }
 
 std::string safe_file_name(std::string_view name) {

@@ -22,6 +22,7 @@ void append_csv_number(std::string& text, double value);
 
 /// A field of a CSV table, quoted where RFC 4180 asks for it.
 std::string csv_text(std::string_view text);
+void append_csv_text(std::string& line, std::string_view text);
 
 /// A file name made from any name: letters, digits, '.', '-' and '_' stay, everything else becomes
 /// one '_'; never empty, never hidden, at most 80 bytes.

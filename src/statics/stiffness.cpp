@@ -64,10 +64,20 @@ std::optional<Index> chains_index(const System& system, const Matrix& A_full) {
   return block_index(A, A(split.wrenches, split.motions));
 }
 
+/// Ascending; M has N rows, or any number.
+template <int N>
+Vector symmetric_eigenvalues(const Matrix& M) {
+  using Square = Eigen::Matrix<double, N, N>;
+  const Square symmetric = 0.5 * (M + M.transpose());
+  return Eigen::SelfAdjointEigenSolver<Square>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 Vector real_eigenvalues(const Matrix& M, bool symmetric) {
-  if (symmetric)
-    return Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly)
-        .eigenvalues();
+  if (symmetric)  // one body: without memory from the heap
+    return M.rows() == 2   ? symmetric_eigenvalues<2>(M)
+           : M.rows() == 3 ? symmetric_eigenvalues<3>(M)
+           : M.rows() == 6 ? symmetric_eigenvalues<6>(M)
+                           : symmetric_eigenvalues<Eigen::Dynamic>(M);
   Vector real = Eigen::EigenSolver<Matrix>(M, false).eigenvalues().real();
   std::sort(real.begin(), real.end());
   return real;
