@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "small_lu.hpp"
+
 namespace springfold::continuation {
 namespace {
 
@@ -39,6 +41,19 @@ Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Dir
 }
 
 bool surely_regular(const std::vector<Matrix>& E, std::size_t middle) {
+  if (SmallLu::fits(E[middle].rows())) {
+    const SmallLu lu(E[middle]);
+    if (!(lu.smallest_pivot() > 0)) return false;
+    Matrix X;
+    for (std::size_t i = 0; i < E.size(); ++i) {
+      if (i == middle) continue;
+      X = E[i] - E[middle];
+      lu.solve(X);
+      X = X.cwiseAbs();
+      if (!is_small(X)) return false;
+    }
+    return true;
+  }
   const Eigen::PartialPivLU<Matrix> lu(E[middle]);
   for (std::size_t i = 0; i < E.size(); ++i)
     if (i != middle && !is_small(lu.solve(E[i] - E[middle]).cwiseAbs())) return false;

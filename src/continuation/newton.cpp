@@ -2,9 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "small_lu.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -32,6 +35,21 @@ double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
 }
 
+/// solve_bordered() with few unknowns: on the stack.
+std::optional<Direction> solve_small(const Linearisation& at, const Vector& weights,
+                                     const Direction& border, const Vector& r, double rho) {
+  const Index n = r.size();
+  std::array<double, static_cast<std::size_t>(SmallLu::largest)> x;
+  for (Index i = 0; i < n; ++i) x[static_cast<std::size_t>(i)] = weights[i] * border.dx[i];
+  const Eigen::Map<const Vector> row(x.data(), n);
+  const SmallLu lu(at.dF_dx, at.dF_dlambda, row, border.dlambda);
+  if (!(lu.smallest_pivot() > singular_pivot * lu.largest_pivot())) return std::nullopt;
+  std::copy_n(r.data(), n, x.data());
+  x[static_cast<std::size_t>(n)] = rho;
+  lu.solve(x.data());
+  return Direction{row, x[static_cast<std::size_t>(n)]};
+}
+
 }  // namespace
 
 double metric_product(const Vector& weights, const Direction& a, const Direction& b) {
@@ -48,6 +66,7 @@ std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& w
                                         const Direction& border, const Vector& r, double rho) {
   const Index n = at.dF_dx.rows();
   assert(at.dF_dx.cols() == n && border.dx.size() == n && r.size() == n);
+  if (SmallLu::fits(n + 1)) return solve_small(at, weights, border, r, rho);
   Matrix A(n + 1, n + 1);
   A << at.dF_dx, at.dF_dlambda, (weights.array() * border.dx.array()).matrix().transpose(),
       border.dlambda;

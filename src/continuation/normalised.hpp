@@ -73,7 +73,8 @@ class Normalised {
     Matrix dG_dy{};
     Vector dG_dlambda{};
   };
-  static constexpr std::size_t most_places = 4;
+  static constexpr std::size_t most_places =
+      6;  // of a step and its middle: begin, two guesses, two points
   mutable std::vector<Place> places_{};
   mutable Vector x_{};
   mutable std::size_t oldest_ = 0;
