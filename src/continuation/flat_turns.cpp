@@ -75,8 +75,8 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   if (!wide) return std::nullopt;
   const double length = wide->to.s - wide->from.s;
   const WatchedStep arc(walker, wide->from, length);
-  const ZeroSearch found =
-      find_zeros([&](double ds) { return arc.rate(ds); }, 0, length, noise, resolution);
+  const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, length, noise,
+                                      resolution, NoiseIs::bound);
   if (!found.resolved) return std::nullopt;
   std::vector<ZeroOf> turns;
   for (ZeroOf turn : found.zeros) {

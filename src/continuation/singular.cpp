@@ -78,7 +78,8 @@ WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint
   if (clear && !may_turn(arc, samples)) return {};
   ZeroSearch found{.resolved = false};
   if (std::max(first, last) > noise)
-    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution);
+    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution,
+                       NoiseIs::bound);
   if (clear && found.resolved && stand_alone(found.zeros)) return {found.zeros, true};
   if (auto turns = turns_on_widened(arc.walker(), arc.from(), *samples.back(), arc.high(), noise))
     return {std::move(*turns), true};
@@ -156,19 +157,25 @@ std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& fou
                        const CurvePoint& to) {
   std::optional<Index> before = arc.from().negative;
   Explained since{};
-  for (std::size_t i = 0; i <= found.size(); ++i) {
-    const bool last = i == found.size();
-    const double left = i > 0 ? found[i - 1].at : 0, right = last ? arc.length() : found[i].at;
-    const auto here = last ? to.negative : i == 0 ? before : negative_at(arc, 0.5 * (left + right));
-    if (before && here) {
-      const auto change = static_cast<int>(std::abs(*here - *before));
-      if (change > since.most || (change % 2 == 1) != since.odd)
-        return "number of negative eigenvalues and special points do not fit together";
-    }
+  const auto fits = [&](std::optional<Index> here) {
+    const auto change = before && here ? static_cast<int>(std::abs(*here - *before)) : 0;
+    const bool explained =
+        !before || !here || (change <= since.most && (change % 2 == 1) == since.odd);
     if (here) {
       before = here;
       since = {};
     }
+    return explained;
+  };
+  for (std::size_t i = 0; i <= found.size(); ++i) {
+    const bool last = i == found.size();
+    const double left = i > 0 ? found[i - 1].at : 0, right = last ? arc.length() : found[i].at;
+    bool explained = true;
+    if (!found.empty())
+      for (const double share : {0.004, 0.05, 0.3, 0.7, 0.95, 0.996})
+        explained = explained && fits(negative_at(arc, left + share * (right - left)));
+    if (!explained || (last && !fits(to.negative)))
+      return "number of negative eigenvalues and special points do not fit together";
     if (last) break;
     if (found[i].kind != HitKind::touch) since.most += found[i].multiplicity + 1;
     since.odd = since.odd != found[i].odd;

@@ -212,7 +212,7 @@ WatchedZeros singularities_on(const WatchedStep& arc,
                                        : 0.0;
   if (scale <= std::max(noise, blur)) return {.resolved = false};
   const ZeroSearch found =
-      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution);
+      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution, NoiseIs::bound);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   if (result.order == 1) return result;

@@ -68,8 +68,9 @@ std::vector<double> extrema_of(const Interpolant& p, double a, double b, double 
 
 class Search {
  public:
-  Search(const SampledFunction& f, double a, double b, double noise, double resolution)
-      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{resolution} {}
+  Search(const SampledFunction& f, double a, double b, double noise, double resolution,
+         NoiseIs noise_is)
+      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{resolution}, noise_is_{noise_is} {}
 
   ZeroSearch result{};
 
@@ -88,7 +89,8 @@ class Search {
 
   struct Fit {
     std::optional<Interpolant> polynomial{};
-    double error = 0;  ///< largest one at two points between the samples
+    double error = 0;              ///< largest one at two points between the samples
+    mutable double measured = -1;  ///< noise from more of them; negative: not yet known
   };
 
   void examine(const Fit& fit, double a, double b, int depth) {
@@ -183,30 +185,59 @@ class Search {
     return std::max({4 * error, touching * scale, 2 * noise_});
   }
 
-  double noise_of(const Fit& fit) const { return std::max(noise_, 30 * fit.error); }
+  /// Is this value of the polynomial, at this place, lost in noise?
+  bool is_lost(const Fit& fit, double t, double value) const {
+    return std::abs(value) <= std::max(noise_, 30 * fit.error) &&
+           std::abs(value) <= measured_noise(fit, t);
+  }
+
+  /// The noise that was given is a bound. Where the polynomial is as good as that, more samples between its own, some
+  /// of them beside the place in question, show what noise there is.
+  double measured_noise(const Fit& fit, double t) const {
+    constexpr double sure = 4, digits = 1e-15;
+    if (fit.measured >= 0) return fit.measured;
+    const Interpolant& p = *fit.polynomial;
+    double worst = fit.error;
+    const auto look_at = [&](double place) {
+      const auto value = place > p.a && place < p.b ? f_(place) : p.first(place);
+      worst = value ? std::max(worst, std::abs(*value - p.first(place))) : noise_;
+    };
+    const bool as_good = fit.error <= noise_ && noise_is_ == NoiseIs::bound;
+    if (as_good) {
+      for (const double share : {0.07, 0.17, 0.39, 0.46, 0.57, 0.66, 0.86, 0.94})
+        look_at(p.a + share * (p.b - p.a));
+      for (const double cells : {-2.3, -0.7, 0.8, 2.1}) look_at(t + cells * (p.b - p.a) / grid);
+    }
+    const double bound = std::max(noise_, 30 * fit.error);
+    fit.measured = as_good
+                       ? std::clamp(sure * worst,
+                                    std::min(bound, digits * p.values.cwiseAbs().maxCoeff()), bound)
+                       : bound;
+    return fit.measured;
+  }
 
   /// Is the polynomial lost in its noise all the way from one place to another?
   bool lost_between(const Fit& fit, double left, double right) const {
-    const double cell = (fit.polynomial->b - fit.polynomial->a) / grid, noise = noise_of(fit);
+    const double cell = (fit.polynomial->b - fit.polynomial->a) / grid;
     for (double t = left + 0.5 * cell; t < right; t += 0.5 * cell)
-      if (std::abs(fit.polynomial->first(t)) > noise) return false;
+      if (!is_lost(fit, t, fit.polynomial->first(t))) return false;
     return true;
   }
 
-  /// Everything that the polynomial does near two places, between which it is lost in its noise: it is cut at its extrema, so that each piece
-  /// crosses zero at most once; extrema that reach zero are touches, or with a change of sign
-  /// around them a crossing of higher order.
+  /// Everything that the polynomial does near two places, between which it is lost in its noise: it
+  /// is cut at its extrema, so that each piece crosses zero at most once; extrema that reach zero are
+  /// touches, or with a change of sign around them a crossing of higher order.
   /// @param best  it will not become more accurate
   /// @returns false when the polynomial is not accurate enough to tell a touch from others
   bool locate(const Fit& fit, double first, double end, bool best) {
     const Interpolant& p = *fit.polynomial;
-    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error, noise = noise_of(fit);
+    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
     const auto value = [&](double t) { return p.first(t); };
     const double scale = p.values.cwiseAbs().maxCoeff();
     const bool accurate = best || error <= std::max(noise_, 1e-9 * scale);
     double low = std::max(p.a, first - cell), high = std::min(p.b, end + cell);
-    while (low > p.a && std::abs(value(low)) <= noise) low = std::max(p.a, low - cell);
-    while (high < p.b && std::abs(value(high)) <= noise) high = std::min(p.b, high + cell);
+    while (low > p.a && is_lost(fit, low, value(low))) low = std::max(p.a, low - cell);
+    while (high < p.b && is_lost(fit, high, value(high))) high = std::min(p.b, high + cell);
     const std::vector<double> knots = extrema_of(p, low, high, cell / 12);
     double before = knots.front();
     bool touched = false;
@@ -214,7 +245,7 @@ class Search {
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const double here = knots[i], v = value(here);
       const bool extremum = i + 1 < knots.size();
-      if (extremum && std::abs(v) <= noise) {
+      if (extremum && is_lost(fit, here, v)) {
         if (!accurate) return false;
         if (!touched) touch = here;
         touched = true;
@@ -245,6 +276,7 @@ class Search {
 
   const SampledFunction& f_;
   double low_, high_, noise_, resolution_;
+  NoiseIs noise_is_;
   int examined_ = 0;
 };
 
@@ -256,9 +288,9 @@ bool within_reach(const std::vector<double>& values) {
   return std::min(std::abs(*low), std::abs(*high)) < *high - *low;
 }
 
-ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise,
-                      double resolution) {
-  Search search(f, a, b, noise, resolution);
+ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double resolution,
+                      NoiseIs noise_is) {
+  Search search(f, a, b, noise, resolution, noise_is);
   search.examine(a, b, 0);
   auto& zeros = search.result.zeros;
   std::sort(zeros.begin(), zeros.end(), [](const auto& l, const auto& r) { return l.at < r.at; });

@@ -28,13 +28,17 @@ bool within_reach(const std::vector<double>& values);
 /// f may fail (nothing) where its point cannot be computed.
 using SampledFunction = std::function<std::optional<double>(double)>;
 
+/// What is said of noise: values below the threshold are zero, or it is a bound of what rounding may make; then touches
+/// and zeros are told apart by the noise that is seen.
+enum class NoiseIs { threshold, bound };
+
 /// Samples f at ten points, interpolates, and looks where the interpolant is zero or stationary
 /// close to zero. Features that lie closer together than a tenth of the interval, and intervals on
 /// which the interpolant is not accurate, are examined again on smaller intervals, down to
 /// `resolution`. A single feature is interpolated once more on a window of its own and located there:
 /// f is never asked for its value exactly at its zero, where it may be ill-conditioned.
 /// @param noise  values below this are not told from zero
-ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise,
-                      double resolution);
+ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double resolution,
+                      NoiseIs noise_is = NoiseIs::threshold);
 
 }  // namespace springfold::continuation

@@ -53,15 +53,16 @@ Dome nearly_degenerate(double off, double unit = 1) {
 }
 
 TEST(Cluster, HasTheTotalMultiplicityOfItsPointsHoweverCloseTheyAre) {
-  for (double off = 1e-2; off > 1e-14; off /= 10) {
-    const Curve curve = nearly_degenerate(off).pushed_down();
-    ASSERT_EQ(curve.stop, StopReason::event) << off << ": " << curve.stop_detail;
-    int total = 0;
-    for (const Hit& hit : curve.hits)
-      if (hit.kind != HitKind::user) total += hit.multiplicity;
-    EXPECT_EQ(total, 5) << off;
-    EXPECT_NEAR(curve.hits.back().point.x.head(2).norm(), 0, 1e-6) << off << ": left the axis";
-  }
+  for (double off = 1e-2; off > 1e-14; off /= 10)
+    for (const double unit : {1.0, 0.5}) {
+      const Curve curve = nearly_degenerate(off, unit).pushed_down();
+      ASSERT_EQ(curve.stop, StopReason::event) << off << ": " << curve.stop_detail;
+      int total = 0;
+      for (const Hit& hit : curve.hits)
+        if (hit.kind != HitKind::user) total += hit.multiplicity;
+      EXPECT_EQ(total, 5) << off << ", unit " << unit;
+      EXPECT_NEAR(curve.hits.back().point.x.head(2).norm(), 0, 1e-6) << off << ": left the axis";
+    }
 }
 
 TEST(Cluster, IsAnIntervalAroundItsPoints) {

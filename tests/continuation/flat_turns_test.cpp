@@ -127,6 +127,19 @@ TEST(FlatTurns, BesideATouchAreLimitPointsAtAllStepLengths) {
     }
 }
 
+TEST(FlatTurns, ThatRoundingBarelyTellsApartAreTwoAtAllStepLengths) {
+  for (const double steps : all_steps)
+    for (const double start : {-0.3, -0.31, -0.325}) {
+      const FlatLadder ladder{1e-4, {0.1, 0.1005, 0.4}};
+      const auto hits = special_points(ladder.traced(start, 0.7, steps));
+      ASSERT_EQ(hits.size(), 3u) << "steps x " << steps;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(hits[i].kind, HitKind::limit_point) << "steps x " << steps;
+        EXPECT_NEAR(FlatLadder::place(hits[i]), ladder.a[i], 5e-5) << "steps x " << steps;
+      }
+    }
+}
+
 TEST(FlatTurns, TooFlatForAnyStepAreUnresolvedAndNotPassedInSilence) {
   for (const double steps : all_steps) {
     const FlatLadder ladder{1e-9, {0.1, 0.1, 0.1, 0.1}};
