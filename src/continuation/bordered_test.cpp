@@ -1,7 +1,6 @@
 #include "bordered_test.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +9,6 @@
 
 namespace springfold::continuation {
 namespace {
-
-/// Jacobi's method is the more accurate one; on larger matrices it takes too long.
-constexpr Index jacobi_size = 32;
 
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
@@ -32,84 +28,88 @@ bool is_small(const Matrix& X) {
 
 }  // namespace
 
-Matrix extended_matrix(const Linearisation& at, const Vector& weights, const Direction& tau) {
-  const Index n = at.dF_dx.rows();
-  Matrix E(n + 1, n + 1);
-  E << at.dF_dx, at.dF_dlambda, (weights.array() * tau.dx.array()).matrix().transpose(),
-      tau.dlambda;
-  return E;
-}
-
-bool surely_regular(const std::vector<Matrix>& E, std::size_t middle) {
-  if (SmallLu::fits(E[middle].rows())) {
-    const SmallLu lu(E[middle]);
+bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
+  const ExtendedMatrix& E0 = E[middle];
+  if (E0.at.structured) {
+    constexpr double safely = 1.0 / 3;
+    for (std::size_t i = 0; i < E.size(); ++i)
+      if (i != middle && !(relative_motion(E0, E0, E[i]).front() < safely)) return false;
+    return true;
+  }
+  if (SmallLu::fits(E0.rows())) {
+    const SmallLu lu(E0.dense);
     if (!(lu.smallest_pivot() > 0)) return false;
     Matrix X;
     for (std::size_t i = 0; i < E.size(); ++i) {
       if (i == middle) continue;
-      X = E[i] - E[middle];
+      X = E[i].dense - E0.dense;
       lu.solve(X);
       X = X.cwiseAbs();
       if (!is_small(X)) return false;
     }
     return true;
   }
-  const Eigen::PartialPivLU<Matrix> lu(E[middle]);
+  const Eigen::PartialPivLU<Matrix> lu(E0.dense);
   for (std::size_t i = 0; i < E.size(); ++i)
-    if (i != middle && !is_small(lu.solve(E[i] - E[middle]).cwiseAbs())) return false;
+    if (i != middle && !is_small(lu.solve(E[i].dense - E0.dense).cwiseAbs())) return false;
   return true;
 }
 
-Vector singular_values(const Matrix& E) {
-  return E.rows() <= jacobi_size ? Vector(Eigen::JacobiSVD<Matrix>(E).singularValues())
-                                 : Vector(Eigen::BDCSVD<Matrix>(E).singularValues());
+Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
+  const ExtendedMatrix& E0 = E[middle];
+  Reach reach;
+  if (!E0.at.structured) {
+    for (const ExtendedMatrix& other : E)
+      reach.size = std::max(reach.size, (other.dense - E0.dense).norm());
+    const Vector values = least_singular_values(E0, E0.rows());
+    reach.order = std::max<Index>(1, (values.array() < 2 * reach.size).count());
+    return reach;
+  }
+  constexpr double may_vanish = 0.25;
+  constexpr Index most = 6;
+  for (std::size_t i = 0; i < E.size(); ++i) {
+    if (i == middle) continue;
+    const auto values = relative_motion(E0, E0, E[i]);
+    const auto count = std::count_if(values.begin(), values.end(),
+                                     [](double value) { return value > may_vanish; });
+    reach.order = std::clamp<Index>(count, reach.order, most);
+  }
+  const Matrix C = borders_of(E0, reach.order).C, there = product(E0, C);
+  for (const ExtendedMatrix& other : E)
+    reach.size = std::max(reach.size, (product(other, C) - there).norm());
+  return reach;
 }
 
-Index small_singular_values(const Matrix& E, double reach) {
-  return std::max<Index>(1, (singular_values(E).array() < reach).count());
-}
-
-Borders borders_of(const Matrix& E, Index m) {
-  constexpr int both = Eigen::ComputeFullU | Eigen::ComputeFullV;
-  const auto last = [m](const auto& svd) {
-    return Borders{svd.matrixU().rightCols(m), svd.matrixV().rightCols(m)};
-  };
-  return E.rows() <= jacobi_size ? last(Eigen::JacobiSVD<Matrix>(E, both))
-                                 : last(Eigen::BDCSVD<Matrix>(E, both));
-}
-
-std::optional<Matrix> sigma_of(const Matrix& E, const Borders& borders) {
+std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
-  Matrix A(n + m, n + m);
-  A << E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
-  Matrix Sigma = A.partialPivLu().solve(right).bottomRows(m);
-  if (!Sigma.allFinite()) return std::nullopt;
-  return Sigma;
+  const auto solution = solve_with(E, borders, right);
+  if (!solution) return std::nullopt;
+  return solution->bottomRows(m);
 }
 
-double sigma_noise(const Matrix& E, const Borders& borders) {
+double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index n = E.rows(), m = borders.B.cols();
-  Matrix A(n + m, n + m);
-  A << E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
-  const Matrix Phi = A.partialPivLu().solve(right).topRows(n).cwiseAbs();
-  const Matrix Psi = A.transpose().partialPivLu().solve(right).topRows(n).cwiseAbs();
-  const double noise = few_units * (Psi.transpose() * (E.cwiseAbs() * Phi)).norm();
-  return std::isfinite(noise) ? noise : std::numeric_limits<double>::infinity();
+  const auto Phi = solve_with(E, borders, right), Psi = solve_with(E, borders, right, true);
+  if (!Phi || !Psi) return infinity;
+  const double noise =
+      few_units * (Psi->topRows(n).cwiseAbs().transpose() * magnitudes(E, Phi->topRows(n))).norm();
+  return std::isfinite(noise) ? noise : infinity;
 }
 
-double rate_noise(const Matrix& E) {
+double rate_noise(const ExtendedMatrix& E) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index n = E.rows();
-  const Vector unit = Vector::Unit(n, n - 1);
-  const Eigen::PartialPivLU<Matrix> lu(E);
-  Vector tangent = lu.solve(unit);
-  tangent /= tangent.norm();
-  const Vector row = lu.transpose().solve(unit);
-  const double noise = few_units * row.cwiseAbs().dot(E.cwiseAbs() * tangent.cwiseAbs());
-  return std::isfinite(noise) ? noise : std::numeric_limits<double>::infinity();
+  const Matrix unit = Vector::Unit(n, n - 1);
+  const auto solution = solve_with(E, {}, unit), row = solve_with(E, {}, unit, true);
+  if (!solution || !row) return infinity;
+  const Vector tangent = solution->col(0) / solution->col(0).norm();
+  const double noise = few_units * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));
+  return std::isfinite(noise) ? noise : infinity;
 }
 
 }  // namespace springfold::continuation

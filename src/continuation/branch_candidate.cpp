@@ -1,6 +1,5 @@
 #include "branch_candidate.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -41,15 +40,13 @@ void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
     const auto E = arc.matrix(point);
     if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return;
     const Borders borders = borders_of(*E, corank);
-    const Index n = F.size(), m = corank;
-    Matrix A(n + 1 + m, n + 1 + m);
-    A << *E, borders.B, borders.C.transpose(), Matrix::Zero(m, m);
-    Vector right = Vector::Zero(n + 1 + m);
-    right.head(n) = -F;
-    const Vector step = A.partialPivLu().solve(right);
-    if (!step.allFinite() || step.head(n + 1).norm() > 1e-6) return;
-    point.x += step.head(n);
-    point.lambda += step[n];
+    const Index n = F.size();
+    Matrix right = Matrix::Zero(n + 1 + corank, 1);
+    right.topRows(n) = -F;
+    const auto step = solve_with(*E, borders, right);
+    if (!step || step->topRows(n + 1).norm() > 1e-6) return;
+    point.x += step->col(0).head(n);
+    point.lambda += (*step)(n, 0);
   }
 }
 
@@ -58,9 +55,9 @@ bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
   constexpr double gap = 0.1;
   const auto E = arc.matrix(point);
   if (!E) return false;
-  const Vector values = singular_values(*E);  // descending
-  const Index n = values.size();
-  return m >= n || values[n - m] <= gap * values[n - m - 1];
+  if (m >= E->rows()) return true;
+  const Vector values = least_singular_values(*E, m + 1);
+  return values[m - 1] <= gap * values[m];
 }
 
 /// How far another place is from an interpolated one, along the interpolated curve and aside of it.

@@ -7,14 +7,16 @@
 #include <limits>
 #include <vector>
 
+#include "extended.hpp"
 #include "reduced_equation.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 /// What J has in the kernels, entry (q, j) at q (k + 1) + j.
-Vector in_kernels(const ReducedEquation& e, const Matrix& J) {
-  const Matrix G = (e.L.transpose() * J * e.N).transpose();
+Vector in_kernels(const ReducedEquation& e, const ScaledJacobian& J) {
+  const Matrix G = J.structured ? Matrix((e.L.transpose() * product(J, e.N)).transpose())
+                                : Matrix((e.L.transpose() * J.dense * e.N).transpose());
   return G.reshaped();
 }
 
@@ -29,8 +31,8 @@ Matrix rate_in_kernels(const ReducedEquation& e) {
 
 /// Second derivatives below this are rounding of J over the length of their differences.
 double least_rate(const ReducedEquation& e, double largest) {
-  const auto J = scaled_jacobian(*e.walker, e.U0, e.root, e.piece);
-  return J ? 1e-10 * J->norm() + 1e-9 * largest : HUGE_VAL;
+  const auto J = jacobian_at(*e.walker, e.U0, e.root, e.piece);
+  return J ? 1e-10 * size_of(*J) + 1e-9 * largest : HUGE_VAL;
 }
 
 /// One step from U with the kernels of e: first what F asks for across them, then along them from there.
@@ -40,9 +42,9 @@ std::optional<Vector> step_from(const ReducedEquation& e, const Eigen::JacobiSVD
   if (!residual_at(e, U, F)) return std::nullopt;
   Vector right = Vector::Zero(F.size() + e.k + 1);
   right.head(F.size()) = -F;
-  const Vector across = e.bordered.solve(right).head(U.size());
+  const Vector across = Vector(e.bordered.solve(right)).head(U.size());
   if (!across.allFinite()) return std::nullopt;
-  const auto J = scaled_jacobian(*e.walker, U + across, e.root, e.piece);
+  const auto J = jacobian_at(*e.walker, U + across, e.root, e.piece);
   if (!J) return std::nullopt;
   Vector step = across + e.N * rate.solve(-in_kernels(e, *J));
   if (!step.allFinite()) return std::nullopt;
@@ -83,8 +85,10 @@ Places places_around(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& r
 
 /// Error of the place by rounding that is the same everywhere, so that no scatter shows it: a unit in the
 /// last place of every entry of J, independent of each other.
-double constant_error(const ReducedEquation& e, const Matrix& J, double least_rate) {
-  const Matrix squares = e.L.cwiseAbs2().transpose() * (J.cwiseAbs2() * e.N.cwiseAbs2());
+double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double least_rate) {
+  const Matrix rows = J.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
+                                   : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
+  const Matrix squares = e.L.cwiseAbs2().transpose() * rows;
   return std::numeric_limits<double>::epsilon() * std::sqrt(squares.sum()) / least_rate;
 }
 
@@ -104,11 +108,11 @@ double settle(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate, Ve
 double left_at(const ReducedEquation& e, const Vector& U) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const Vector sizes = U.cwiseAbs().cwiseMax(1e-3);
-  const auto J = scaled_jacobian(*e.walker, U, e.root, e.piece);
+  const auto J = jacobian_at(*e.walker, U, e.root, e.piece);
   Vector F;
   if (!J || !residual_at(e, U, F)) return HUGE_VAL;
   const Vector here = e.L.transpose() * F;
-  double noise = epsilon * (e.L.cwiseAbs().transpose() * (J->cwiseAbs() * sizes)).norm();
+  double noise = epsilon * (e.L.cwiseAbs().transpose() * magnitudes(*J, sizes)).norm();
   // Curves this near to each other meet, for all that can be said of a place.
   for (const Matrix& Q : e.quadratic)
     noise = std::max(noise, Q.norm() * std::pow(1e-10 * e.scale, 2));
@@ -123,8 +127,31 @@ double left_at(const ReducedEquation& e, const Vector& U) {
 
 std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point) {
   Linearisation at;
-  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return std::nullopt;
+  if (!linearise_densely(walker.problem, point.x, point.lambda, point.piece, at))
+    return std::nullopt;
   return Eigen::SelfAdjointEigenSolver<Matrix>(at.dF_dx, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+double least_eigenvalue(const Walker& walker, const CurvePoint& point) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!walker.problem.structured()) {
+    const auto spectrum = spectrum_at(walker, point);
+    return spectrum && spectrum->size() > 0 ? spectrum->cwiseAbs().minCoeff() : infinity;
+  }
+  Linearisation at;
+  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return infinity;
+  const Index n = point.x.size();
+  const FrontalBorders none{Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)};
+  Matrix v = irregular_columns(n, 1);
+  double largest = 0;  // of the inverse matrix
+  for (int step = 0; step < 12; ++step) {
+    if (!at.structured->solve(none, v, false)) return 0;
+    const double before = largest;
+    largest = v.norm();
+    v /= largest;
+    if (std::abs(largest - before) < 1e-2 * largest) break;
+  }
+  return 1 / largest;
 }
 
 std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurvePoint& near,
@@ -154,7 +181,7 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
       if (!((U - U_near).norm() <= reach)) return std::nullopt;
       place.point.x = U.head(n).cwiseQuotient(root.head(n));
       place.point.lambda = U[n];
-      const auto J = scaled_jacobian(walker, U, root, near.piece);
+      const auto J = jacobian_at(walker, U, root, near.piece);
       if (!J) return std::nullopt;
       place.misfit = in_kernels(*e, *J).norm() / values[corank];
       place.off = std::max(place.off, constant_error(*e, *J, values[corank]));

@@ -61,15 +61,14 @@ std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b
 /// Zeros of lambda's rate and of det Sigma; nothing if one of them is not smooth on the step.
 std::optional<Roots> all_roots(const WatchedStep& arc,
                                const std::vector<const CurvePoint*>& samples) {
-  const auto E = arc.matrix(*samples[samples.size() / 2]);
-  if (!E) return std::nullopt;
-  double reach = 0;
+  std::vector<ExtendedMatrix> E;
   for (const CurvePoint* p : samples) {
-    const auto other = arc.matrix(*p);
-    if (!other) return std::nullopt;
-    reach = std::max(reach, (*other - *E).norm());
+    auto matrix = arc.matrix(*p);
+    if (!matrix) return std::nullopt;
+    E.push_back(std::move(*matrix));
   }
-  const Borders borders = borders_of(*E, small_singular_values(*E, 2 * reach));
+  const std::size_t middle = E.size() / 2;
+  const Borders borders = borders_of(E[middle], reach_of(E, middle).order);
   const auto determinant = [&](double ds) -> std::optional<double> {
     const auto Sigma = arc.sigma(ds, borders);
     return Sigma ? std::optional<double>(Sigma->determinant()) : std::nullopt;

@@ -160,7 +160,7 @@ CurvePoint onto(const Walker& walker, CurvePoint point, const Ray& ray) {
   point.negative.reset();
   Linearisation linear;
   if (linearise(walker.problem, point.x, point.lambda, ray.piece, linear))
-    count_negative(walker, linear.dF_dx, point);
+    count_negative(walker, linear, point);
   return point;
 }
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "springfold/core/inertia.hpp"
-
 namespace springfold::continuation {
 namespace {
 
@@ -72,11 +70,9 @@ std::optional<Direction> flow_at(const Walker& walker, const Vector& u, const Cu
   return tangent_at(linear, walker.weights, from.tangent);
 }
 
-void count_negative(const Walker& walker, const Matrix& dF_dx, CurvePoint& point) {
+void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& point) {
   point.negative.reset();
-  if (!walker.problem.symmetric()) return;
-  const auto inertia = inertia_of(dF_dx);
-  if (inertia && inertia->zero == 0) point.negative = inertia->negative;
+  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
 }
 
 std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, double t) {
@@ -102,7 +98,7 @@ std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, dou
                    .lambda = newton.lambda,
                    .tangent = *tangent,
                    .piece = arc.from.piece};
-  count_negative(walker, linear.dF_dx, point);
+  count_negative(walker, linear, point);
   return point;
 }
 

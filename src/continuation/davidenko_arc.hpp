@@ -20,7 +20,7 @@ struct Arc {
 std::optional<Direction> flow_at(const Walker& walker, const Vector& u, const CurvePoint& from);
 
 /// Inertia of a symmetric problem; empty where an eigenvalue is zero.
-void count_negative(const Walker& walker, const Matrix& dF_dx, CurvePoint& point);
+void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& point);
 
 /// Point of the curve at arc length t, brought back from the dense output.
 /// @returns nothing where that is too far away

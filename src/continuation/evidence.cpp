@@ -81,9 +81,8 @@ double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoi
 
 /// Errors that residuals at rounding level leave where dF/dx is nearly singular.
 double corrector_noise(const Walker& walker, const CurvePoint& point) {
-  const auto spectrum = walker.problem.symmetric() ? spectrum_at(walker, point) : std::nullopt;
-  if (!spectrum || spectrum->size() == 0) return 0;
-  const double least = spectrum->cwiseAbs().minCoeff(), scale = std::max(1.0, point.x.norm());
+  if (!walker.problem.symmetric()) return 0;
+  const double least = least_eigenvalue(walker, point), scale = std::max(1.0, point.x.norm());
   return least > 0 ? 1e-13 * scale / least : 1;
 }
 

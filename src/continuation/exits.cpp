@@ -133,10 +133,7 @@ std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoi
   const auto tangent = tangent_at(at, walker.weights, direction_of(e, ray.U - e.U0));
   if (!tangent) return std::nullopt;
   point.tangent = *tangent;
-  if (walker.problem.symmetric()) {
-    const auto inertia = inertia_of(at.dF_dx);
-    if (inertia && inertia->zero == 0) point.negative = inertia->negative;
-  }
+  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
   return point;
 }
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "extended.hpp"
 #include "kink_rays.hpp"
 #include "springfold/continuation/locate.hpp"
 
@@ -62,8 +63,8 @@ Tangents crossing_tangents(const Walker& walker, const CurvePoint& at, const Mat
   for (Index i = 0; i < 2; ++i) {
     Linearisation plus, minus;
     const Vector e = h * kernel.col(i);
-    if (!linearise(walker.problem, at.x + e.head(n), at.lambda + e[n], at.piece, plus) ||
-        !linearise(walker.problem, at.x - e.head(n), at.lambda - e[n], at.piece, minus))
+    if (!linearise_densely(walker.problem, at.x + e.head(n), at.lambda + e[n], at.piece, plus) ||
+        !linearise_densely(walker.problem, at.x - e.head(n), at.lambda - e[n], at.piece, minus))
       return result;
     form.row(i) = w.transpose() * (extended(plus) - extended(minus)) * kernel / (2 * h);
   }
@@ -81,15 +82,39 @@ double size_nearby(const Walker& walker, const CurvePoint& at) {
   Linearisation linear;
   const double h = 0.1 * std::max(1.0, at.x.norm());
   const Vector x = at.x.array() + h;
-  if (!linearise(walker.problem, x, at.lambda + h, at.piece, linear)) return 0;
+  if (!linearise_densely(walker.problem, x, at.lambda + h, at.piece, linear)) return 0;
   return extended(linear).cwiseAbs().maxCoeff();
+}
+
+/// The tangent where dF/dx is structured and no other branch is near: by inverse iteration with the
+/// tangent itself as last row.
+std::optional<Direction> regular_tangent(const Walker& walker, const CurvePoint& at,
+                                         double full_rank) {
+  Linearisation linear;
+  if (!linearise(walker.problem, at.x, at.lambda, at.piece, linear)) return std::nullopt;
+  const Index n = linear.dF_dlambda.size();
+  auto tangent = unit(irregular_columns(n + 1, 1), walker.weights);
+  for (int step = 0; tangent && step < 3; ++step)
+    tangent = tangent_at(linear, walker.weights, *tangent);
+  if (!tangent) return std::nullopt;
+  const ExtendedMatrix E = extended_matrix(linear, walker.weights, *tangent);
+  const double size = magnitudes(E, irregular_columns(n + 1, 1)).norm();
+  if (!(least_singular_values(E, 1)[0] > full_rank * size)) return std::nullopt;
+  if (tangent->dlambda < 0) {  // of the two opposite ones that in which lambda grows
+    tangent->dx = -tangent->dx;
+    tangent->dlambda = -tangent->dlambda;
+  }
+  return tangent;
 }
 
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
 Tangents tangents_of_piece(const Walker& walker, const CurvePoint& at, bool on_surface,
                            double full_rank) {
+  if (walker.problem.structured())
+    if (auto tangent = regular_tangent(walker, at, full_rank))
+      return {.list = {std::move(*tangent)}, .accuracy = 1e-9};
   Linearisation linear;
-  if (!linearise(walker.problem, at.x, at.lambda, at.piece, linear))
+  if (!linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear))
     return {.why = "derivatives are not defined here"};
   const Index n = linear.dF_dx.rows();
   const Matrix A = extended(linear);

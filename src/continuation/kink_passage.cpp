@@ -74,7 +74,7 @@ bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint
 /// counts the others.
 std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) {
   Linearisation at;
-  if (!walker.problem.symmetric() || !linearise(walker.problem, p.x, p.lambda, p.piece, at))
+  if (!walker.problem.symmetric() || !linearise_densely(walker.problem, p.x, p.lambda, p.piece, at))
     return std::nullopt;
   const double scale = std::max(1e-300, at.dF_dx.cwiseAbs().maxCoeff());
   const auto inertia = inertia_of(at.dF_dx + scale * p.tangent.dx * p.tangent.dx.transpose());
@@ -274,10 +274,8 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
   point.piece = ray.piece;
   point.negative.reset();
   Linearisation linear;
-  if (walker.problem.symmetric() && linearise(walker.problem, at.x, at.lambda, ray.piece, linear)) {
-    const auto inertia = inertia_of(linear.dF_dx);
-    if (inertia && inertia->zero == 0) point.negative = inertia->negative;
-  }
+  if (walker.problem.symmetric() && linearise(walker.problem, at.x, at.lambda, ray.piece, linear))
+    point.negative = negative_eigenvalues(linear);
   return point;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "small_lu.hpp"
+#include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -27,7 +28,7 @@ constexpr double blurred_step = 1e-6;
 /// Rounding errors that the terms of F have, estimated from its derivatives.
 double rounding_of_residual(const Linearisation& at, const Vector& x, double lambda) {
   return std::numeric_limits<double>::epsilon() *
-         (at.dF_dx.cwiseAbs() * x.cwiseAbs() + std::abs(lambda) * at.dF_dlambda.cwiseAbs())
+         (magnitudes(at, x) + std::abs(lambda) * at.dF_dlambda.cwiseAbs())
              .lpNorm<Eigen::Infinity>();
 }
 
@@ -58,14 +59,49 @@ double metric_product(const Vector& weights, const Direction& a, const Direction
 
 bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                Linearisation& at) {
+  if (!problem.structured()) return linearise_densely(problem, x, lambda, piece, at);
+  auto matrix = std::make_shared<StructuredMatrix>();
+  if (!problem.structured_derivatives(x, lambda, piece, *matrix, at.dF_dlambda) ||
+      !at.dF_dlambda.allFinite())
+    return false;
+  at.structured = std::move(matrix);
+  return true;
+}
+
+bool linearise_densely(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                       Linearisation& at) {
+  at.structured.reset();
   return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && at.dF_dx.allFinite() &&
          at.dF_dlambda.allFinite();
 }
 
+Vector product(const Linearisation& at, const Vector& v) {
+  return at.structured ? at.structured->product(v) : Vector(at.dF_dx * v);
+}
+
+Vector magnitudes(const Linearisation& at, const Vector& v) {
+  return at.structured ? at.structured->magnitudes(v) : Vector(at.dF_dx.cwiseAbs() * v.cwiseAbs());
+}
+
+std::optional<Index> negative_eigenvalues(const Linearisation& at) {
+  const auto inertia = at.structured ? at.structured->inertia() : inertia_of(at.dF_dx);
+  if (!inertia || inertia->zero > 0) return std::nullopt;
+  return inertia->negative;
+}
+
 std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& weights,
                                         const Direction& border, const Vector& r, double rho) {
-  const Index n = at.dF_dx.rows();
-  assert(at.dF_dx.cols() == n && border.dx.size() == n && r.size() == n);
+  const Index n = r.size();
+  assert(at.dF_dlambda.size() == n && border.dx.size() == n);
+  if (at.structured) {
+    const FrontalBorders borders{at.dF_dlambda, weights.cwiseProduct(border.dx),
+                                 Matrix::Constant(1, 1, border.dlambda)};
+    Matrix X(n + 1, 1);
+    X << r, rho;
+    if (!at.structured->solve(borders, X, false)) return std::nullopt;
+    return Direction{X.col(0).head(n), X(n, 0)};
+  }
+  assert(at.dF_dx.rows() == n && at.dF_dx.cols() == n);
   if (SmallLu::fits(n + 1)) return solve_small(at, weights, border, r, rho);
   Matrix A(n + 1, n + 1);
   A << at.dF_dx, at.dF_dlambda, (weights.array() * border.dx.array()).matrix().transpose(),
@@ -81,7 +117,7 @@ std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& w
 
 std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weights,
                                     const Direction& reference) {
-  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(at.dF_dx.rows()), 1.0);
+  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(at.dF_dlambda.size()), 1.0);
   if (!tangent) return std::nullopt;
   const double length = norm(weights, *tangent);
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/scaling.hpp"
@@ -38,11 +39,14 @@ void Normalised::scale_equations(const Vector& x, double lambda, const Piece& pi
   double largest = 0;
   for (const double d : beside) {
     Linearisation at;
-    if (!linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
-    const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
-    if (K.size() > 0) largest = std::max(largest, K.cwiseAbs().maxCoeff());
-    if (K.size() > 0)
-      largest = std::max(largest, force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff());
+    if (unit_.size() == 0 || !linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
+    if (at.structured) {
+      largest = std::max(largest, scaled(*at.structured, force_, unit_).largest);
+    } else {
+      const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
+      largest = std::max(largest, K.cwiseAbs().maxCoeff());
+    }
+    largest = std::max(largest, force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff());
   }
   force_ /= power_of_two_near(largest);
 }
@@ -66,29 +70,65 @@ bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Ve
 
 bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                              Vector& dG_dlambda) const {
-  for (const Place& place : places_)
-    if (place.lambda == lambda && place.y == y && place.piece == piece) {
-      dG_dy = place.dG_dy;
-      dG_dlambda = place.dG_dlambda;
-      return true;
-    }
+  if (const Place* place = remembered(y, lambda, piece, false)) {
+    dG_dy = place->dG_dy;
+    dG_dlambda = place->dG_dlambda;
+    return true;
+  }
   x_ = y.cwiseProduct(unit_);
   if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
   dG_dy.array().colwise() *= force_.array();
   dG_dy.array().rowwise() *= unit_.transpose().array();
   dG_dlambda.array() *= force_.array();
-  if (places_.size() < most_places) {
-    places_.push_back({y, lambda, piece, dG_dy, dG_dlambda});
+  Place& place = remember(y, lambda, piece);
+  place.dG_dy = dG_dy;
+  place.dG_dlambda = dG_dlambda;
+  place.structured = {};
+  return true;
+}
+
+bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                                        StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
+  if (const Place* place = remembered(y, lambda, piece, true)) {
+    dG_dy = place->structured;
+    dG_dlambda = place->dG_dlambda;
     return true;
+  }
+  // The oldest one goes first, so that its storage can be used again.
+  Place& place = remember(y, lambda, piece);
+  place.structured = {};
+  place.lambda = std::numeric_limits<double>::quiet_NaN();
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.structured_derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
+  dG_dy = scaled(std::move(dG_dy), force_, unit_);
+  dG_dlambda.array() *= force_.array();
+  place.lambda = lambda;
+  place.dG_dy.resize(0, 0);
+  place.dG_dlambda = dG_dlambda;
+  place.structured = dG_dy;
+  return true;
+}
+
+const Normalised::Place* Normalised::remembered(const Vector& y, double lambda, const Piece& piece,
+                                                bool structured) const {
+  for (const Place& place : places_)
+    if (place.lambda == lambda && place.y == y && place.piece == piece &&
+        static_cast<bool>(place.structured.solve) == structured)
+      return &place;
+  return nullptr;
+}
+
+Normalised::Place& Normalised::remember(const Vector& y, double lambda, const Piece& piece) const {
+  if (places_.size() < most_places) {
+    places_.push_back({y, lambda, piece});
+    return places_.back();
   }
   Place& place = places_[oldest_];
   oldest_ = (oldest_ + 1) % most_places;
   place.y = y;
   place.lambda = lambda;
   place.piece = piece;
-  place.dG_dy = dG_dy;
-  place.dG_dlambda = dG_dlambda;
-  return true;
+  return place;
 }
 
 bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {

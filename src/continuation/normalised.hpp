@@ -34,6 +34,9 @@ class Normalised {
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
   bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                    Vector& dG_dlambda) const;
+  bool structured() const { return problem_.structured(); }
+  bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                              StructuredMatrix& dG_dy, Vector& dG_dlambda) const;
   Index switch_count() const { return problem_.switch_count(); }
   bool switches(const Vector& y, double lambda, Vector& h) const;
   bool switch_gradients(const Vector& y, double lambda, Matrix& dh_dy, Vector& dh_dlambda) const;
@@ -72,7 +75,11 @@ class Normalised {
     Piece piece{};
     Matrix dG_dy{};
     Vector dG_dlambda{};
+    StructuredMatrix structured{};  ///< instead of dG_dy
   };
+  const Place* remembered(const Vector& y, double lambda, const Piece& piece,
+                          bool structured) const;
+  Place& remember(const Vector& y, double lambda, const Piece& piece) const;
   static constexpr std::size_t most_places =
       6;  // of a step and its middle: begin, two guesses, two points
   mutable std::vector<Place> places_{};

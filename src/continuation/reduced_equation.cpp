@@ -6,16 +6,42 @@
 #include <cmath>
 #include <limits>
 
+#include "extended.hpp"
+
 namespace springfold::continuation {
 namespace {
 
-Matrix bordered_matrix(const Matrix& J, const Matrix& N, const Matrix& L) {
-  const Index n = J.rows(), k = L.cols();
-  Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
-  M.topLeftCorner(n, n + 1) = J;
-  M.topRightCorner(n, k) = L;
-  M.bottomLeftCorner(k + 1, n + 1) = N.transpose();
-  return M;
+/// Kernels of J as singular vectors, or, without its entries, by inverse iteration with the matrix that
+/// they border.
+bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
+  const Index k = e.k;
+  if (!J.structured) {
+    const Eigen::BDCSVD<Matrix> svd(J.dense, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    e.N = svd.matrixV().rightCols(k + 1);
+    e.L = svd.matrixU().rightCols(k);
+    return true;
+  }
+  const Index n = J.dF_dlambda.size();
+  constexpr int most = 16;
+  constexpr double settled = 1e-12;
+  e.N = irregular_columns(n + 1, k + 1);
+  e.L = irregular_columns(n, k);
+  Matrix right = Matrix::Zero(n + k + 1, k + 1), left = Matrix::Zero(n + k + 1, k);
+  right.bottomRows(k + 1).setIdentity();
+  left.bottomRows(k).setIdentity();
+  KernelSystem bordered;
+  for (int step = 0; step < most; ++step) {
+    bordered.compute(J, e.N, e.L);
+    const Matrix V = bordered.solve(right), W = bordered.solve(left, true);
+    if (!V.allFinite() || !W.allFinite()) return false;
+    const Matrix N = orthonormal(V.topRows(n + 1)), L = orthonormal(W.topRows(n));
+    const double moved =
+        (N - e.N * (e.N.transpose() * N)).norm() + (L - e.L * (e.L.transpose() * L)).norm();
+    e.N = N;
+    e.L = L;
+    if (moved < settled) break;
+  }
+  return true;
 }
 
 /// Turns the basis so that lambda moves along its last column only.
@@ -34,10 +60,13 @@ std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, doubl
   constexpr double factors[] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
   Matrix sum = Matrix::Zero(e.L.rows(), e.k + 1);
   for (int j = 1; j <= 3; ++j) {
-    const auto plus = scaled_jacobian(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
-    const auto minus = scaled_jacobian(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
+    const auto plus = jacobian_at(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
+    const auto minus = jacobian_at(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
     if (!plus || !minus) return std::nullopt;
-    sum += factors[j - 1] / h * ((*plus - *minus) * e.N);
+    if (plus->structured)
+      sum += factors[j - 1] / h * (product(*plus, e.N) - product(*minus, e.N));
+    else
+      sum += factors[j - 1] / h * ((plus->dense - minus->dense) * e.N);
   }
   return sum;
 }
@@ -78,11 +107,75 @@ Vector scaled_point(const CurvePoint& at, const Vector& root) {
   return U.cwiseProduct(root);
 }
 
+std::optional<ScaledJacobian> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
+                                          const Piece& piece) {
+  if (!walker.problem.structured()) {
+    auto dense = scaled_jacobian(walker, U, root, piece);
+    if (!dense) return std::nullopt;
+    return ScaledJacobian{.dense = std::move(*dense)};
+  }
+  const Index n = U.size() - 1;
+  Linearisation at;
+  if (!linearise(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
+    return std::nullopt;
+  return ScaledJacobian{.structured = std::make_shared<StructuredMatrix>(
+                            scaled(*at.structured, Vector::Ones(n), root.head(n).cwiseInverse())),
+                        .dF_dlambda = at.dF_dlambda};
+}
+
+Matrix product(const ScaledJacobian& J, const Matrix& X) {
+  if (!J.structured) return J.dense * X;
+  const Index n = J.dF_dlambda.size();
+  Matrix Y = J.dF_dlambda * X.bottomRows(1);
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += J.structured->product(X.col(c).head(n));
+  return Y;
+}
+
+Matrix magnitudes(const ScaledJacobian& J, const Matrix& X) {
+  if (!J.structured) return J.dense.cwiseAbs() * X.cwiseAbs();
+  const Index n = J.dF_dlambda.size();
+  Matrix Y = J.dF_dlambda.cwiseAbs() * X.bottomRows(1).cwiseAbs();
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += J.structured->magnitudes(X.col(c).head(n));
+  return Y;
+}
+
+double size_of(const ScaledJacobian& J) {
+  if (!J.structured) return J.dense.norm();
+  const Index n = J.dF_dlambda.size();
+  return std::sqrt(static_cast<double>(n + 1)) * product(J, irregular_columns(n + 1, 1)).norm();
+}
+
+void KernelSystem::compute(const ScaledJacobian& J, const Matrix& N, const Matrix& L) {
+  const Index n = L.rows(), k = L.cols();
+  structured_ = J.structured;
+  if (!structured_) {
+    Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
+    M.topLeftCorner(n, n + 1) = J.dense;
+    M.topRightCorner(n, k) = L;
+    M.bottomLeftCorner(k + 1, n + 1) = N.transpose();
+    lu_.compute(M);
+    return;
+  }
+  //  | dF/dx  dF/dlambda  L |
+  //  | N_x^T  N_l^T       0 |
+  borders_ = {Matrix(n, k + 1), N.topRows(n), Matrix::Zero(k + 1, k + 1)};
+  borders_.B << J.dF_dlambda, L;
+  borders_.D.col(0) = N.bottomRows(1).transpose();
+}
+
+Matrix KernelSystem::solve(const Matrix& right, bool transposed) const {
+  if (!structured_) return transposed ? Matrix(lu_.transpose().solve(right)) : lu_.solve(right);
+  Matrix X = right;
+  if (!structured_->solve(borders_, X, transposed))
+    X.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return X;
+}
+
 std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
                                       const Piece& piece) {
   const Index n = U.size() - 1;
   Linearisation at;
-  if (!linearise(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
+  if (!linearise_densely(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
     return std::nullopt;
   Matrix J(n, n + 1);
   J << at.dF_dx * root.head(n).cwiseInverse().asDiagonal(), at.dF_dlambda;
@@ -100,13 +193,10 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   e.U0 = scaled_point(at, e.root);
   e.k = corank;
   e.scale = std::max(1.0, e.U0.lpNorm<Eigen::Infinity>());
-  const auto J = scaled_jacobian(walker, e.U0, e.root, e.piece);
-  if (!J) return std::nullopt;
-  const Eigen::BDCSVD<Matrix> svd(*J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  e.N = svd.matrixV().rightCols(e.k + 1);
-  e.L = svd.matrixU().rightCols(e.k);
+  const auto J = jacobian_at(walker, e.U0, e.root, e.piece);
+  if (!J || !find_kernels(*J, e)) return std::nullopt;
   e.follows = turn_kernel(e.N);
-  e.bordered.compute(bordered_matrix(*J, e.N, e.L));
+  e.bordered.compute(*J, e.N, e.L);
   for (double h = 1e-3 * e.scale; h > 1e-6; h /= 10)
     if (expand(e, h) && h * e.curvature < 0.1) return e;
   return std::nullopt;
@@ -119,23 +209,23 @@ std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector
   Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
-  Eigen::PartialPivLU<Matrix> own;
-  const Eigen::PartialPivLU<Matrix>* lu = &e.bordered;
+  KernelSystem own;
+  const KernelSystem* system = &e.bordered;
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 12; ++iteration) {
     if (!residual_at(e, U1 + w, F)) return std::nullopt;
     right.head(n) = -F;
-    const Vector step = lu->solve(right);
+    const Vector step = system->solve(right);
     w += step.head(n + 1);
     const double moved = step.head(n + 1).norm();
     if (!(w.norm() < rho)) return std::nullopt;
     if (moved <= enough || (moved < 1e-12 * e.scale && moved > 0.5 * before))
       return ReducedValue{U1 + w, -step.tail(e.k)};
     if (moved > 0.2 * before) {
-      const auto J = scaled_jacobian(*e.walker, U1 + w, e.root, e.piece);
+      const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
       if (!J) return std::nullopt;
-      own.compute(bordered_matrix(*J, e.N, e.L));
-      lu = &own;
+      own.compute(*J, e.N, e.L);
+      system = &own;
     }
     before = moved;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,26 +10,52 @@
 
 namespace springfold::continuation {
 
-/// [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean.
+/// J = [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean.
 /// Unknowns without weight get a small one.
+struct ScaledJacobian {
+  Matrix dense{};                                        ///< n x n + 1; empty where structured
+  std::shared_ptr<const StructuredMatrix> structured{};  ///< then this is dF/dx / root
+  Vector dF_dlambda{};
+};
+
 /// @param root  n + 1 square roots of the weights, the last is 1
+std::optional<ScaledJacobian> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
+                                          const Piece& piece);
+/// The same with its entries in any case.
 std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
                                       const Piece& piece);
+
+Matrix product(const ScaledJacobian& J, const Matrix& X);     ///< J X
+Matrix magnitudes(const ScaledJacobian& J, const Matrix& X);  ///< |J| |X|
+double size_of(const ScaledJacobian& J);  ///< Frobenius norm; structured: estimated
+
+/// | J   L |
+/// | N^T 0 |, ready to be solved with.
+class KernelSystem {
+ public:
+  void compute(const ScaledJacobian& J, const Matrix& N, const Matrix& L);
+  /// Not finite where the matrix is singular.
+  Matrix solve(const Matrix& right, bool transposed = false) const;
+
+ private:
+  Eigen::PartialPivLU<Matrix> lu_{};
+  std::shared_ptr<const StructuredMatrix> structured_{};
+  FrontalBorders borders_{};
+};
+
 Vector metric_roots(const Vector& weights);
 Vector scaled_point(const CurvePoint& at, const Vector& root);
 
 struct ReducedEquation {
   const Walker* walker = nullptr;
   Piece piece{};
-  Vector root{};         ///< n + 1
-  Vector U0{};           ///< n + 1
-  Index k = 0;           ///< corank
-  Matrix N{}, L{};       ///< right and left kernels: n + 1 x k + 1, n x k
-  double scale = 1;      ///< max(1, |U0|)
-  bool follows = false;  ///< the last column of N is the only one along which lambda moves
-  /// | J0  L |
-  /// | N^T 0 |, factorised
-  Eigen::PartialPivLU<Matrix> bordered{};
+  Vector root{};            ///< n + 1
+  Vector U0{};              ///< n + 1
+  Index k = 0;              ///< corank
+  Matrix N{}, L{};          ///< right and left kernels: n + 1 x k + 1, n x k
+  double scale = 1;         ///< max(1, |U0|)
+  bool follows = false;     ///< the last column of N is the only one along which lambda moves
+  KernelSystem bordered{};  ///< with J at U0
   std::vector<Matrix> quadratic{};  ///< k matrices (k + 1 x k + 1): g_m(c) = c^T Q_m c / 2 + ...
   std::vector<Vector> bend{};       ///< w(c) = sum_ij c_i c_j bend_(i (k + 1) + j) + ...
   double curvature = 0;  ///< largest |bend|: 1/length on which the kernel is a good chart

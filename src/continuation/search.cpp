@@ -56,7 +56,7 @@ bool residual_at(const Task& task, const Vector& x, Piece& piece, Vector& F) {
 std::optional<Eigen::PartialPivLU<Matrix>> factorised(const Task& task, const Vector& x,
                                                       const Piece& piece) {
   Linearisation at;
-  if (!linearise(task.problem, x, task.lambda, piece, at)) return std::nullopt;
+  if (!linearise_densely(task.problem, x, task.lambda, piece, at)) return std::nullopt;
   Eigen::PartialPivLU<Matrix> lu(at.dF_dx);
   const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
   if (!(pivots.minCoeff() > 1e-15 * pivots.maxCoeff())) return std::nullopt;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "springfold/core/inertia.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -52,10 +51,7 @@ StepResult point_on_curve(const Walker& walker, const Vector& x, double lambda, 
   const auto tangent = tangent_at(at, walker.weights, reference);
   if (!tangent) return refused("no unique tangent", result.measures);
   CurvePoint point{.x = newton.x, .lambda = newton.lambda, .tangent = *tangent, .piece = piece};
-  if (walker.problem.symmetric()) {
-    const auto inertia = inertia_of(at.dF_dx);
-    if (inertia && inertia->zero == 0) point.negative = inertia->negative;
-  }
+  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
   result.measures.turn = angle_between(walker.weights, point.tangent, reference);
   result.point = std::move(point);
   return result;

@@ -1,6 +1,5 @@
 #include "watched_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -136,33 +135,29 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
 /// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
 std::vector<double> singular_distances(const WatchedStep& arc, double t) {
   const double d = 0.02 * arc.length();
-  std::vector<Matrix> E;
+  std::vector<ExtendedMatrix> E;
   for (const double ds : {t, t - d, t + d}) {
     const auto& p = arc.point(ds);
-    const auto matrix = p ? arc.matrix(*p) : std::nullopt;
+    auto matrix = p ? arc.matrix(*p) : std::nullopt;
     if (!matrix) return {};
-    E.push_back(*matrix);
+    E.push_back(std::move(*matrix));
   }
-  const Matrix rate = E[0].partialPivLu().solve((E[2] - E[1]) / (2 * d));
-  if (!rate.allFinite()) return {0.0};
-  const Eigen::EigenSolver<Matrix> solver(rate, false);
-  std::vector<double> distances;
-  for (const auto& value : solver.eigenvalues()) distances.push_back(1 / std::abs(value));
-  std::sort(distances.begin(), distances.end());
+  std::vector<double> distances = relative_motion(E[0], E[1], E[2]);
+  for (double& distance : distances) distance = 2 * d / distance;
   return distances;
 }
 
 /// A corrected point is off by the rounding of F over the smallest singular value, and that changes an entry
 /// of Sigma in proportion to the rate of E: this is the product of the entry and its change, the same at
 /// every distance from a singular point.
-double blur_of_entries(const WatchedStep& arc, const Matrix& E, const Borders& borders,
+double blur_of_entries(const WatchedStep& arc, const ExtendedMatrix& E, const Borders& borders,
                        double reach) {
   const Index n = arc.from().x.size();
   Vector sizes(n + 1);
   sizes << arc.from().x.cwiseAbs().cwiseMax(1e-3), std::abs(arc.from().lambda);
   const double rounding_of_F =
       std::numeric_limits<double>::epsilon() *
-      (borders.B.topRows(n).cwiseAbs().transpose() * (E.topRows(n).cwiseAbs() * sizes)).norm();
+      (borders.B.topRows(n).cwiseAbs().transpose() * magnitudes(E, sizes).topRows(n)).norm();
   return reach / arc.length() * rounding_of_F;
 }
 
@@ -180,17 +175,16 @@ double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::siz
 WatchedZeros singularities_on(const WatchedStep& arc,
                               const std::vector<const CurvePoint*>& samples) {
   if (!arc.walker().options.branch_points) return {};
-  std::vector<Matrix> E;
+  std::vector<ExtendedMatrix> E;
   for (const CurvePoint* p : samples) {
-    const auto matrix = arc.matrix(*p);
+    auto matrix = arc.matrix(*p);
     if (!matrix) return {.resolved = false};
-    E.push_back(*matrix);
+    E.push_back(std::move(*matrix));
   }
   const std::size_t middle = E.size() / 2;
   if (surely_regular(E, middle)) return {};
-  double reach = 0;
-  for (const Matrix& other : E) reach = std::max(reach, (other - E[middle]).norm());
-  WatchedZeros result{.order = small_singular_values(E[middle], 2 * reach)};
+  const Reach reach = reach_of(E, middle);
+  WatchedZeros result{.order = reach.order};
   const Borders borders = borders_of(E[middle], result.order);
   double scale = 0;
   const auto determinant = [&](double ds) -> std::optional<double> {
@@ -208,7 +202,7 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   const double noise = std::max(
       rounding * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
   const double blur = result.order > 1 ? m * std::pow(scale, 1 - 2 / m) *
-                                             blur_of_entries(arc, E[middle], borders, reach)
+                                             blur_of_entries(arc, E[middle], borders, reach.size)
                                        : 0.0;
   if (scale <= std::max(noise, blur)) return {.resolved = false};
   const ZeroSearch found =

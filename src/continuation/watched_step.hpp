@@ -44,7 +44,7 @@ class WatchedStep {
     const auto& p = point(ds);
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
   }
-  std::optional<Matrix> matrix(const CurvePoint& p) const {
+  std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
     Linearisation at;
     if (!linearise(walker_.problem, p.x, p.lambda, p.piece, at)) return std::nullopt;
     return extended_matrix(at, walker_.weights, from_.tangent);

@@ -51,6 +51,7 @@ struct Frontal::State {
   Index largest_front = 0;
   double growth = 0;
 
+  void scale_borders(const FrontalBorders& given);
   bool start_borders(const FrontalBorders& given);
   void assemble(std::size_t f, const std::vector<double>& values);
   bool front_is_finite() const {
@@ -63,7 +64,33 @@ struct Frontal::State {
   bool solve(Matrix& X, bool transposed);
 };
 
-/// Border columns scaled by powers of two to entries of size one.
+/// Powers of two that make the largest entry of each border about one, corner included: what of a border
+/// is nothing but rounding must not be blown up.
+void Frontal::State::scale_borders(const FrontalBorders& given) {
+  const Index k = given.B.cols(), n = pattern.size;
+  const auto largest = [n](const auto& border) {
+    return n > 0 ? border.cwiseAbs().maxCoeff() : 0.0;
+  };
+  column_scale.setOnes(k);
+  row_scale.setOnes(k);
+  const auto rows = [&] {
+    for (Index r = 0; r < k; ++r) {
+      double size = largest(given.C.col(r));
+      for (Index c = 0; c < k; ++c)
+        size = std::max(size, std::abs(given.D(r, c)) * column_scale[c]);
+      row_scale[r] = 1 / power_of_two_near(size);
+    }
+  };
+  rows();
+  for (Index c = 0; c < k; ++c) {
+    double size = largest(given.B.col(c));
+    for (Index r = 0; r < k; ++r) size = std::max(size, std::abs(given.D(r, c)) * row_scale[r]);
+    column_scale[c] = 1 / power_of_two_near(size);
+  }
+  rows();
+}
+
+/// Borders with their corner, scaled.
 bool Frontal::State::start_borders(const FrontalBorders& given) {
   const Index k = given.B.cols(), n = pattern.size;
   assert(given.C.cols() == k && (k == 0 || (given.B.rows() == n && given.C.rows() == n)));
@@ -71,14 +98,9 @@ bool Frontal::State::start_borders(const FrontalBorders& given) {
   if (!given.B.allFinite() || !given.C.allFinite() || !given.D.allFinite()) return false;
   borders.count = k;
   borders.scale.assign(static_cast<std::size_t>(2 * k), 1.0);
-  row_scale.resize(k);
-  column_scale.resize(k);
+  scale_borders(given);
   borders.rows.resize(static_cast<std::size_t>(2 * k * n));
   for (Index c = 0; c < k; ++c) {
-    const double b = n > 0 ? given.B.col(c).cwiseAbs().maxCoeff() : 0;
-    const double r = n > 0 ? given.C.col(c).cwiseAbs().maxCoeff() : 0;
-    column_scale[c] = 1 / power_of_two_near(b);
-    row_scale[c] = 1 / power_of_two_near(r);
     for (Index i = 0; i < n; ++i) {
       borders.of(i)[c] = given.B(i, c) * column_scale[c];
       borders.of(i)[k + c] = given.C(i, c) * row_scale[c];

@@ -59,7 +59,10 @@ void scale_chain(const StagePlan& plan, const System& system, std::size_t i, Sta
   const auto inverse_root = [](double v) {
     return v > 0 && std::isfinite(v) ? power_of_two_near(1 / std::sqrt(v)) : 1.0;
   };
-  for (Index c = 0; c < slice.F_count; ++c) scale[slice.F + c] = inverse_root(wrench[c]);
+  // A stretched chain does not give way to a force along it, but for rounding.
+  const double stiff = 1e-4 * wrench.maxCoeff();
+  for (Index c = 0; c < slice.F_count; ++c)
+    scale[slice.F + c] = inverse_root(std::max(wrench[c], stiff));
   // moment and turn that come into a stage: their product has size one, and so have the larger of
   // compliance and of the loads' part in the stage.
   const bool moves = system.chains[i].from_moves;

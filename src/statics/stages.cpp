@@ -215,6 +215,9 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   finite &= residual.allFinite();
   if (!with_matrix || !finite) return finite;
 
+  matrix.groups.resize(system.coupled.size());
+  for (std::size_t k = 0; k < system.coupled.size(); ++k)
+    matrix.groups[k] = system.coupled[k].stiffness;
   matrix.basis = basis;
   if (basis.size() == 0) matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
   cut_bases(plan, system, matrix);
@@ -241,7 +244,7 @@ Vector stage_product(const StagePlan& plan, const System& system, const StageMat
     add_chain_product(system, i, matrix.sums[i], dz, drho, product);
     for (const StageGroup& entry : plan.chains[i].groups) {
       const CoordinateGroup& group = system.coupled[entry.group];
-      product(group.coordinates) += group.stiffness * Vector(dz(group.coordinates));
+      product(group.coordinates) += matrix.groups[entry.group] * Vector(dz(group.coordinates));
     }
   }
   for (std::size_t p = 0; p < matrix.blocks.size(); ++p) {
@@ -258,6 +261,7 @@ Vector stage_magnitudes(const StagePlan& plan, const System& system, const Stage
                         const Vector& dz) {
   StageMatrix sizes;  // all signs such that the terms of the product add up
   sizes.stiffness = -matrix.stiffness.cwiseAbs();
+  for (const Matrix& group : matrix.groups) sizes.groups.push_back(-group.cwiseAbs());
   for (const ChainSums& sums : matrix.sums) {
     ChainSums& size = sizes.sums.emplace_back();
     size.turn = sums.turn.cwiseAbs();
@@ -269,15 +273,7 @@ Vector stage_magnitudes(const StagePlan& plan, const System& system, const Stage
     size.H_to = sums.H_to.cwiseAbs();
   }
   for (const Matrix& block : matrix.blocks) sizes.blocks.push_back(-block.cwiseAbs());
-  const Vector size = dz.cwiseAbs();
-  Vector magnitudes = -stage_product(plan, system, sizes, size, {});
-  for (const ChainStages& chain : plan.chains)
-    for (const StageGroup& entry : chain.groups) {  // which the product has with their own sign
-      const CoordinateGroup& group = system.coupled[entry.group];
-      const Vector own = size(group.coordinates);
-      magnitudes(group.coordinates) += (group.stiffness + group.stiffness.cwiseAbs()) * own;
-    }
-  return magnitudes;
+  return -stage_product(plan, system, sizes, dz.cwiseAbs(), {});
 }
 
 StageSolver::StageSolver(const StagePlan& plan, FrontalOptions options)

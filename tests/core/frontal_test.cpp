@@ -299,6 +299,17 @@ TEST(Frontal, BordersOfAnySizeLeaveTheSolutionAlone) {
   EXPECT_EQ(X, Y);
 }
 
+TEST(Frontal, ABorderOfNothingButRoundingLeavesTheCornerToDecide) {
+  std::mt19937 random(21);
+  const Sample sample = random_strings(random, 1, 6, 1);
+  const Index n = sample.pattern.size;
+  FrontalBorders borders = random_borders(random, n, 1);
+  borders.C *= 1e-17;
+  borders.D(0, 0) = 1;
+  Frontal frontal = sample.factorised(borders);
+  expect_solved(sample, borders, frontal);
+}
+
 TEST(Frontal, UnsymmetricRootsAreSolvedBothWays) {
   std::mt19937 random(11);
   Sample sample = random_strings(random, 2, 3, 3);

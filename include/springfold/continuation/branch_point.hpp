@@ -9,6 +9,11 @@ namespace springfold::continuation {
 /// @pre the problem is symmetric
 std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point);
 
+/// Smallest magnitude of an eigenvalue of dF/dx; infinity outside the domain. Where dF/dx is structured it
+/// is estimated to about a hundredth.
+/// @pre the problem is symmetric
+double least_eigenvalue(const Walker& walker, const CurvePoint& point);
+
 /// `BranchPlace::left` above which curves pass each other and do not meet.
 inline constexpr double branches_apart = 200;
 

@@ -2,19 +2,22 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "springfold/core/structured_matrix.hpp"
 #include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
 
 /// dF/dx and dF/dlambda at one point, on one piece.
 struct Linearisation {
-  Matrix dF_dx{};       ///< n x n
+  Matrix dF_dx{};       ///< n x n; empty where the problem gives it without its entries
   Vector dF_dlambda{};  ///< n
+  std::shared_ptr<const StructuredMatrix> structured{};  ///< then this is dF/dx
 };
 
 /// Direction in the extended space R^(n+1).

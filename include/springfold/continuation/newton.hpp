@@ -13,9 +13,21 @@ namespace springfold::continuation {
 /// Scalar product of the arc length: sum of weight_i a_i b_i + a_lambda b_lambda.
 double metric_product(const Vector& weights, const Direction& a, const Direction& b);
 
-/// Evaluates the derivatives; false outside the domain or when a number is not finite.
+/// Evaluates the derivatives, structured where the problem wants it; false outside the domain or when a
+/// number is not finite.
 [[nodiscard]] bool linearise(ProblemView problem, const Vector& x, double lambda,
                              const Piece& piece, Linearisation& at);
+
+/// The same with the entries of dF/dx in any case.
+[[nodiscard]] bool linearise_densely(ProblemView problem, const Vector& x, double lambda,
+                                     const Piece& piece, Linearisation& at);
+
+/// dF/dx v, and |dF/dx| |v| entry by entry.
+Vector product(const Linearisation& at, const Vector& v);
+Vector magnitudes(const Linearisation& at, const Vector& v);
+
+/// Negative eigenvalues of a symmetric dF/dx; nothing where one of them is zero.
+std::optional<Index> negative_eigenvalues(const Linearisation& at);
 
 /// Solves the bordered system of arc-length continuation,
 ///

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <string>
 
+#include "springfold/core/structured_matrix.hpp"
 #include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
@@ -35,6 +36,17 @@ concept PiecewiseSmoothProblem = requires(const P& problem, const Vector& x, dou
     } -> std::same_as<bool>;  // M = dg/dx (m x n), v = dg/dlambda
 };
 
+/// A problem that also gives dF/dx without its entries, see ProblemView.
+template <class P>
+concept StructuredProblem = requires(const P& problem, const Vector& x, double lambda,
+                                     const Piece& piece, StructuredMatrix& J, Vector& v) {
+  problem.structured_derivatives(x, lambda, J, v);
+}
+|| requires(const P& problem, const Vector& x, double lambda, const Piece& piece,
+            StructuredMatrix& J, Vector& v) {
+  problem.structured_derivatives(x, lambda, piece, J, v);
+};
+
 /// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
 /// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
 Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near);
@@ -49,6 +61,12 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 ///                                     first of four unknowns that are the same point with all their
 ///                                     signs changed, for every such group: rotations as quaternions
 ///     std::string switch_name(Index) const
+///     bool structured_derivatives(x, lambda, [piece,] StructuredMatrix&, Vector& dF_dlambda) const
+///                                     the same as `derivatives`, for large systems of which more is
+///                                     known than entries. Points, special points and their places
+///                                     are then found without dF/dx ever being formed; where
+///                                     curves cross or meet kinks `derivatives` is still asked
+///     bool structured() const         is that to be used? Without this member: yes
 class ProblemView {
  public:
   template <class P>
@@ -63,6 +81,11 @@ class ProblemView {
   bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
                    Vector& dF_dlambda) const {
     return calls_->derivatives(problem_, x, lambda, piece, dF_dx, dF_dlambda);
+  }
+  bool structured() const { return calls_->structured(problem_); }
+  bool structured_derivatives(const Vector& x, double lambda, const Piece& piece,
+                              StructuredMatrix& dF_dx, Vector& dF_dlambda) const {
+    return calls_->structured_derivatives(problem_, x, lambda, piece, dF_dx, dF_dlambda);
   }
   Index switch_count() const { return calls_->switch_count(problem_); }
   bool switches(const Vector& x, double lambda, Vector& g) const {
@@ -82,6 +105,9 @@ class ProblemView {
     Index (*size)(const void*);
     bool (*residual)(const void*, const Vector&, double, const Piece&, Vector&);
     bool (*derivatives)(const void*, const Vector&, double, const Piece&, Matrix&, Vector&);
+    bool (*structured)(const void*);
+    bool (*structured_derivatives)(const void*, const Vector&, double, const Piece&,
+                                   StructuredMatrix&, Vector&);
     Index (*switch_count)(const void*);
     bool (*switches)(const void*, const Vector&, double, Vector&);
     bool (*switch_gradients)(const void*, const Vector&, double, Matrix&, Vector&);
@@ -112,6 +138,21 @@ class ProblemView {
           return as<P>(p).derivatives(x, lambda, piece, dF_dx, dF_dlambda);
         else
           return as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
+      },
+      [](const void* p) {
+        if constexpr (requires { as<P>(p).structured(); })
+          return static_cast<bool>(as<P>(p).structured());
+        else
+          return StructuredProblem<P>;
+      },
+      [](const void* p, const Vector& x, double lambda, const Piece& piece, StructuredMatrix& dF_dx,
+         Vector& dF_dlambda) {
+        if constexpr (!StructuredProblem<P>)
+          return false;
+        else if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).structured_derivatives(x, lambda, piece, dF_dx, dF_dlambda);
+        else
+          return as<P>(p).structured_derivatives(x, lambda, dF_dx, dF_dlambda);
       },
       [](const void* p) {
         if constexpr (PiecewiseSmoothProblem<P>)

@@ -107,7 +107,8 @@ struct StageMatrix {
   Matrix root{};
   Vector scale{};  ///< powers of two, per variable of the pattern
   std::vector<ChainSums> sums{};
-  Vector stiffness{};  ///< of the springs on single coordinates, chain_unknowns entries
+  Vector stiffness{};            ///< of the springs on single coordinates, chain_unknowns entries
+  std::vector<Matrix> groups{};  ///< of the coupled springs
   /// Per dense part (chains with stages: empty): matrix and derivatives by the commands.
   std::vector<Matrix> blocks{}, block_rates{};
   Matrix basis{};  ///< poses by root unknowns

@@ -1,0 +1,50 @@
+// The equilibrium's linearisation in stages, in the form in which the engine asks for large matrices.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "springfold/core/structured_matrix.hpp"
+#include "springfold/statics/stages.hpp"
+
+namespace springfold::statics {
+
+/// Should equilibria of this system be evaluated in stages? They can be, and a chain is so long that it
+/// pays off: `unknowns` or more, beside those of the bodies' poses.
+bool prefers_stages(const System& system, Index unknowns = 48);
+
+/// Evaluates equilibria in stages and hands out their matrices. Each matrix lives as long as its
+/// StructuredMatrix; storage is used again afterwards. One object serves one thread.
+class StageJacobians {
+ public:
+  /// @param root_columns  as in plan_stages()
+  /// @pre has_stage_form(layout)
+  explicit StageJacobians(const System& layout,
+                          const std::vector<std::vector<Index>>& root_columns = {});
+
+  /// As equilibrium_stages(); `system` has the structure of the layout.
+  bool residual(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
+                Vector& r);
+
+  /// The matrix A_y of equilibrium_stages() as well, for the unknowns y = (z up to the poses, root
+  /// unknowns).
+  bool matrix(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
+              const Matrix& basis, const Matrix& added, Vector& r, StructuredMatrix& A_y);
+
+  /// A dz + (d residual/d rho) drho at the place of the last matrix(); see stage_product().
+  Vector product(const Vector& dz, const Vector& drho) const;
+
+  const StagePlan& plan() const;
+
+ private:
+  struct Layout;
+  struct Slot;
+  std::shared_ptr<Slot> free_slot();
+
+  std::shared_ptr<const Layout> layout_;
+  std::vector<std::shared_ptr<Slot>> slots_{};
+  std::shared_ptr<Slot> last_{};
+  StageMatrix scratch_{};
+};
+
+}  // namespace springfold::statics

@@ -1,0 +1,142 @@
+#include "springfold/statics/stage_jacobians.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace springfold::statics {
+
+struct StageJacobians::Layout {
+  System system;
+  StagePlan plan;
+};
+
+/// One matrix, and its factorisation once it is asked for.
+struct StageJacobians::Slot {
+  explicit Slot(std::shared_ptr<const Layout> of) : layout{std::move(of)}, solver{layout->plan} {}
+
+  std::shared_ptr<const Layout> layout;
+  StageMatrix matrix{};
+  Matrix added{};
+  StageSolver solver;
+  FrontalBorders borders{};  ///< that the solver has now
+  bool factorised = false;
+
+  bool factorise(const FrontalBorders& wanted);
+  bool take(const FrontalBorders& wanted);
+  Vector product(const Vector& v, bool sizes) const;
+};
+
+namespace {
+
+/// Borders that grow more in the elimination take part in it themselves.
+constexpr double largest_growth = 1e4;
+
+double most(const Matrix& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0; }
+
+double largest_entry(const StageMatrix& matrix) {
+  double largest = most(matrix.stiffness);
+  for (const Matrix& group : matrix.groups) largest = std::max(largest, most(group));
+  for (const Matrix& block : matrix.blocks) largest = std::max(largest, most(block));
+  for (const ChainSums& sums : matrix.sums)
+    largest = std::max({largest, most(sums.J), most(sums.J_to), most(sums.H_from), most(sums.H_to),
+                        most(sums.turn) * most(sums.moment)});
+  return largest;
+}
+
+bool same(const FrontalBorders& a, const FrontalBorders& b) {
+  return a.B.cols() == b.B.cols() && a.B == b.B && a.C == b.C && a.D == b.D;
+}
+
+}  // namespace
+
+bool StageJacobians::Slot::factorise(const FrontalBorders& wanted) {
+  factorised = solver.factorise(matrix, wanted);
+  borders = wanted;
+  return factorised;
+}
+
+bool StageJacobians::Slot::take(const FrontalBorders& wanted) {
+  if (!factorised) return factorise(wanted);
+  if (same(borders, wanted)) return true;
+  borders = wanted;
+  if (!solver.set_borders(wanted)) return factorised = false;
+  return solver.frontal().border_growth() <= largest_growth || factorise(wanted);
+}
+
+/// A_y v, or the sizes of what is summed up in it.
+Vector StageJacobians::Slot::product(const Vector& v, bool sizes) const {
+  const StagePlan& plan = layout->plan;
+  const Index first = plan.chain_unknowns, root = plan.root_unknowns;
+  const Vector turned = matrix.basis * v.tail(root);
+  Vector dz(first + turned.size());
+  dz << v.head(first), sizes ? Vector(matrix.basis.cwiseAbs() * v.tail(root).cwiseAbs()) : turned;
+  const Vector dr = sizes ? stage_magnitudes(plan, layout->system, matrix, dz)
+                          : stage_product(plan, layout->system, matrix, dz, {});
+  Vector result(plan.size());
+  result.head(first) = dr.head(first);
+  const Vector poses = dr.tail(dr.size() - first);
+  result.tail(root) = sizes ? Vector(matrix.basis.cwiseAbs().transpose() * poses)
+                            : Vector(matrix.basis.transpose() * poses);
+  if (added.size() > 0)
+    result.tail(root) +=
+        sizes ? Vector(added.cwiseAbs() * v.tail(root).cwiseAbs()) : Vector(added * v.tail(root));
+  return result;
+}
+
+bool prefers_stages(const System& system, Index unknowns) {
+  const bool any = std::any_of(
+      system.chain_slices.begin(), system.chain_slices.end(),
+      [&](const ChainSlice& slice) { return slice.x_count + slice.F_count >= unknowns; });
+  return any && has_stage_form(system);
+}
+
+StageJacobians::StageJacobians(const System& layout,
+                               const std::vector<std::vector<Index>>& root_columns)
+    : layout_{std::make_shared<const Layout>(Layout{layout, plan_stages(layout, root_columns)})} {}
+
+const StagePlan& StageJacobians::plan() const { return layout_->plan; }
+
+std::shared_ptr<StageJacobians::Slot> StageJacobians::free_slot() {
+  last_.reset();
+  for (const auto& slot : slots_)
+    if (slot.use_count() == 1) return slot;
+  return slots_.emplace_back(std::make_shared<Slot>(layout_));
+}
+
+bool StageJacobians::residual(const System& system, const Piece& piece, const Vector& z,
+                              const Inputs& inputs, Vector& r) {
+  return equilibrium_stages(layout_->plan, system, piece, z, inputs, {}, {}, r, scratch_, false);
+}
+
+bool StageJacobians::matrix(const System& system, const Piece& piece, const Vector& z,
+                            const Inputs& inputs, const Matrix& basis, const Matrix& added,
+                            Vector& r, StructuredMatrix& A_y) {
+  const std::shared_ptr<Slot> slot = free_slot();
+  slot->factorised = false;
+  slot->added = added;
+  if (!equilibrium_stages(layout_->plan, system, piece, z, inputs, basis, added, r, slot->matrix))
+    return false;
+  last_ = slot;
+  A_y.largest = largest_entry(slot->matrix);
+  A_y.product = [slot](const Vector& v) { return slot->product(v, false); };
+  A_y.magnitudes = [slot](const Vector& v) { return slot->product(v, true); };
+  A_y.solve = [slot](const FrontalBorders& borders, Matrix& X, bool transposed) {
+    if (!slot->take(borders)) return false;
+    return transposed ? slot->solver.solve_transposed(X) : slot->solver.solve(X);
+  };
+  A_y.inertia = [slot]() -> std::optional<Inertia> {
+    const Index n = slot->layout->plan.size();
+    if (!slot->factorised && !slot->factorise({Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}))
+      return std::nullopt;
+    return slot->solver.inertia();
+  };
+  return true;
+}
+
+Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
+  assert(last_ != nullptr);
+  return stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho);
+}
+
+}  // namespace springfold::statics
