@@ -1,7 +1,6 @@
 #include <cassert>
 
 #include "gauge.hpp"
-#include "places.hpp"
 #include "point_terms.hpp"
 #include "springfold/statics/system.hpp"
 
@@ -13,16 +12,12 @@ using model::TaskSpace;
 void gather(const System& system, std::size_t i, const Vector& z, const Vector& rho,
             Workspace& work) {
   const ChainSlice& slice = system.chain_slices[i];
-  const model::CompiledChain& chain = system.chains[i];
   Vector& v = work.variables[i];
-  v.resize(chain.variable_count());
-  Index k = 0;
-  for (; k < chain.first_joint(); ++k) v[k] = z[slice.from + k];
-  for (std::size_t j = 0; j < chain.joints.size(); ++j, ++k) {
-    const Index x = slice.joint_coordinate[j], command = slice.joint_command[j];
-    v[k] = (x >= 0 ? z[x] : 0.0) + (command >= 0 ? rho[command] : 0.0);
+  v.resize(static_cast<Index>(slice.z_of.size()));
+  for (std::size_t k = 0; k < slice.z_of.size(); ++k) {
+    const Index at = slice.z_of[k], command = slice.rho_of[k];
+    v.data()[k] = (at >= 0 ? z[at] : 0.0) + (command >= 0 ? rho[command] : 0.0);
   }
-  for (Index t = slice.to; k < v.size(); ++k, ++t) v[k] = z[t];
   work.wrenches[i] = z.segment(slice.F, slice.F_count);
 }
 
@@ -40,7 +35,7 @@ void add_loads(const System& system, const Vector& z, const Vector& W, Vector& r
     const BodySlice& body = system.body_slices[b];
     const auto load = W.segment(body.W, body.count);
     if (system.mechanism.bodies[b].task_space != TaskSpace::spatial) {
-      residual.segment(body.t, body.count) -= load;
+      for (Index k = 0; k < body.count; ++k) residual[body.t + k] -= load[k];
       continue;
     }
     const model::Vec3<double> phi = z.segment(body.t + 3, 3), moment = load.tail(3);
@@ -72,14 +67,15 @@ void add_springs(const System& system, const Piece& piece, const Vector& z, Vect
 void scatter_residual(const System& system, std::size_t i, Workspace& work, Vector& residual) {
   const ChainSlice& slice = system.chain_slices[i];
   const auto& at = work.closures[i];
-  const Vector& F = work.wrenches[i];
-  for (Index r = 0; r < slice.F_count; ++r) residual[slice.F + r] -= at.e[r];
-  for (Index k = 0; k < at.J.cols(); ++k) {
-    const Index row = place_of(slice, system.chains[i], k).z;
-    if (row < 0) continue;
+  const Index d = slice.F_count;
+  const double *J = at.J.data(), *F = work.wrenches[i].data(), *e = at.e.data();
+  double* const row_F = residual.data() + slice.F;
+  for (Index r = 0; r < d; ++r) row_F[r] -= e[r];
+  for (const Index row : slice.z_of) {
     double force = 0;
-    for (Index r = 0; r < slice.F_count; ++r) force += at.J(r, k) * F[r];
-    residual[row] -= force;
+    for (Index r = 0; r < d; ++r) force += J[r] * F[r];
+    if (row >= 0) residual[row] -= force;
+    J += d;
   }
 }
 
@@ -87,20 +83,24 @@ void scatter_matrix(const System& system, std::size_t i, Workspace& work, Matrix
                     Matrix* dR_drho) {
   const ChainSlice& slice = system.chain_slices[i];
   const auto& at = work.closures[i];
-  for (Index k = 0; k < at.J.cols(); ++k) {
-    const Place column = place_of(slice, system.chains[i], k);
-    for (Index j = 0; j < at.J.cols(); ++j) {
-      const Index row = place_of(slice, system.chains[i], j).z;
-      if (row < 0) continue;
-      if (column.z >= 0) A(row, column.z) -= at.H(j, k);
-      if (dR_drho != nullptr && column.rho >= 0) (*dR_drho)(row, column.rho) -= at.H(j, k);
+  const Index d = slice.F_count;
+  const std::size_t n = slice.z_of.size();
+  const double *J = at.J.data(), *H = at.H.data();
+  for (std::size_t k = 0; k < n; ++k, J += d, H += n) {
+    const Index z = slice.z_of[k], command = slice.rho_of[k];
+    if (z >= 0) {
+      double* const column = A.col(z).data();
+      for (std::size_t j = 0; j < n; ++j)
+        if (slice.z_of[j] >= 0) column[slice.z_of[j]] -= H[j];
+      for (Index r = 0; r < d; ++r) {
+        column[slice.F + r] -= J[r];
+        A(z, slice.F + r) -= J[r];
+      }
     }
-    for (Index r = 0; column.z >= 0 && r < slice.F_count; ++r) {
-      A(slice.F + r, column.z) -= at.J(r, k);
-      A(column.z, slice.F + r) -= at.J(r, k);
-    }
-    if (dR_drho != nullptr && column.rho >= 0)
-      dR_drho->block(slice.F, column.rho, slice.F_count, 1) -= at.J.col(k);
+    if (dR_drho == nullptr || command < 0) continue;
+    for (std::size_t j = 0; j < n; ++j)
+      if (slice.z_of[j] >= 0) (*dR_drho)(slice.z_of[j], command) -= H[j];
+    for (Index r = 0; r < d; ++r) (*dR_drho)(slice.F + r, command) -= J[r];
   }
 }
 

@@ -14,7 +14,7 @@ Matrix closure_matrix(const System& system, const Workspace& work) {
   for (std::size_t i = 0; i < system.chains.size(); ++i) {
     const auto& at = work.closures[i];
     for (Index k = 0; k < at.J.cols(); ++k) {
-      const Index column = place_of(system.chain_slices[i], system.chains[i], k).z;
+      const Index column = place_of(system.chain_slices[i], k).z;
       if (column >= 0) J.block(row, column, at.J.rows(), 1) += at.J.col(k);
     }
     row += at.J.rows();
@@ -31,10 +31,10 @@ void add_turning(const System& system, std::size_t i, const Vector& variables, c
   model::evaluate_closure<double>(chain, variables, &N, at);
   Vector motion = Vector::Zero(at.H.cols());
   for (Index v = 0; v < motion.size(); ++v)
-    if (const Index z = place_of(slice, chain, v).z; z >= 0) motion[v] = w[z];
+    if (const Index z = place_of(slice, v).z; z >= 0) motion[v] = w[z];
   const Vector turning = at.H * motion;
   for (Index v = 0; v < turning.size(); ++v) {
-    const Place place = place_of(slice, chain, v);
+    const Place place = place_of(slice, v);
     if (place.z >= 0) g(k, place.z) -= turning[v];
     if (place.rho >= 0) g_rho(k, place.rho) -= turning[v];
   }

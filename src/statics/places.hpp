@@ -10,11 +10,9 @@ struct Place {
   Index z = -1, rho = -1;
 };
 
-inline Place place_of(const ChainSlice& slice, const model::CompiledChain& chain, Index variable) {
-  if (variable < chain.first_joint()) return {slice.from + variable, -1};
-  if (variable >= chain.first_to()) return {slice.to + variable - chain.first_to(), -1};
-  const auto j = static_cast<std::size_t>(variable - chain.first_joint());
-  return {slice.joint_coordinate[j], slice.joint_command[j]};
+inline Place place_of(const ChainSlice& slice, Index variable) {
+  const auto i = static_cast<std::size_t>(variable);
+  return {slice.z_of[i], slice.rho_of[i]};
 }
 
 }  // namespace springfold::statics

@@ -225,7 +225,7 @@ void add_chain_product(const System& system, std::size_t i, const ChainSums& sum
   const ChainSlice& slice = system.chain_slices[i];
   const CompiledChain& chain = system.chains[i];
   const Index from = chain.first_joint(), to = chain.to_count(), n = chain.first_to();
-  const auto place = [&](Index k) { return place_of(slice, chain, k); };
+  const auto place = [&](Index k) { return place_of(slice, k); };
   Vector v(n);
   for (Index k = 0; k < n; ++k) {
     const Place p = place(k);

@@ -138,6 +138,7 @@ class PartMaker {
     slice.from = moved(slice.from);
     slice.to = moved(slice.to);
     for (Index& z : slice.joint_coordinate) z = moved(z);
+    for (Index& z : slice.z_of) z = moved(z);
     s.chains = {whole_.chains[static_cast<std::size_t>(chain_)]};
     s.chain_slices = {slice};
     for (std::size_t i = 0; i < whole_.springs.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "springfold/statics/system.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -84,6 +85,15 @@ void add_chain(System& system, const model::Chain& chain) {
     add_unknown(system, chain.name + "." + name, i++ < translations(space), true);
   system.chain_slices.push_back(std::move(slice));
   system.chains.push_back(compile(system.mechanism, chain));
+}
+
+void place_variables(const model::CompiledChain& chain, ChainSlice& slice) {
+  for (Index i = 0; i < chain.first_joint(); ++i) slice.z_of.push_back(slice.from + i);
+  slice.z_of.insert(slice.z_of.end(), slice.joint_coordinate.begin(), slice.joint_coordinate.end());
+  for (Index i = 0; i < chain.to_count(); ++i) slice.z_of.push_back(slice.to + i);
+  slice.rho_of.assign(slice.z_of.size(), -1);
+  std::copy(slice.joint_command.begin(), slice.joint_command.end(),
+            slice.rho_of.begin() + chain.first_joint());
 }
 
 /// The variables of a point: those of the body where its way begins, then joints of its chain.
@@ -189,6 +199,7 @@ System prepare(const model::Mechanism& mechanism) {
     };
     system.chain_slices[i].from = pose_of(mechanism.chains[i].from);
     system.chain_slices[i].to = pose_of(mechanism.chains[i].to);
+    place_variables(system.chains[i], system.chain_slices[i]);
   }
   add_points(system);
   return system;

@@ -19,6 +19,8 @@ struct ChainSlice {
   Index from = -1, to = -1;  ///< first pose coordinate of the end bodies in z; -1: base
   std::vector<Index> joint_coordinate{};  ///< per joint: its unknown in z, or -1
   std::vector<Index> joint_command{};     ///< per joint: its command in rho, or -1
+  std::vector<Index> z_of{};              ///< per variable of the closure: its place in z, or -1
+  std::vector<Index> rho_of{};            ///< likewise: its command in rho, or -1
 };
 
 struct BodySlice {
