@@ -59,6 +59,15 @@ std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
   return WideStep{*left, *whole.point};
 }
 
+/// Rounding scatters the places of touches over a share of the stretch on which they are lost in it: one that lies
+/// just before the step, as far as the step can tell, may have lain beyond the end of the one before. It is then the
+/// tracer's matter whether it has been reported.
+double settled_on_step(const ZeroOf& touch) {
+  constexpr double share = 0.25, just_inside = 1e-8;
+  const bool before = touch.at <= 0 && touch.at > -share * (touch.after - touch.before);
+  return before && touch.after > just_inside ? just_inside : touch.at;
+}
+
 }  // namespace
 
 std::optional<WideStep> widened(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
@@ -86,6 +95,7 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
     turn.at += moved;
     turn.before += moved;
     turn.after += moved;
+    if (turn.touches) turn.at = settled_on_step(turn);
     if (turn.at > 0 && turn.at <= high) turns.push_back(turn);
   }
   return turns;

@@ -183,6 +183,30 @@ std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& fou
   return {};
 }
 
+/// How far rounding of F may move a corrected point: E^-1 times that rounding, with a few patterns of signs.
+double blur_of_point(const WatchedStep& arc, const CurvePoint& point) {
+  const auto E = arc.matrix(point);
+  const Index n = point.x.size();
+  if (!E) return std::numeric_limits<double>::infinity();
+  Vector u(n + 1);
+  u << point.x, point.lambda;
+  Vector rounding_of_F = std::numeric_limits<double>::epsilon() * magnitudes(*E, u).col(0);
+  rounding_of_F[n] = 0;
+  Matrix right(n + 1, 3);
+  for (Index k = 0; k < right.cols(); ++k)
+    for (Index i = 0; i <= n; ++i)
+      right(i, k) =
+          rounding_of_F[i] * (std::cos(2.1 * static_cast<double>((k + 1) * (i + 1))) > 0 ? 1 : -1);
+  const auto moved = solve_with(*E, {}, right);
+  if (!moved) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (Index k = 0; k < right.cols(); ++k) {
+    const Direction d{moved->col(k).head(n), (*moved)(n, k)};
+    worst = std::max(worst, std::sqrt(metric_product(arc.walker().weights, d, d)));
+  }
+  return worst;
+}
+
 Hit hit_of(const WatchedStep& arc, Candidate candidate) {
   const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
                      : candidate.kind == HitKind::branch_point ? "branch point"
@@ -216,6 +240,7 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 SingularPoints singular_points(const Walker& walker,
                                const std::vector<const CurvePoint*>& samples) {
+  constexpr double most_blur = 3e-5;
   SingularPoints result;
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const WatchedStep arc(walker, from, to.s - from.s);
@@ -240,6 +265,10 @@ SingularPoints singular_points(const Walker& walker,
                    [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
   if (!found.empty() && found.back().at > (1 - beyond) * arc.length()) {
     result.doubt = "step ends at a special point";
+    return result;
+  }
+  if (singular.examined && blur_of_point(arc, to) > most_blur) {
+    result.doubt = "rounding does not determine the point at the end of the step";
     return result;
   }
   if (walker.options.limit_points && walker.options.branch_points)

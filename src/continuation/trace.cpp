@@ -139,6 +139,14 @@ void end_at(const CurvePoint& start, StepEvents& found) {
   }
 }
 
+/// Has the step before reported this touch already? Each lies in the stretch on which the other is lost in rounding.
+bool is_reported(const Curve& curve, const Hit& hit) {
+  if (hit.kind != HitKind::touch || curve.hits.empty()) return false;
+  const Hit& last = curve.hits.back();
+  return last.kind == HitKind::touch && last.s_before < hit.point.s && hit.point.s < last.s_after &&
+         hit.s_before < last.point.s && last.point.s < hit.s_after;
+}
+
 /// One step: predict, correct, look for switching surfaces and events, record.
 /// @param report  special points that cannot be told apart are reported on the shortest steps
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
@@ -181,6 +189,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     add_unresolved(progress.here, end, found, curve);
   }
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
+    if (is_reported(curve, found.hits[i])) continue;
     const bool stops = found.stops[i];
     curve.hits.push_back(std::move(found.hits[i]));
     const bool joined = !stops && at_hit && !at_hit(curve.hits.back());

@@ -184,7 +184,7 @@ WatchedZeros singularities_on(const WatchedStep& arc,
   const std::size_t middle = E.size() / 2;
   if (surely_regular(E, middle)) return {};
   const Reach reach = reach_of(E, middle);
-  WatchedZeros result{.order = reach.order};
+  WatchedZeros result{.order = reach.order, .examined = true};
   const Borders borders = borders_of(E[middle], result.order);
   double scale = 0;
   const auto determinant = [&](double ds) -> std::optional<double> {

@@ -78,7 +78,8 @@ struct WatchedZeros {
   std::vector<ZeroOf> zeros{};
   bool resolved = true;
   Index order = 1;
-  bool flat = false;  ///< the function is lost in its rounding, here and beside the step
+  bool examined = false;  ///< the samples did not show that there are none
+  bool flat = false;      ///< the function is lost in its rounding, here and beside the step
 };
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.

@@ -140,6 +140,19 @@ TEST(FlatTurns, ThatRoundingBarelyTellsApartAreTwoAtAllStepLengths) {
     }
 }
 
+TEST(FlatTurns, OfFourthOrderAreReportedOnce) {
+  for (const double c : {1e-2, 1e-3, 1e-4})
+    for (const double steps : all_steps) {
+      const FlatLadder ladder{c, {0.1, 0.1, 0.1, 0.1}};
+      const Curve curve = ladder.traced(-0.3, 0.7, steps);
+      ASSERT_EQ(curve.stop, StopReason::event) << c << ", " << steps << ": " << curve.stop_detail;
+      const auto hits = special_points(curve);
+      ASSERT_EQ(hits.size(), 1u) << c << ", steps x " << steps;
+      EXPECT_EQ(hits[0].kind, HitKind::touch) << c << ", steps x " << steps;
+      EXPECT_NEAR(FlatLadder::place(hits[0]), 0.1, 0.01) << c << ", steps x " << steps;
+    }
+}
+
 TEST(FlatTurns, TooFlatForAnyStepAreUnresolvedAndNotPassedInSilence) {
   for (const double steps : all_steps) {
     const FlatLadder ladder{1e-9, {0.1, 0.1, 0.1, 0.1}};
