@@ -162,9 +162,12 @@ bool PathProblem::residual(const Vector& y, double lambda, const Piece& piece, V
   put_local(y, lambda, z_);
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
-  if (rotations_.empty() && is_whole_)
-    return equilibrium_residual(present, piece, z_, inputs_, work_, F);
-  const bool finite = equilibrium_residual(present, piece, z_, inputs_, work_, r_);
+  const auto evaluate = [&](Vector& r) {
+    return stages_ ? stages_->residual(present, piece, z_, inputs_, r)
+                   : equilibrium_residual(present, piece, z_, inputs_, work_, r);
+  };
+  if (rotations_.empty() && is_whole_) return evaluate(F);
+  const bool finite = evaluate(r_);
   if (rotations_.empty()) {
     reduce_rows(r_, F);
     return finite;
@@ -178,9 +181,9 @@ bool PathProblem::residual(const Vector& y, double lambda, const Piece& piece, V
   return finite;
 }
 
-/// d residual/d lambda. @param A, dR_drho  of this point
+/// d residual/d lambda. @param A  of this point, like dR_drho_; null: that of the stages
 bool PathProblem::put_rate(const Vector& y, double lambda, const Piece& piece,
-                           const statics::System& present, const Matrix& A, Vector& rate) const {
+                           const statics::System& present, const Matrix* A, Vector& rate) const {
   if (rule_.family) {
     const auto at = [&](double l) -> std::optional<Vector> {
       auto [system, W] = rule_.family(l);
@@ -196,8 +199,13 @@ bool PathProblem::put_rate(const Vector& y, double lambda, const Piece& piece,
     return by_parameter.has_value();
   }
   rate.setZero(system_.size);
-  if (moves_pose_) rate.noalias() += A.middleCols(t_, d_) * rule_.t_rate;
-  if (moves_commands_) rate.noalias() += dR_drho_ * rule_.rho_rate;
+  if (A == nullptr && (moves_pose_ || moves_commands_)) {
+    Vector dz = Vector::Zero(system_.size);
+    dz.segment(t_, d_) = rule_.t_rate;
+    rate = stages_->product(dz, moves_commands_ ? rule_.rho_rate : Vector());
+  }
+  if (A != nullptr && moves_pose_) rate.noalias() += A->middleCols(t_, d_) * rule_.t_rate;
+  if (A != nullptr && moves_commands_) rate.noalias() += dR_drho_ * rule_.rho_rate;
   if (moves_wrench_) add_wrench_rate(present, z_, rule_.W_rate, rate);
   if (moves_loads_) rate += statics::load_rate(present, z_, inputs_.rho, rule_.load_rate);
   return true;
@@ -212,9 +220,9 @@ bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece
   Matrix* const by_commands = moves_commands_ ? &dR_drho_ : nullptr;
   if (rotations_.empty() && is_whole_)
     return equilibrium_matrix(present, piece, z_, inputs_, work_, r_, dF_dy, by_commands) &&
-           put_rate(y, lambda, piece, present, dF_dy, dF_dlambda);
+           put_rate(y, lambda, piece, present, &dF_dy, dF_dlambda);
   if (!equilibrium_matrix(present, piece, z_, inputs_, work_, r_, A_, by_commands) ||
-      !put_rate(y, lambda, piece, present, A_, rate_))
+      !put_rate(y, lambda, piece, present, &A_, rate_))
     return false;
   if (rotations_.empty()) {
     reduce_matrix(A_, dF_dy);

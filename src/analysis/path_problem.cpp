@@ -28,6 +28,7 @@ PathProblem::PathProblem(statics::System system, PathRule rule)
   moves_loads_ = !rule_.load_rate.isZero(0);
   find_free_rotations();
   if (!rotations_.empty()) turned_ = system_;
+  find_stages();
 }
 
 /// All rotations of the other spatial bodies, and of the study's body if it turns as it likes: the

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "springfold/statics/stage_jacobians.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::analysis {
@@ -57,6 +58,10 @@ class PathProblem {
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const;
   bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dF_dy,
                    Vector& dF_dlambda) const;
+  /// Chains so long that their matrices are better not formed?
+  bool structured() const { return stages_.has_value(); }
+  bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                              StructuredMatrix& dF_dy, Vector& dF_dlambda) const;
   Index switch_count() const { return static_cast<Index>(system_.switches.size()); }
   bool switches(const Vector& y, double lambda, Vector& g) const;
   bool switch_gradients(const Vector& y, double lambda, Matrix& dg_dy, Vector& dg_dlambda) const;
@@ -105,10 +110,12 @@ class PathProblem {
 
  private:
   void find_free_rotations();
+  void find_stages();
+  void put_basis(const Vector& y) const;
   void put_local(const Vector& y, double lambda, Vector& z) const;
   void add_motion(const Vector& v, Vector& z) const;
   bool put_rate(const Vector& y, double lambda, const Piece& piece, const statics::System& present,
-                const Matrix& A, Vector& rate) const;
+                const Matrix* A, Vector& rate) const;
   void put_quaternions(const Vector& y, const Matrix& plain, Matrix& result) const;
   void put_quaternions(const Vector& y, const Vector& plain, Vector& result) const;
   void reduce_rows(const Vector& r, Vector& reduced) const;
@@ -133,6 +140,8 @@ class PathProblem {
   mutable Vector z_{}, v_{}, r_{}, rate_{};
   mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
   mutable std::vector<model::Mat3<double>> frames_{};
+  mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains
+  mutable Matrix basis_{}, added_{};
   mutable double family_lambda_ = 0;
   mutable std::optional<std::pair<statics::System, Vector>> family_{};
 };

@@ -9,6 +9,7 @@
 
 #include "kinsol_newton.hpp"
 #include "minimum_norm.hpp"
+#include "stage_newton.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
 
 namespace springfold::statics {
@@ -238,6 +239,49 @@ bool shorten_turns(const System& system, Vector& z) {
   return changed;
 }
 
+/// Systems with more unknowns are not solved with matrices of entries.
+constexpr Index most_dense = 3000;
+
+/// Long chains: Newton's method in stages from the guess and from perturbed ones.
+bool solve_long_chains(const System& system, const StartProblem& problem, Equations& equations,
+                       const State& guess, FirstEquilibrium& result) {
+  StageNewton newton(system, problem);
+  std::mt19937_64 random(problem.seed);
+  for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {
+    State state = guess;
+    if (result.attempts > 1) perturb(equations, state, result.attempts - 1, random);
+    result.residual = newton.solve(state.z, state.inputs, result.iterations);
+    if (shorten_turns(system, state.z))
+      result.residual = newton.solve(state.z, state.inputs, result.iterations);
+    if (!std::isfinite(result.residual)) continue;
+    result.z = state.z;
+    result.inputs = state.inputs;
+    if (!equations.solved(state, 1e-12)) continue;
+    result.status = StartStatus::found;
+    return true;
+  }
+  result.attempts = problem.attempts;
+  return false;
+}
+
+/// Piece, distance from the guess, and the wrench that holds a given pose.
+void complete(const System& system, const StartProblem& problem, FirstEquilibrium& result) {
+  result.piece = piece_at(system, result.z);
+  for (Index i = 0; i < system.size; ++i)
+    if (!system.is_wrench[static_cast<std::size_t>(i)])
+      result.moved = std::max(result.moved, std::abs(result.z[i] - problem.z[i]));
+  if (problem.unknowns != StartUnknowns::wrench) return;
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+  Workspace work;
+  Vector r;
+  equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
+  result.inputs.W.segment(body.W, body.count) +=
+      load_columns(system, result.z)
+          .block(body.t, body.W, body.count, body.count)
+          .partialPivLu()
+          .solve(-r.segment(body.t, body.count));
+}
+
 }  // namespace
 
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
@@ -251,6 +295,11 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
       result.status = StartStatus::wrong_count;
       return result;
     }
+  }
+  if (problem.unknowns != StartUnknowns::commands && prefers_stages(system)) {
+    const bool found = solve_long_chains(system, problem, equations, guess, result);
+    if (found) complete(system, problem, result);
+    if (found || system.size > most_dense) return result;
   }
   result.status = StartStatus::no_assembly;
   std::mt19937_64 random(problem.seed);
@@ -285,23 +334,7 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     }
   }
   result.attempts = std::min(result.attempts, problem.attempts);
-  if (result.status != StartStatus::found) return result;
-
-  result.piece = piece_at(system, result.z);
-  for (Index i = 0; i < system.size; ++i)
-    if (!system.is_wrench[static_cast<std::size_t>(i)])
-      result.moved = std::max(result.moved, std::abs(result.z[i] - problem.z[i]));
-  if (problem.unknowns == StartUnknowns::wrench) {
-    const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
-    Workspace work;
-    Vector r;
-    equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
-    result.inputs.W.segment(body.W, body.count) +=
-        load_columns(system, result.z)
-            .block(body.t, body.W, body.count, body.count)
-            .partialPivLu()
-            .solve(-r.segment(body.t, body.count));
-  }
+  if (result.status == StartStatus::found) complete(system, problem, result);
   return result;
 }
 

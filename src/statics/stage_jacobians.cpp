@@ -1,6 +1,5 @@
 #include "springfold/statics/stage_jacobians.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -85,10 +84,12 @@ Vector StageJacobians::Slot::product(const Vector& v, bool sizes) const {
 }
 
 bool prefers_stages(const System& system, Index unknowns) {
-  const bool any = std::any_of(
-      system.chain_slices.begin(), system.chain_slices.end(),
-      [&](const ChainSlice& slice) { return slice.x_count + slice.F_count >= unknowns; });
-  return any && has_stage_form(system);
+  if (!has_stage_form(system)) return false;
+  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
+    const ChainSlice& slice = system.chain_slices[i];
+    if (slice.x_count + slice.F_count >= unknowns && has_stage_form(system, i)) return true;
+  }
+  return false;
 }
 
 StageJacobians::StageJacobians(const System& layout,

@@ -219,7 +219,7 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   for (std::size_t k = 0; k < system.coupled.size(); ++k)
     matrix.groups[k] = system.coupled[k].stiffness;
   matrix.basis = basis;
-  if (basis.size() == 0) matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
+  if (basis.rows() == 0) matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
   cut_bases(plan, system, matrix);
   matrix.scale.setOnes(plan.pattern.size);
   matrix.values.resize(plan.pattern.first_value.back());

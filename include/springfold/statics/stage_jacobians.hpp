@@ -21,6 +21,8 @@ class StageJacobians {
   /// @pre has_stage_form(layout)
   explicit StageJacobians(const System& layout,
                           const std::vector<std::vector<Index>>& root_columns = {});
+  StageJacobians(StageJacobians&&) noexcept = default;
+  StageJacobians& operator=(StageJacobians&&) noexcept = default;
 
   /// As equilibrium_stages(); `system` has the structure of the layout.
   bool residual(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
