@@ -115,6 +115,10 @@ void PathProblem::reduce_rows(const Vector& r, Vector& reduced) const {
 ///     | N^T A_th N^T A_tt N  N^T A_tw |      h: before the study's body, t: its pose, w: behind it
 ///     | A_wh     A_wt N      A_ww     |
 void PathProblem::reduce_matrix(const Matrix& A, Matrix& reduced) const {
+  if (is_whole_) {
+    reduced = A;
+    return;
+  }
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
   columns_.resize(system_.size, plain_size_);
   columns_.leftCols(t_) = A.leftCols(t_);

@@ -12,12 +12,15 @@ namespace {
 
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
-/// Is the spectral radius of the matrix X >= 0 below 1/2?
+using OnStack = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, SmallLu::largest, 1>;
+
+/// Is the spectral radius of the matrix X >= 0 below 1/2? V: vectors of its size.
+template <class V>
 bool is_small(const Matrix& X) {
   if (!X.allFinite()) return false;
-  Vector d = Vector::Ones(X.cols());
+  V d = V::Ones(X.cols()), Xd(X.rows());
   for (int i = 0; i < 8; ++i) {
-    const Vector Xd = X * d;
+    Xd.noalias() = X * d;
     if ((Xd.array() / d.array()).maxCoeff() < 0.5) return true;
     const double largest = Xd.maxCoeff();
     if (!(largest > 0)) return true;
@@ -45,13 +48,13 @@ bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
       X = E[i].dense - E0.dense;
       lu.solve(X);
       X = X.cwiseAbs();
-      if (!is_small(X)) return false;
+      if (!is_small<OnStack>(X)) return false;
     }
     return true;
   }
   const Eigen::PartialPivLU<Matrix> lu(E0.dense);
   for (std::size_t i = 0; i < E.size(); ++i)
-    if (i != middle && !is_small(lu.solve(E[i].dense - E0.dense).cwiseAbs())) return false;
+    if (i != middle && !is_small<Vector>(lu.solve(E[i].dense - E0.dense).cwiseAbs())) return false;
   return true;
 }
 

@@ -11,10 +11,6 @@
 namespace springfold::continuation {
 namespace {
 
-Direction between(const CurvePoint& a, const CurvePoint& b) {
-  return {b.x - a.x, b.lambda - a.lambda};
-}
-
 /// Largest residual on the predictor line at a share t of the step, against that at its end. A smooth
 /// curve gives t^2, near an inflection t^3; there is room for changing curvature.
 double residual_limit(double t) {
@@ -26,11 +22,12 @@ double residual_limit(double t) {
 std::string residual_doubt(const Walker& walker, const CurvePoint& from, double ds) {
   constexpr double noise = 1e-12;
   constexpr int parts = 8;
-  Vector F;
+  Vector &F = walker.storage.F, &x = walker.storage.x;
   const auto size_at = [&](double t) {
     const double d = t * ds;
-    const bool inside = walker.problem.residual(
-        from.x + d * from.tangent.dx, from.lambda + d * from.tangent.dlambda, from.piece, F);
+    x = from.x + d * from.tangent.dx;
+    const bool inside =
+        walker.problem.residual(x, from.lambda + d * from.tangent.dlambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
   const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
@@ -42,41 +39,42 @@ std::string residual_doubt(const Walker& walker, const CurvePoint& from, double 
   return {};
 }
 
-/// The curve as a function of the way t along the tangent at `from`: with every corrected point on the
-/// hyperplane across it, du/dt = tau / (tau . tau_from) exactly.
-Direction rate(const Walker& walker, const CurvePoint& from, const CurvePoint& p) {
-  const double along = metric_product(walker.weights, p.tangent, from.tangent);
-  return {p.tangent.dx / along, p.tangent.dlambda / along};
+/// 1 / (tau . tau_from): times the tangent it is the rate of the curve by the way t along the tangent at `from`,
+/// du/dt = tau / (tau . tau_from) exactly, every corrected point being on the hyperplane across it.
+double rate(const Walker& walker, const CurvePoint& from, const CurvePoint& p) {
+  return 1 / metric_product(walker.weights, p.tangent, from.tangent);
 }
 
-/// Part of a direction across the tangent.
-double across(const Walker& walker, const Direction& d, const Direction& tangent) {
+/// Length of what a direction has across the tangent; the direction is used up.
+double across(const Walker& walker, Direction& d, const Direction& tangent) {
   const double along = metric_product(walker.weights, d, tangent);
-  return length_of(walker, {d.dx - along * tangent.dx, d.dlambda - along * tangent.dlambda});
+  d.dx -= along * tangent.dx;
+  d.dlambda -= along * tangent.dlambda;
+  return length_of(walker, d);
 }
 
-/// Distance of the corrected middle from the cubic through both ends.
+/// Distance of the corrected middle from the cubic through both ends. @param d  storage
 double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                 const CurvePoint& middle) {
+                 const CurvePoint& middle, Direction& d) {
   const double h = to.s - from.s;
-  const Direction a = rate(walker, from, from), b = rate(walker, from, to);
-  return across(walker,
-                {middle.x - 0.5 * (from.x + to.x) - h / 8 * (a.dx - b.dx),
-                 middle.lambda - 0.5 * (from.lambda + to.lambda) - h / 8 * (a.dlambda - b.dlambda)},
-                middle.tangent);
+  const double a = h / 8 * rate(walker, from, from), b = h / 8 * rate(walker, from, to);
+  d.dx = middle.x - 0.5 * (from.x + to.x) - a * from.tangent.dx + b * to.tangent.dx;
+  d.dlambda = middle.lambda - 0.5 * (from.lambda + to.lambda) - a * from.tangent.dlambda +
+              b * to.tangent.dlambda;
+  return across(walker, d, middle.tangent);
 }
 
 /// What the tangents, integrated by Simpson's rule, leave of the way from one end to the other. A
-/// neighbouring branch has nearly the same tangents, but lies elsewhere.
+/// neighbouring branch has nearly the same tangents, but lies elsewhere. @param d  storage
 double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                    const CurvePoint& middle) {
+                    const CurvePoint& middle, Direction& d) {
   const double h = to.s - from.s;
-  const Direction a = rate(walker, from, from), m = rate(walker, from, middle),
-                  b = rate(walker, from, to);
-  return across(walker,
-                {to.x - from.x - h / 6 * (a.dx + 4 * m.dx + b.dx),
-                 to.lambda - from.lambda - h / 6 * (a.dlambda + 4 * m.dlambda + b.dlambda)},
-                middle.tangent);
+  const double a = h / 6 * rate(walker, from, from), m = h * 2 / 3 * rate(walker, from, middle),
+               b = h / 6 * rate(walker, from, to);
+  d.dx = to.x - from.x - a * from.tangent.dx - m * middle.tangent.dx - b * to.tangent.dx;
+  d.dlambda = to.lambda - from.lambda - a * from.tangent.dlambda - m * middle.tangent.dlambda -
+              b * to.tangent.dlambda;
+  return across(walker, d, middle.tangent);
 }
 
 /// Errors that residuals at rounding level leave where dF/dx is nearly singular.
@@ -99,11 +97,11 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     return evidence;
   }
   const CurvePoint& middle = *evidence.middle;
+  Direction d;
   const auto bend = [&](const CurvePoint& p) {
-    Direction d = between(from, p);
     const double along = p.s - from.s;
-    d.dx -= along * from.tangent.dx;
-    d.dlambda -= along * from.tangent.dlambda;
+    d.dx = p.x - from.x - along * from.tangent.dx;
+    d.dlambda = p.lambda - from.lambda - along * from.tangent.dlambda;
     return length_of(walker, d);
   };
   constexpr double share = 0.1, smaller_share = 0.01;
@@ -113,11 +111,11 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
     return value > limit + noise && value > limit + noise + corrector_noise(walker, middle);
   };
   const double size = std::max(bend(middle), 0.25 * bend(to));
-  const double off = off_cubic(walker, from, to, middle);
+  const double off = off_cubic(walker, from, to, middle, d);
   if (exceeds(off, share * size))
     evidence.doubt = "the point half-way is " + rounded(off / ds) +
                      " steps off the cubic through both ends: another branch may be near";
-  const double left = off_integral(walker, from, to, middle);
+  const double left = off_integral(walker, from, to, middle, d);
   if (evidence.doubt.empty() && exceeds(left, smaller_share * size))
     evidence.doubt = "the end is " + rounded(left / ds) +
                      " steps from where the tangents lead: another branch may be near";

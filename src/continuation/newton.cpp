@@ -36,19 +36,36 @@ double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
 }
 
-/// solve_bordered() with few unknowns: on the stack.
-std::optional<Direction> solve_small(const Linearisation& at, const Vector& weights,
-                                     const Direction& border, const Vector& r, double rho) {
-  const Index n = r.size();
-  std::array<double, static_cast<std::size_t>(SmallLu::largest)> x;
-  for (Index i = 0; i < n; ++i) x[static_cast<std::size_t>(i)] = weights[i] * border.dx[i];
-  const Eigen::Map<const Vector> row(x.data(), n);
-  const SmallLu lu(at.dF_dx, at.dF_dlambda, row, border.dlambda);
-  if (!(lu.smallest_pivot() > singular_pivot * lu.largest_pivot())) return std::nullopt;
-  std::copy_n(r.data(), n, x.data());
-  x[static_cast<std::size_t>(n)] = rho;
-  lu.solve(x.data());
-  return Direction{row, x[static_cast<std::size_t>(n)]};
+bool is_small(const Linearisation& at) {
+  return !at.structured && SmallLu::fits(at.dF_dlambda.size() + 1);
+}
+
+/// solve_bordered() with few unknowns, on the stack. @param x  (r, rho), replaced by the solution
+bool solve_small(const Linearisation& at, const Vector& weights, const Direction& border,
+                 double* x) {
+  const Index n = at.dF_dlambda.size();
+  std::array<double, static_cast<std::size_t>(SmallLu::largest)> row;
+  for (Index i = 0; i < n; ++i) row[static_cast<std::size_t>(i)] = weights[i] * border.dx[i];
+  const SmallLu lu(at.dF_dx, at.dF_dlambda, Eigen::Map<const Vector>(row.data(), n),
+                   border.dlambda);
+  if (!(lu.smallest_pivot() > singular_pivot * lu.largest_pivot())) return false;
+  lu.solve(x);
+  return true;
+}
+
+/// The correction for a residual F, with lambda's as its last entry. @returns false where the matrix is singular
+bool correction_for(const Linearisation& at, const Vector& weights, const Direction& border,
+                    const Vector& F, Vector& step) {
+  const Index n = F.size();
+  step.resize(n + 1);
+  if (is_small(at)) {
+    step.head(n) = -F;
+    step[n] = 0;
+    return solve_small(at, weights, border, step.data());
+  }
+  const auto solution = solve_bordered(at, weights, border, -F, 0.0);
+  if (solution) step << solution->dx, solution->dlambda;
+  return solution.has_value();
 }
 
 }  // namespace
@@ -60,6 +77,7 @@ double metric_product(const Vector& weights, const Direction& a, const Direction
 bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                Linearisation& at) {
   if (!problem.structured()) return linearise_densely(problem, x, lambda, piece, at);
+  at.structured.reset();
   auto matrix = std::make_shared<StructuredMatrix>();
   if (!problem.structured_derivatives(x, lambda, piece, *matrix, at.dF_dlambda) ||
       !at.dF_dlambda.allFinite())
@@ -102,7 +120,13 @@ std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& w
     return Direction{X.col(0).head(n), X(n, 0)};
   }
   assert(at.dF_dx.rows() == n && at.dF_dx.cols() == n);
-  if (SmallLu::fits(n + 1)) return solve_small(at, weights, border, r, rho);
+  if (is_small(at)) {
+    std::array<double, static_cast<std::size_t>(SmallLu::largest)> x;
+    std::copy_n(r.data(), n, x.data());
+    x[static_cast<std::size_t>(n)] = rho;
+    if (!solve_small(at, weights, border, x.data())) return std::nullopt;
+    return Direction{Eigen::Map<const Vector>(x.data(), n), x[static_cast<std::size_t>(n)]};
+  }
   Matrix A(n + 1, n + 1);
   A << at.dF_dx, at.dF_dlambda, (weights.array() * border.dx.array()).matrix().transpose(),
       border.dlambda;
@@ -117,7 +141,16 @@ std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& w
 
 std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weights,
                                     const Direction& reference) {
-  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(at.dF_dlambda.size()), 1.0);
+  const Index n = at.dF_dlambda.size();
+  std::optional<Direction> tangent;
+  if (is_small(at)) {
+    std::array<double, static_cast<std::size_t>(SmallLu::largest)> x{};
+    x[static_cast<std::size_t>(n)] = 1;
+    if (solve_small(at, weights, reference, x.data()))
+      tangent = Direction{Eigen::Map<const Vector>(x.data(), n), x[static_cast<std::size_t>(n)]};
+  } else {
+    tangent = solve_bordered(at, weights, reference, Vector::Zero(n), 1.0);
+  }
   if (!tangent) return std::nullopt;
   const double length = norm(weights, *tangent);
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
@@ -142,11 +175,19 @@ std::string_view to_string(NewtonStatus status) {
   return "unknown";
 }
 
-NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x, double lambda,
+NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
                      const Piece& piece, const Direction& border, const NewtonOptions& options) {
-  NewtonResult result{.x = x, .lambda = lambda};
-  Linearisation at;
-  Vector F;
+  CorrectorStorage storage;
+  return correct(problem, weights, std::move(x), lambda, piece, border, options, storage);
+}
+
+NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
+                     const Piece& piece, const Direction& border, const NewtonOptions& options,
+                     CorrectorStorage& storage) {
+  NewtonResult result{.x = std::move(x), .lambda = lambda};
+  Linearisation& at = storage.at;
+  Vector &F = storage.F, &step = storage.step;
+  const Index n = result.x.size();
   double before = 0;
   for (;; ++result.iterations) {
     const bool inside = problem.residual(result.x, result.lambda, piece, F) && F.allFinite();
@@ -178,12 +219,12 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
       return result;
     }
     if (!linearise(problem, result.x, result.lambda, piece, at)) return result;
-    const auto step = solve_bordered(at, weights, border, -F, 0.0);
-    if (!step) {
+    if (!correction_for(at, weights, border, F, step)) {
       result.status = settled ? NewtonStatus::converged : NewtonStatus::singular;
       return result;
     }
-    const double length = norm(weights, *step);
+    const double length =
+        std::sqrt((weights.array() * step.head(n).array().square()).sum() + step[n] * step[n]);
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
@@ -197,9 +238,10 @@ NewtonResult correct(ProblemView problem, const Vector& weights, const Vector& x
         return result;
       }
     }
+    if (result.corrections.empty()) result.corrections.reserve(4);
     result.corrections.push_back(length);
-    result.x += step->dx;
-    result.lambda += step->dlambda;
+    result.x += step.head(n);
+    result.lambda += step[n];
   }
 }
 

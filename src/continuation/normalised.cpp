@@ -182,8 +182,11 @@ Hit Normalised::outside(const Hit& hit) const {
 std::vector<Event> Normalised::inside(const std::vector<Event>& events) const {
   std::vector<Event> result = events;
   for (Event& event : result)
-    event.value = [this, value = std::move(event.value)](const CurvePoint& point) {
-      return value(outside(point));
+    event.value = [this, value = std::move(event.value),
+                   there = CurvePoint{}](const CurvePoint& point) mutable {
+      there = point;  // into the memory of the last one
+      there = outside(std::move(there));
+      return value(there);
     };
   return result;
 }

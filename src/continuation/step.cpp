@@ -12,8 +12,9 @@ namespace {
 
 /// Angle between two unit directions; accurate for small ones.
 double angle_between(const Vector& weights, const Direction& a, const Direction& b) {
-  const Direction difference{a.dx - b.dx, a.dlambda - b.dlambda};
-  const double half_chord = 0.5 * std::sqrt(metric_product(weights, difference, difference));
+  const double dlambda = a.dlambda - b.dlambda;
+  const double half_chord =
+      0.5 * std::sqrt((weights.array() * (a.dx - b.dx).array().square()).sum() + dlambda * dlambda);
   return 2 * std::asin(std::min(1.0, half_chord));
 }
 
@@ -32,10 +33,10 @@ std::string judge(const StepMeasures& m, const StepOptions& options) {
 
 }  // namespace
 
-StepResult point_on_curve(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
+StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
                           const Direction& reference) {
-  const NewtonResult newton =
-      correct(walker.problem, walker.weights, x, lambda, piece, reference, walker.options.newton);
+  NewtonResult newton = correct(walker.problem, walker.weights, std::move(x), lambda, piece,
+                                reference, walker.options.newton, walker.storage);
   StepResult result;
   result.measures.contraction = newton.contraction;
   result.measures.deviation = newton.corrections.empty() ? 0 : newton.corrections.front();
@@ -45,12 +46,15 @@ StepResult point_on_curve(const Walker& walker, const Vector& x, double lambda, 
       result.refusal += ", contraction " + rounded(newton.contraction);
     return result;
   }
-  Linearisation at;
+  Linearisation& at = walker.storage.at;
   if (!linearise(walker.problem, newton.x, newton.lambda, piece, at))
     return refused(std::string(to_string(NewtonStatus::outside_domain)), result.measures);
-  const auto tangent = tangent_at(at, walker.weights, reference);
+  auto tangent = tangent_at(at, walker.weights, reference);
   if (!tangent) return refused("no unique tangent", result.measures);
-  CurvePoint point{.x = newton.x, .lambda = newton.lambda, .tangent = *tangent, .piece = piece};
+  CurvePoint point{.x = std::move(newton.x),
+                   .lambda = newton.lambda,
+                   .tangent = std::move(*tangent),
+                   .piece = piece};
   if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
   result.measures.turn = angle_between(walker.weights, point.tangent, reference);
   result.point = std::move(point);

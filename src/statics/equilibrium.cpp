@@ -59,8 +59,15 @@ void add_springs(const System& system, const Piece& piece, const Vector& z, Vect
   }
   for (const CoordinateGroup& group : system.coupled) {
     const auto& at = group.coordinates;
-    residual(at) += group.stiffness * (z(at) - group.free);
-    if (A != nullptr) (*A)(at, at) += group.stiffness;
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      const auto column = static_cast<Index>(j);
+      const double stretch = z[at[j]] - group.free[column];
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double stiffness = group.stiffness(static_cast<Index>(i), column);
+        residual[at[i]] += stiffness * stretch;
+        if (A != nullptr) (*A)(at[i], at[j]) += stiffness;
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "allocations.hpp"
 #include "analysis/path_problem.hpp"
 #include "analysis/quaternion.hpp"
 #include "model/random_chain.hpp"
@@ -125,6 +126,22 @@ TEST(FreeRotations, HaveExactSymmetricDerivativesAtAnyRotation) {
     }
   }
 }
+
+#ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
+TEST(FreeRotations, AreEvaluatedWithoutMemoryFromTheHeap) {
+  std::mt19937 random(65);
+  const statics::System system = statics::prepare(two_bodies(random));
+  const PathProblem problem(system, load_rule(system, 1));
+  Vector y = random_vector(random, problem.size(), 0.6), F, b;
+  for (const Index q : problem.double_covers()) y.segment<4>(q) = random_quaternion(random);
+  Matrix A;
+  ASSERT_TRUE(problem.residual(y, 0.4, {}, F) && problem.derivatives(y, 0.4, {}, A, b));
+  const long before = allocations;
+  const bool inside = problem.residual(y, 0.5, {}, F) && problem.derivatives(y, 0.5, {}, A, b);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(inside);
+}
+#endif
 
 TEST(FreeRotations, GiveTheResidualOfTheRotationVector) {
   std::mt19937 random(64);

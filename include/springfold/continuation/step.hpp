@@ -13,6 +13,7 @@ struct Walker {
   ProblemView problem;
   Vector weights{};  ///< metric of x
   TraceOptions options{};
+  mutable CorrectorStorage storage{};  ///< one walker serves one thread
 };
 
 /// How nonlinear the curve was over one step.
@@ -30,7 +31,7 @@ struct StepResult {
 
 /// A point of the curve near the given one: residual at tolerance, tangent along `reference`,
 /// inertia counted. Corrects within the hyperplane through (x, lambda) across `reference`.
-StepResult point_on_curve(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
+StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
                           const Direction& reference);
 
 /// Predicts along the tangent by ds, corrects, and judges the step by StepOptions. The piece stays
