@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "springfold/continuation/newton.hpp"
+
 namespace springfold::analysis {
 namespace {
 
@@ -16,9 +18,8 @@ struct ClosureRank {
 
 std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, double lambda,
                                    const Piece& piece) {
-  Matrix A;
-  Vector b;
-  if (!problem.derivatives(x, lambda, piece, A, b)) return std::nullopt;
+  continuation::Linearisation at;
+  if (!linearise(problem, x, lambda, piece, at)) return std::nullopt;
   const statics::System& layout = problem.layout();
   ClosureRank rank;
   for (Index i = 0; i < layout.first_pose; ++i)
@@ -26,10 +27,13 @@ std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, 
   const auto m = static_cast<Index>(rank.rows.size());
   if (m == 0) return std::nullopt;
   std::vector<Index> motions;
-  for (Index i = 0; i < A.cols(); ++i)
+  for (Index i = 0; i < x.size(); ++i)
     if (std::find(rank.rows.begin(), rank.rows.end(), i) == rank.rows.end()) motions.push_back(i);
   Matrix J(m, static_cast<Index>(motions.size()) + 1);
-  J << A(rank.rows, motions), b(rank.rows);
+  for (Index i = 0; i < m; ++i)  // rows of closures are columns of wrenches
+    J.row(i).head(J.cols() - 1) =
+        product(at, Vector::Unit(x.size(), rank.rows[static_cast<std::size_t>(i)]))(motions);
+  J.rightCols(1) = at.dF_dlambda(rank.rows);
   if (layout.redundant > 0) {  // what they say twice counts once
     Vector z, r;
     statics::Workspace work;

@@ -6,8 +6,8 @@
 #include "branch_rows.hpp"
 #include "number_text.hpp"
 #include "path_problem.hpp"
+#include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
-#include "springfold/core/inertia.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -19,10 +19,10 @@ using continuation::HitKind;
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Index> unstable_modes(const PathProblem& problem, const CurvePoint& point) {
-  Matrix A;
-  Vector b;
-  if (!problem.derivatives(point.x, point.lambda, point.piece, A, b)) return std::nullopt;
-  return statics::unstable_modes(A, problem.closures());
+  continuation::Linearisation at;
+  if (!linearise(problem, point.x, point.lambda, point.piece, at)) return std::nullopt;
+  const auto negative = negative_eigenvalues(at);
+  return negative ? std::optional<Index>(*negative - problem.closures()) : std::nullopt;
 }
 
 /// Is stability lost at this special point? A spring that switches may, or may not.

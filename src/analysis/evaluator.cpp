@@ -22,6 +22,7 @@ Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scale
   first_pose_ = system.first_pose;
   t_ = system.body_slices[body].t;
   d_ = system.body_slices[body].count;
+  if (problem.structured() && problem.symmetric()) stages_.emplace(system);
   measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
   conjugate_ = problem.rule().t_rate;
   if (!conjugate_.isZero(0)) {
@@ -116,6 +117,11 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
 }
 
 const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& point) const {
+  return stages_ ? assemble_in_stages(point) : assemble_densely(point);
+}
+
+const Evaluator::Assembled* Evaluator::assemble_densely(
+    const continuation::CurvePoint& point) const {
   Assembled& at = scratch_;
   const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
   at.is_plain = &system == &problem_.system(point.lambda);
@@ -228,23 +234,28 @@ std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quan
 double Evaluator::force_rate(const continuation::CurvePoint& point) const {
   const double dlambda = point.tangent.dlambda;
   if (control_ == ControlMode::load) return dlambda * load_rate();
-  statics::Workspace work;
-  Vector r;
-  Matrix A;
-  if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
-                          problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
-                          work, r, A))
-    return undefined;
-  const Matrix rows = A.middleRows(t_, d_);
-  const Vector dz = problem_.local_rate(point.x, point.tangent.dx, dlambda);
-  double rate = conjugate_.dot(rows * dz);
+  double rate = 0, size = 0;
+  if (stages_) {
+    rate = force_rate_in_stages(point, size);
+  } else {
+    statics::Workspace work;
+    Vector r;
+    Matrix A;
+    if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
+                            problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
+                            work, r, A))
+      return undefined;
+    const Matrix rows = A.middleRows(t_, d_);
+    rate = conjugate_.dot(rows * problem_.local_rate(point.x, point.tangent.dx, dlambda));
+    size = rows.norm();
+  }
   if (!problem_.rule().load_rate.isZero(0))  // loads that grow with lambda
     rate += dlambda * conjugate_.dot(statics::load_rate(problem_.turned(point.x, point.lambda),
                                                         problem_.local(point.x, point.lambda),
                                                         problem_.inputs(point.lambda).rho,
                                                         problem_.rule().load_rate)
                                          .segment(t_, d_));
-  return std::abs(rate) > 1e-14 * rows.norm() ? rate : 0;
+  return std::abs(rate) > 1e-14 * size ? rate : 0;
 }
 
 Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {
@@ -263,8 +274,9 @@ Matrix Evaluator::rigid_compliance(const continuation::CurvePoint& point) const 
   if (!at || at->body.size() > 0) return {};
   const statics::System& system = problem_.system(point.lambda);
   const Index body = problem_.rule().body;
-  const auto C = statics::body_compliance(system, at->A, body, problem_.symmetric());
-  if (!C) return {};
+  const auto C = stages_ ? std::optional<Matrix>(at->staged.compliance)
+                         : statics::body_compliance(system, at->A, body, problem_.symmetric());
+  if (!C || C->size() == 0) return {};
   const model::TaskSpace space =
       system.mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
   return pose_scales(space, scales_).asDiagonal() *
@@ -274,7 +286,9 @@ Matrix Evaluator::rigid_compliance(const continuation::CurvePoint& point) const 
 
 std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
     const continuation::CurvePoint& point) const {
-  const Assembled* at = assemble(point);
+  constexpr Index most = 300;
+  if (stages_ && problem_.size() > most) return {};
+  const Assembled* at = assemble_densely(point);
   if (!at) return {};
   const statics::System& system = problem_.system(point.lambda);
   auto values = statics::eigenvalues_of(statics::tangent_stiffness(system, at->A, at->work));
@@ -287,6 +301,7 @@ std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
 
 Index Evaluator::zero_modes(const continuation::CurvePoint& point) const {
   const Assembled* at = assemble(point);
+  if (at && stages_) return at->staged.zero_modes;
   return at ? statics::zero_modes(problem_.system(point.lambda), at->A) : 0;
 }
 
@@ -303,6 +318,7 @@ double Evaluator::closure_gap(const continuation::CurvePoint& point) const {
 std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
   const Assembled* at = assemble(point);
   if (!at) return {};
+  if (stages_) return closure_ranks_in_stages();
   const Matrix plain = statics::without_gauge(at->A, at->work);
   std::vector<Index> ranks;
   for (const statics::ChainSlice& slice : problem_.system(point.lambda).chain_slices) {
@@ -321,7 +337,9 @@ std::vector<Matrix> Evaluator::chain_stiffnesses(const continuation::CurvePoint&
   for (std::size_t i = 0; i < system.chains.size(); ++i) {
     const model::CompiledChain& chain = system.chains[i];
     const model::TaskSpace space = chain.to_moves ? chain.to_space : chain.from_space;
-    const auto K = statics::chain_stiffness(system, i, at->A, at->work);
+    const auto K = !stages_ ? statics::chain_stiffness(system, i, at->A, at->work)
+                   : i < at->staged.chains.size() ? std::optional<Matrix>(at->staged.chains[i])
+                                                  : std::nullopt;
     list.push_back(K ? Matrix(wrench_scales(space, scales_).asDiagonal() * *K *
                               pose_scales(space, scales_).cwiseInverse().asDiagonal())
                      : Matrix());

@@ -10,7 +10,7 @@
 #include "springfold/analysis/result.hpp"
 #include "springfold/analysis/study.hpp"
 #include "springfold/continuation/curve.hpp"
-#include "springfold/statics/stiffness.hpp"
+#include "springfold/statics/stage_stiffness.hpp"
 
 namespace springfold::analysis {
 
@@ -93,7 +93,8 @@ class Evaluator {
   /// Compliance of the study's body where it has no stiffness matrix because it is rigid in some
   /// directions; likewise. Empty where it has one, or is singular.
   Matrix rigid_compliance(const continuation::CurvePoint& point) const;
-  /// Eigenvalues of the reduced tangent stiffness, real and imaginary parts [force/length].
+  /// Eigenvalues of the reduced tangent stiffness, real and imaginary parts [force/length]; none for
+  /// mechanisms with long chains of more than 300 unknowns.
   std::vector<std::pair<double, double>> tangent_eigenvalues(
       const continuation::CurvePoint& point) const;
   /// Motions without stiffness.
@@ -116,10 +117,15 @@ class Evaluator {
     double determinant = 0;
     statics::Stability stability{};
     statics::Workspace work{};
+    statics::StagedStiffness staged{};  ///< of long chains; A and work are empty then
     bool is_plain = false;  ///< no frames were turned: z are the unknowns of the path itself
   };
   /// @returns null where F is not defined; otherwise valid until the next call
   const Assembled* assemble(const continuation::CurvePoint& point) const;
+  const Assembled* assemble_densely(const continuation::CurvePoint& point) const;
+  const Assembled* assemble_in_stages(const continuation::CurvePoint& point) const;
+  double force_rate_in_stages(const continuation::CurvePoint& point, double& size) const;
+  std::vector<Index> closure_ranks_in_stages() const;
   /// What the quantities of a row have in common.
   struct State {
     Vector z{};  ///< all unknowns, rotations continued by `turns`
@@ -137,6 +143,7 @@ class Evaluator {
                      const Assembled& at, const State& state) const;
 
   const PathProblem& problem_;
+  mutable std::optional<statics::StageJacobians> stages_{};  ///< long chains, loads with potential
   ControlMode control_;
   Scales scales_;
   Index first_pose_ = 0;

@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "number_text.hpp"
-#include "springfold/core/inertia.hpp"
+#include "springfold/continuation/newton.hpp"
+#include "springfold/statics/stage_jacobians.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -37,19 +38,47 @@ statics::StartProblem problem_of(const Setup& setup, const Study& study) {
   return problem;
 }
 
+/// Residual and matrix at the guess; of long chains column by column.
+struct Guess {
+  explicit Guess(const statics::System& s) : system{s} {
+    if (prefers_stages(s)) stages.emplace(s);
+  }
+  bool evaluate(const statics::StartProblem& problem) {
+    const Piece piece = piece_at(system, problem.z);
+    commands = problem.inputs.rho.size();
+    StructuredMatrix J;
+    if (stages)
+      return stages->matrix(system, piece, problem.z, problem.inputs, {}, {}, residual, J);
+    statics::Workspace work;
+    return equilibrium_matrix(system, piece, problem.z, problem.inputs, work, residual, A,
+                              &dR_drho);
+  }
+  Vector column(Index i) const {
+    return stages ? stages->product(Vector::Unit(system.size, i), {}) : Vector(A.col(i));
+  }
+  Vector command_column(Index i) const {
+    return stages ? stages->product(Vector::Zero(system.size), Vector::Unit(commands, i))
+                  : Vector(dR_drho.col(i));
+  }
+
+  const statics::System& system;
+  std::optional<statics::StageJacobians> stages{};
+  Index commands = 0;
+  Vector residual{};
+  Matrix A{}, dR_drho{};
+};
+
 /// The least residual that any wrenches give at the guess, and what else the solve may choose.
 double guess_residual(const statics::System& system, const statics::StartProblem& problem) {
-  statics::Workspace work;
-  Vector r;
-  Matrix A, dR_drho;
-  if (!equilibrium_matrix(system, piece_at(system, problem.z), problem.z, problem.inputs, work, r,
-                          A, &dR_drho))
-    return std::numeric_limits<double>::quiet_NaN();
+  Guess guess(system);
+  if (!guess.evaluate(problem)) return std::numeric_limits<double>::quiet_NaN();
+  Vector r = guess.residual;
   std::vector<Vector> columns;
   for (Index i = 0; i < system.size; ++i)
-    if (system.is_wrench[static_cast<std::size_t>(i)]) columns.push_back(A.col(i));
+    if (system.is_wrench[static_cast<std::size_t>(i)]) columns.push_back(guess.column(i));
   if (problem.unknowns == statics::StartUnknowns::commands)
-    for (Index i = 0; i < dR_drho.cols(); ++i) columns.push_back(dR_drho.col(i));
+    for (Index i = 0; i < problem.inputs.rho.size(); ++i)
+      columns.push_back(guess.command_column(i));
   if (problem.unknowns == statics::StartUnknowns::wrench) {
     const Matrix loads = load_columns(system, problem.z);
     const auto& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
@@ -116,12 +145,9 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
 Vector start_guess(const Setup& setup, const Study& study) { return problem_of(setup, study).z; }
 
 void count_negative(const PathProblem& problem, continuation::CurvePoint& point) {
-  Matrix A;
-  Vector b;
-  if (!problem.symmetric() || !problem.derivatives(point.x, point.lambda, point.piece, A, b))
-    return;
-  const auto inertia = inertia_of(A);
-  if (inertia && inertia->zero == 0) point.negative = inertia->negative;
+  continuation::Linearisation at;
+  if (problem.symmetric() && linearise(problem, point.x, point.lambda, point.piece, at))
+    point.negative = negative_eigenvalues(at);
 }
 
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report) {

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "stage_chain.hpp"
+
 namespace springfold::statics {
 
 struct StageJacobians::Layout {
@@ -138,6 +140,28 @@ bool StageJacobians::matrix(const System& system, const Piece& piece, const Vect
 Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
   assert(last_ != nullptr);
   return stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho);
+}
+
+Matrix StageJacobians::chain_stiffness(std::size_t chain, const Matrix& held) const {
+  assert(last_ != nullptr);
+  const System& system = layout_->system;
+  const ChainSlice& s = system.chain_slices[chain];
+  const Index t = s.to >= 0 ? s.to : s.from, first = system.first_pose;
+  const Index count =
+      s.to >= 0 ? system.chains[chain].to_count() : system.chains[chain].first_joint();
+  Matrix K(count, count);
+  for (Index c = 0; c < count; ++c) {
+    const Vector dz = held.col(t - first + c);
+    Vector r = Vector::Zero(system.size);
+    if (layout_->plan.chains[chain].staged) {
+      add_chain_product(system, chain, last_->matrix.sums[chain], dz, {}, r);
+    } else {
+      const std::vector<Index>& places = layout_->plan.dense[chain].places;
+      r(places) = last_->matrix.blocks[chain] * Vector(dz(places));
+    }
+    K.col(c) = r.segment(t, count);
+  }
+  return K;
 }
 
 }  // namespace springfold::statics

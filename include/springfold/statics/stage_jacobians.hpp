@@ -36,6 +36,13 @@ class StageJacobians {
   /// A dz + (d residual/d rho) drho at the place of the last matrix(); see stage_product().
   Vector product(const Vector& dz, const Vector& drho) const;
 
+  /// Stiffness of one chain at the place of the last matrix(), paper eq. (12), all bodies held.
+  /// @param held  per column: z for a unit displacement of one pose coordinate of one body, all other
+  ///              ones zero, of the last system's size
+  /// @returns d x d in the coordinates of the chain's moving end body, its front body if that is the
+  ///          base's; see chain_stiffness()
+  Matrix chain_stiffness(std::size_t chain, const Matrix& held) const;
+
   const StagePlan& plan() const;
 
  private:
