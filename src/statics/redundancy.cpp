@@ -3,9 +3,11 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "minimum_norm.hpp"
+#include "springfold/statics/stage_jacobians.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -21,11 +23,13 @@ class Closures {
     inputs_.loads = Vector::Zero(static_cast<Index>(system.mechanism.loads.size()));
     for (Index i = 0; i < system.size; ++i)
       (system.is_wrench[static_cast<std::size_t>(i)] ? rows_ : columns_).push_back(i);
+    if (prefers_stages(system)) stages_.emplace(system);
   }
 
   bool evaluate(const Vector& z, Vector& e, Matrix& J) {
     Vector unloaded = z;
     unloaded(rows_).setZero();
+    if (stages_) return evaluate_in_stages(unloaded, e, J);
     if (!equilibrium_matrix(system_, piece_at(system_, unloaded), unloaded, inputs_, work_, r_, A_))
       return false;
     e = r_(rows_);
@@ -62,7 +66,21 @@ class Closures {
   const std::vector<Index>& rows() const { return rows_; }
 
  private:
+  /// Rows of closures are columns of wrenches: one by one.
+  bool evaluate_in_stages(const Vector& z, Vector& e, Matrix& J) {
+    StructuredMatrix A;
+    if (!stages_->matrix(system_, piece_at(system_, z), z, inputs_, {}, {}, r_, A)) return false;
+    e = r_(rows_);
+    J.resize(static_cast<Index>(rows_.size()), static_cast<Index>(columns_.size()));
+    for (Index k = 0; k < J.rows(); ++k) {
+      const Vector row = A.product(Vector::Unit(system_.size, rows_[static_cast<std::size_t>(k)]));
+      J.row(k) = row(columns_);
+    }
+    return true;
+  }
+
   const System& system_;
+  std::optional<StageJacobians> stages_{};  ///< of long chains
   Inputs inputs_{};
   std::vector<Index> rows_{}, columns_{};
   Workspace work_{};
