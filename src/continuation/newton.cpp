@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "small_lu.hpp"
+#include "springfold/core/finite.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
@@ -89,8 +90,8 @@ bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece&
 bool linearise_densely(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                        Linearisation& at) {
   at.structured.reset();
-  return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && at.dF_dx.allFinite() &&
-         at.dF_dlambda.allFinite();
+  return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && all_finite(at.dF_dx) &&
+         all_finite(at.dF_dlambda);
 }
 
 Vector product(const Linearisation& at, const Vector& v) {

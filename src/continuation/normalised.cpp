@@ -77,11 +77,13 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
   }
   x_ = y.cwiseProduct(unit_);
   if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
-  dG_dy.array().colwise() *= force_.array();
-  dG_dy.array().rowwise() *= unit_.transpose().array();
-  dG_dlambda.array() *= force_.array();
   Place& place = remember(y, lambda, piece);
-  place.dG_dy = dG_dy;
+  place.dG_dy.resize(dG_dy.rows(), dG_dy.cols());
+  for (Index j = 0; j < dG_dy.cols(); ++j) {
+    dG_dy.col(j).array() *= force_.array() * unit_[j];
+    place.dG_dy.col(j) = dG_dy.col(j);
+  }
+  dG_dlambda.array() *= force_.array();
   place.dG_dlambda = dG_dlambda;
   place.structured = {};
   return true;

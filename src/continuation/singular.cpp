@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "flat_turns.hpp"
+#include "small_lu.hpp"
 #include "watched_step.hpp"
 #include "words.hpp"
 
@@ -22,15 +23,17 @@ bool may_turn(const WatchedStep& arc, const std::vector<const CurvePoint*>& samp
   for (Index i = 0; i < m; ++i) {
     const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
     const double u = (p.s - from.s) / arc.length();
+    double power = 1;
     for (Index k = 0; k < n; ++k) {
-      const auto power = static_cast<double>(k);
-      A(i, k) = std::pow(u, power);
-      if (i > 0) A(m + i - 1, k) = std::pow(u, power + 1) / (power + 1);
+      A(i, k) = power;
+      power *= u;
+      if (i > 0) A(m + i - 1, k) = power / static_cast<double>(k + 1);
     }
     right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
     if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
   }
-  const Vector c = A.partialPivLu().solve(right);
+  SmallLu(A).solve(right.data());
+  const Vector& c = right;
   constexpr int parts = 24;
   constexpr double far = 0.3;  // from zero, compared with the largest rate
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -81,6 +81,7 @@ SmallLu::SmallLu(const Matrix& A, const Vector& b, const Eigen::Ref<const Vector
 
 void SmallLu::factorise() {
   smallest_ = std::numeric_limits<double>::infinity();
+  greatest_ = 0;
   for (Index k = 0; k < n_; ++k) {
     double* const u = column(k);
     double* const l = L_.data() + k * length_;

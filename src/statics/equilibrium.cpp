@@ -2,6 +2,7 @@
 
 #include "gauge.hpp"
 #include "point_terms.hpp"
+#include "springfold/core/finite.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::statics {
@@ -128,7 +129,7 @@ bool equilibrium_residual(const System& system, const Piece& piece, const Vector
   add_loads(system, z, inputs.W, residual, nullptr);
   add_point_terms(system, z, inputs, work, residual, nullptr, nullptr);
   add_gauge(system, z, work, residual, nullptr, nullptr);
-  return residual.allFinite();
+  return all_finite(residual);
 }
 
 bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& z,
@@ -151,7 +152,7 @@ bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& 
   add_loads(system, z, inputs.W, residual, &A);
   add_point_terms(system, z, inputs, work, residual, &A, dR_drho);
   add_gauge(system, z, work, residual, &A, dR_drho);
-  return residual.allFinite() && A.allFinite();
+  return all_finite(residual) && all_finite(A);
 }
 
 void add_wrench_rate(const System& system, const Vector& z, const Vector& W_rate, Vector& rate) {
