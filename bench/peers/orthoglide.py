@@ -25,7 +25,7 @@ def compare_orthoglides(c):
     say("(a) Planar Orthoglide at Q2, 10 unknowns: CPU seconds of the whole process (medians)\n")
     say(f"  {'':22} {'points':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} "
         f"{'ratio':>7}")
-    sizes = {1000: 7, 10000: 3} if c.quick else {1000: 15, 10000: 9, 100000: 5}
+    sizes = {1000: 7, 10000: 3, 100000: 1} if c.quick else {1000: 15, 10000: 9, 100000: 5}
     times = {}
     for points, repetitions in sizes.items():
         times.update(orthoglide_at(c, problem, folder, length, points, repetitions))
@@ -121,11 +121,13 @@ def start_up(c, folder, problem, length):
         for words, runs in beyond.items():
             if words == "a new folder":
                 shutil.rmtree(folder / "results", ignore_errors=True)
-            done = c.program.trace(problem, folder, length / 1000, 2000)
+            done = programs.run_at_once(c.program.command(problem, folder, length / 1000, 2000))
+            if done.failure:
+                give_up(f"springfold run: {done.failure}")
             traced = c.program.traced_seconds(folder)
             runs.append((1e3 * (done.elapsed - traced), 1e3 * (done.cpu - traced)))
     say("\n  springfold run without figures, start to exit beyond the tracing: milliseconds (medians)\n")
-    say(f"  {'':22} {'elapsed':>8} {'CPU':>8}")
+    say(f"  {'':22} {'elapsed':>8} {'CPU':>8}   elapsed: without waiting for a processor")
     for words, runs in beyond.items():
         elapsed, cpu = (statistics.median(r[i] for r in runs) for i in (0, 1))
         say(f"  {words:22} {elapsed:8.1f} {cpu:8.1f}")
