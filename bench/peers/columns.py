@@ -10,12 +10,17 @@ from programs import Problem, median
 LOCA = {20: 0.046e-3, 50: 0.11e-3, 100: 0.60e-3, 200: 4.0e-3, 400: 27.7e-3}  # s per point, see docs
 
 
+POINTS = 200  # on the arc
+LONG_STEP = 0.05  # springfold's own largest step, where points lie between the steps
+WAYS = ("springfold", "spacing", "run")  # a step for every point; long steps; `springfold run`, long steps
+
+
 def compare_columns(c):
-    say("\n(b) Column of N links, skew load, 200 points: CPU ms per point (slope from 20 points)\n")
-    say(f"  {'N':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'run':>9} {'ratio':>7} "
-        f"{'LOCA':>7}   one line per point; run: springfold run with all columns")
-    numbers = [5, 20, 50, 100] if c.quick else [5, 20, 50, 100, 200, 400]
-    alive = {"AUTO", "springfold", "run"}
+    say("\n(b) Column of N links, skew load, 200 points: CPU ms per point\n")
+    say(f"  {'N':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} {'ratio':>7} "
+        f"{'run':>9} {'ratio':>7} {'LOCA':>7}   one line per point; run: springfold run, all columns")
+    numbers = [5, 20, 50, 100, 400] if c.quick else [5, 20, 50, 100, 200, 400]
+    alive = {"AUTO", *WAYS}
     length = 1.4
     for links in numbers:
         problem, folder = programs.column(links), c.place(f"column-{links}")
@@ -24,57 +29,73 @@ def compare_columns(c):
             length = c.tracer.curve(coarse).length
         column_at(c, links, problem, folder, length, alive)
     long_columns(c, length)
-    buckling_loads(c, numbers + ([] if c.quick else [1000, 10000]))
+    buckling_loads(c, numbers + [1000, 10000])
 
 
 def auto_step(c, problem, folder, links):
     """AUTO's arc length is that of its own unknowns: measured once on few points."""
     step = 0.025 * math.sqrt(links)
     c.auto.trace(problem, folder, step, 1000000, "line", c.limit)
-    return step * (c.auto.curve(problem, folder).points - 1) / 200
+    return step * (c.auto.curve(problem, folder).points - 1) / POINTS
+
+
+def tasks_at(c, problem, folder, length, links, alive):
+    """Each contestant twice, so that what a process costs before its first point can be taken away: stopped
+    after 20 points, or, with long steps, after the first one."""
+    step = length / POINTS
+    own = auto_step(c, problem, folder, links) if "AUTO" in alive else 0
+    spaced = c.place(f"column-spacing-{links}")
+    ways = {"AUTO": lambda p: c.auto.trace(problem, folder, own, p, "line", c.limit),
+            "springfold": lambda p: c.tracer.trace(problem, folder, step, p, "line", c.limit),
+            "spacing": lambda p: c.tracer.trace(problem, folder, LONG_STEP, p, "line", c.limit,
+                                                spacing=step),
+            "run": lambda p: c.program.trace(problem, spaced, LONG_STEP, p, limit=c.limit,
+                                             spacing=step)}
+    few = {"AUTO": 20, "springfold": 20, "spacing": 2, "run": 2}
+    return few, spaced, {(name, points): lambda n=name, p=points: ways[n](p)
+                         for name in ways if name in alive for points in (few[name], 1000)}
 
 
 def column_at(c, links, problem, folder, length, alive):
     repetitions = 1 if links >= 400 else 3 if links >= 100 else 7
-    steps = {"AUTO": auto_step(c, problem, folder, links) if "AUTO" in alive else 0}
-    steps["springfold"] = steps["run"] = length / 200
-    who = {"AUTO": c.auto, "springfold": c.tracer, "run": c.program}
-    tasks = {(name, points): lambda n=name, p=points: who[n].trace(
-                 problem, folder, steps[n], p, "line", c.limit)
-             for points in (20, 1000) for name in who if name in alive}
+    few, spaced, tasks = tasks_at(c, problem, folder, length, links, alive)
     runs = alternate(repetitions, tasks)
     curves, seconds = {}, {}
     for name in sorted(alive):
-        failure = failed(runs[name, 20]) or failed(runs[name, 1000])
+        failure = failed(runs[name, few[name]]) or failed(runs[name, 1000])
         if failure:
-            say(f"  {links:6} {who[name].name}: {failure}; larger N are not tried")
+            say(f"  {links:6} {name}: {failure}; larger N are not tried")
             alive.discard(name)
             continue
-        curves[name] = (c.tracer.curve(runs[name, 1000][-1]) if name == "springfold"
-                        else c.program.curve(folder) if name == "run"
-                        else c.auto.curve(problem, folder))
-        more = max(1, curves[name].points - 20)
-        seconds[name] = max(1e-9, median(runs[name, 1000]) - median(runs[name, 20])) / more
+        curves[name] = (c.program.curve(spaced) if name == "run"
+                        else c.auto.curve(problem, folder) if name == "AUTO"
+                        else c.tracer.curve(runs[name, 1000][-1]))
+        points = POINTS if few[name] == 2 else max(1, curves[name].points - 20)
+        seconds[name] = max(1e-9, median(runs[name, 1000]) - median(runs[name, few[name]])) / points
     column_verdicts(c, links, seconds, curves)
 
 
 def column_verdicts(c, links, seconds, curves):
-    auto = seconds.get("AUTO", math.nan)
-    ours, run = seconds.get("springfold", math.inf), seconds.get("run", math.inf)
-    loca = LOCA.get(links, math.nan)
-    numbers = ((1e3 * auto, 10, 4), (1e3 * ours, 11, 4), (auto / ours, 7, 2), (1e3 * run, 9, 4),
-               (auto / run, 7, 2), (1e3 * loca, 7, 3))
+    auto, loca = seconds.get("AUTO", math.nan), LOCA.get(links, math.nan)
+    numbers = [(1e3 * auto, 10, 4)]
+    for way, width in zip(WAYS, (11, 9, 9)):
+        mine = seconds.get(way, math.inf)
+        numbers += [(1e3 * mine, width, 4), (auto / mine, 7, 2)]
+    numbers.append((1e3 * loca, 7, 3))
     say(f"  {links:6} " + " ".join(f"{number:{width}.{digits}f}" if math.isfinite(number) else
                                    f"{'-':>{width}}" for number, width, digits in numbers))
     if links >= 20:
-        wanted = 100 if links == 400 else 1
-        for words, value in (("one line per point", ours), ("springfold run", run)):
+        for way, words in zip(WAYS, ("a step for every point", "points between long steps",
+                                     "springfold run")):
+            mine = seconds.get(way, math.inf)
+            wanted = 100 if links == 400 and way == "spacing" else 1
             if not math.isnan(auto):
-                c.verdicts.add(auto / value > wanted, f"(b) N = {links}, {words}: "
-                               f"{auto / value:.2f} times faster ({wanted} wanted)")
-        if not math.isnan(loca):
-            c.verdicts.add(ours < loca, f"(b) N = {links}: {1e3 * ours:.3f} ms per point, LOCA "
-                                        f"needed {1e3 * loca:.3f} ms")
+                c.verdicts.add(auto / mine > wanted, f"(b) N = {links}, {words}: "
+                               f"{auto / mine:.2f} times faster ({wanted} wanted)",
+                               way != "springfold")
+            if not math.isnan(loca) and way == "spacing":
+                c.verdicts.add(mine < loca, f"(b) N = {links}: {1e3 * mine:.3f} ms per point, LOCA "
+                                            f"needed {1e3 * loca:.3f} ms")
     if "AUTO" in curves:
         ends = [curve.end for name, curve in curves.items() if name != "AUTO"]
         apart = max((abs(e - curves["AUTO"].end) for e in ends), default=math.inf)
@@ -84,7 +105,7 @@ def column_verdicts(c, links, seconds, curves):
 
 
 def long_columns(c, length):
-    numbers = [500, 1000] if c.quick else [500, 1000, 2000, 5000, 10000]
+    numbers = [500, 1000, 10000] if c.quick else [500, 1000, 2000, 5000, 10000]
     say("\n  springfold alone: CPU ms per point; whole process with one line per point\n")
     say(f"  {'N':>6} {'ms/point':>9} {'seconds':>8} {'MB':>7}")
     measured = {}

@@ -36,7 +36,7 @@ bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
   if (E0.at.structured) {
     constexpr double safely = 1.0 / 3;
     for (std::size_t i = 0; i < E.size(); ++i)
-      if (i != middle && !(relative_motion(E0, E0, E[i]).front() < safely)) return false;
+      if (i != middle && !(relative_motion(E0, E0, E[i], true).front() < safely)) return false;
     return true;
   }
   if (SmallLu::fits(E0.rows())) {

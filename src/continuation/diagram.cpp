@@ -219,7 +219,7 @@ void Tracer::add_start(const DiagramStart& start, int number) {
 /// @returns length of the rest
 std::optional<double> Tracer::rest_of_way_back(const Way& way, const Curve& back,
                                                double gap) const {
-  constexpr double most = 0.35, straight = 0.99;
+  constexpr double most = 0.5, straight = 0.99;
   const CurvePoint& last = back.points.back();
   const Direction rest = between(walker_, way.point, last);
   const double length = length_of(walker_, rest);

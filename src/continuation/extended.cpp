@@ -82,6 +82,15 @@ LeastVectors least_vectors(const ExtendedMatrix& E, Index m) {
   return result;
 }
 
+/// Of the eigenvalues, descending.
+std::vector<double> magnitudes_of(const Matrix& M) {
+  const Eigen::EigenSolver<Matrix> solver(M, false);
+  std::vector<double> values;
+  for (const auto& value : solver.eigenvalues()) values.push_back(std::abs(value));
+  std::sort(values.begin(), values.end(), std::greater<>());
+  return values;
+}
+
 }  // namespace
 
 Matrix orthonormal(const Matrix& columns) {
@@ -170,7 +179,7 @@ Vector least_singular_values(const ExtendedMatrix& E, Index m) {
 }
 
 std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatrix& E0,
-                                    const ExtendedMatrix& E1) {
+                                    const ExtendedMatrix& E1, bool only_largest) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Matrix small;  // the map itself, or what Arnoldi's basis sees of it
   if (!E.at.structured) {
@@ -182,6 +191,7 @@ std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatri
     basis.col(0) = irregular_columns(n, 1);
     Matrix H = Matrix::Zero(steps + 1, steps);
     Index size = 0;
+    double before = infinity;
     while (size < steps) {
       const Matrix v = basis.col(size);
       const Matrix difference = product(E1, v) - product(E0, v);
@@ -198,15 +208,16 @@ std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatri
       H(size, size - 1) = left;
       if (!(left > 1e-12 * H.norm())) break;
       basis.col(size) = next / left;
+      if (!only_largest || size < 3) continue;
+      // What is small needs to be known only roughly.
+      constexpr double share = 0.02, negligible = 0.01;
+      const double now = magnitudes_of(H.topLeftCorner(size, size)).front();
+      if (std::abs(now - before) <= share * now + negligible) break;
+      before = now;
     }
     small = H.topLeftCorner(size, size);
   }
-  if (!small.allFinite()) return {infinity};
-  const Eigen::EigenSolver<Matrix> solver(small, false);
-  std::vector<double> values;
-  for (const auto& value : solver.eigenvalues()) values.push_back(std::abs(value));
-  std::sort(values.begin(), values.end(), std::greater<>());
-  return values;
+  return small.allFinite() ? magnitudes_of(small) : std::vector<double>{infinity};
 }
 
 }  // namespace springfold::continuation

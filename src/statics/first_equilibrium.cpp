@@ -9,8 +9,8 @@
 
 #include "kinsol_newton.hpp"
 #include "minimum_norm.hpp"
-#include "stage_newton.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
+#include "stage_newton.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -275,11 +275,10 @@ void complete(const System& system, const StartProblem& problem, FirstEquilibriu
   Workspace work;
   Vector r;
   equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
-  result.inputs.W.segment(body.W, body.count) +=
-      load_columns(system, result.z)
-          .block(body.t, body.W, body.count, body.count)
-          .partialPivLu()
-          .solve(-r.segment(body.t, body.count));
+  result.inputs.W.segment(body.W, body.count) += load_columns(system, result.z)
+                                                     .block(body.t, body.W, body.count, body.count)
+                                                     .partialPivLu()
+                                                     .solve(-r.segment(body.t, body.count));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "stage_chain.hpp"
 
+#include <cmath>
+
 namespace springfold::statics {
 namespace {
 
@@ -17,12 +19,54 @@ double displacement(const ChainSlice& slice, std::size_t j, const Vector& z, con
   return (x >= 0 ? z[x] : 0.0) + (command >= 0 ? rho[command] : 0.0);
 }
 
+/// Two numbers instead of nine where all axes are along z.
+Pose<double> walk_in_plane(const CompiledChain& chain, const ChainSlice& slice, const Vector& z,
+                           const Vector& rho, Pose<double> frame, ChainSums& out) {
+  const auto n = chain.joints.size();
+  const Index from = chain.first_joint();
+  double c = frame.R(0, 0), s = frame.R(1, 0), x = frame.p[0], y = frame.p[1];
+  const auto put = [&](Pose<double>& to) {
+    to.R << c, -s, 0, s, c, 0, 0, 0, 1;
+    to.p << x, y, 0;
+  };
+  const auto turn_by = [&](double cosine, double sine) {
+    const double turned = c * cosine - s * sine;
+    s = s * cosine + c * sine;
+    c = turned;
+  };
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto& step = chain.joints[j];
+    const Index k = from + static_cast<Index>(j);
+    const double v = displacement(slice, j, z, rho);
+    const Vec3<double>& link = step.before.p;
+    x += c * link[0] - s * link[1];
+    y += s * link[0] + c * link[1];
+    turn_by(step.before.R(0, 0), step.before.R(1, 0));
+    put(out.frames[j]);
+    if (step.revolute) {
+      out.dp.col(k) << 0, 0, step.axis[2];
+      out.turn.col(k) << 0, 0, step.axis[2];
+      turn_by(std::cos(v), step.axis[2] * std::sin(v));
+    } else {
+      const double along = c * step.axis[0] - s * step.axis[1];
+      const double across = s * step.axis[0] + c * step.axis[1];
+      out.dp.col(k) << along, across, 0;
+      out.turn.col(k).setZero();
+      x += v * along;
+      y += v * across;
+    }
+  }
+  put(out.frames[n]);
+  return out.frames[n] * chain.last;
+}
+
 /// Frames out to the end; turn and dp hold axis and origin until the way back.
 Pose<double> walk_out(const CompiledChain& chain, const ChainSlice& slice, const Vector& z,
                       const Vector& rho, Pose<double> frame, ChainSums& out) {
   const auto n = chain.joints.size();
   const Index from = chain.first_joint();
   out.frames.resize(n + 1);
+  if (chain.flat) return walk_in_plane(chain, slice, z, rho, frame, out);
   for (std::size_t j = 0; j < n; ++j) {
     const auto& step = chain.joints[j];
     const Index k = from + static_cast<Index>(j);
@@ -62,15 +106,19 @@ struct EndWrench {
   Vec3<double> f = Vec3<double>::Zero(), h = Vec3<double>::Zero();
   Mat3<double> log_J = Mat3<double>::Identity(), log_S = Mat3<double>::Zero();
 
-  EndWrench(const CompiledChain& chain, const Vector& F, const Vector& e) {
+  bool spatial = false;
+
+  EndWrench(const CompiledChain& chain, const Vector& F, const Vector& e)
+      : spatial{chain.space == TaskSpace::spatial} {
     f.head(translations(chain.space)) = F.head(translations(chain.space));
-    if (chain.space != TaskSpace::spatial) return;
+    if (!spatial) return;
     const Vec3<double> phi = e.tail(3), moment = F.tail(3);
     log_J = model::inverse_left_jacobian(phi);
     log_S = model::log_hessian(phi, moment);
     h = log_J.transpose() * moment;
   }
   Vec3<double> moment_rate(const Vec3<double>& dp, const Vec3<double>& turn) const {
+    if (!spatial) return cross<double>(dp, f);
     return cross<double>(dp, f) + 0.5 * cross<double>(turn, h) + log_S * turn;
   }
 };
