@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "small_lu.hpp"
+#include "springfold/core/finite.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -14,19 +15,46 @@ constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
 using OnStack = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, SmallLu::largest, 1>;
 
-/// Is the spectral radius of the matrix X >= 0 below 1/2? V: vectors of its size.
-template <class V>
-bool is_small(const Matrix& X) {
-  if (!X.allFinite()) return false;
-  V d = V::Ones(X.cols()), Xd(X.rows());
+/// Is the spectral radius of a matrix X >= 0 of n rows below 1/2? times(d, Xd) puts X d into Xd.
+template <class V, class Times>
+bool is_small(Index n, const Times& times) {
+  V d = V::Ones(n), Xd(n);
   for (int i = 0; i < 8; ++i) {
-    Xd.noalias() = X * d;
+    times(d, Xd);
     if ((Xd.array() / d.array()).maxCoeff() < 0.5) return true;
     const double largest = Xd.maxCoeff();
     if (!(largest > 0)) return true;
     d = (Xd / largest).cwiseMax(1e-12);
   }
   return false;
+}
+
+template <class V>
+bool is_small(const Matrix& X) {
+  return X.allFinite() && is_small<V>(X.rows(), [&](const V& d, V& Xd) { Xd.noalias() = X * d; });
+}
+
+/// surely_regular() with few unknowns. |E0^-1| |E - E0| is no smaller than |E0^-1 (E - E0)| and takes one inverse
+/// for all E, which nearly always is enough.
+bool surely_regular(const SmallLu& lu, const std::vector<ExtendedMatrix>& E, const Matrix& E0) {
+  const Index n = E0.rows();
+  if (!(lu.smallest_pivot() > 0)) return false;
+  Matrix inverse = Matrix::Identity(n, n), motion = Matrix::Zero(n, n);
+  lu.solve(inverse);
+  inverse = inverse.cwiseAbs();
+  for (const ExtendedMatrix& other : E) motion = motion.cwiseMax((other.dense - E0).cwiseAbs());
+  OnStack moved(n);
+  const auto bound = [&](const OnStack& d, OnStack& Xd) {
+    moved.noalias() = motion * d;
+    Xd.noalias() = inverse * moved;
+  };
+  if (all_finite(inverse) && all_finite(motion) && is_small<OnStack>(n, bound)) return true;
+  for (const ExtendedMatrix& other : E) {
+    Matrix X = other.dense - E0;
+    lu.solve(X);
+    if (!is_small<OnStack>(Matrix(X.cwiseAbs()))) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -39,19 +67,7 @@ bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
       if (i != middle && !(relative_motion(E0, E0, E[i], true).front() < safely)) return false;
     return true;
   }
-  if (SmallLu::fits(E0.rows())) {
-    const SmallLu lu(E0.dense);
-    if (!(lu.smallest_pivot() > 0)) return false;
-    Matrix X;
-    for (std::size_t i = 0; i < E.size(); ++i) {
-      if (i == middle) continue;
-      X = E[i].dense - E0.dense;
-      lu.solve(X);
-      X = X.cwiseAbs();
-      if (!is_small<OnStack>(X)) return false;
-    }
-    return true;
-  }
+  if (SmallLu::fits(E0.rows())) return surely_regular(SmallLu(E0.dense), E, E0.dense);
   const Eigen::PartialPivLU<Matrix> lu(E0.dense);
   for (std::size_t i = 0; i < E.size(); ++i)
     if (i != middle && !is_small<Vector>(lu.solve(E[i].dense - E0.dense).cwiseAbs())) return false;
