@@ -11,7 +11,7 @@ LOCA = {20: 0.046e-3, 50: 0.11e-3, 100: 0.60e-3, 200: 4.0e-3, 400: 27.7e-3}  # s
 
 
 POINTS = 200  # on the arc
-LONG_STEP = 0.05  # springfold's own largest step, where points lie between the steps
+LONG_STEP = 0.2  # the largest step where points lie between the steps: springfold takes shorter ones
 WAYS = ("springfold", "spacing", "run")  # a step for every point; long steps; `springfold run`, long steps
 
 
