@@ -12,25 +12,46 @@ namespace {
 template <Index N>
 using Column = Eigen::Matrix<double, N, 1>;
 template <Index N>
-using InPlace = Eigen::Map<Column<N>, Eigen::AlignedMax>;
+using InPlace = Eigen::Map<Column<N>, Eigen::Aligned16>;
 template <Index N>
-using Given = Eigen::Map<const Column<N>, Eigen::AlignedMax>;
+using Given = Eigen::Map<const Column<N>, Eigen::Aligned16>;
+
+/// Long columns are worked on in parts of four numbers, without those that are zero.
+constexpr Index part = 4, long_column = 20;
+
+/// y -= factor x from row `first` on, up to `end`.
+inline void subtract(double factor, const double* x, double* y, Index first, Index end) {
+  for (Index i = first / part * part; i < end; i += part)
+    InPlace<part>(y + i) -= factor * Given<part>(x + i);
+}
 
 /// Subtracts multiples of a column of L from the columns of U behind it.
 template <Index N>
 void eliminate(const double* L, double* U, Index k, Index n) {
-  const Column<N> l = Given<N>(L + k * N);
-  for (Index j = k + 1; j < n; ++j) InPlace<N>(U + j * N) -= U[j * N + k] * l;
+  if constexpr (N < long_column) {
+    const Column<N> l = Given<N>(L + k * N);
+    for (Index j = k + 1; j < n; ++j) InPlace<N>(U + j * N) -= U[j * N + k] * l;
+  } else {
+    for (Index j = k + 1; j < n; ++j) subtract(U[j * N + k], L + k * N, U + j * N, k + 1, N);
+  }
 }
 
 template <Index N>
 void substitute(const double* L, const double* U, Index n, double* x) {
   Column<N> y = Column<N>::Zero();
   std::copy_n(x, n, y.data());
-  for (Index k = 0; k < n; ++k) y -= y[k] * Given<N>(L + k * N);
+  for (Index k = 0; k < n; ++k) {
+    if constexpr (N < long_column)
+      y -= y[k] * Given<N>(L + k * N);
+    else
+      subtract(y[k], L + k * N, y.data(), k + 1, N);
+  }
   for (Index k = n; k-- > 0;) {
     const double solution = y[k] / U[k * N + k];
-    y -= solution * Given<N>(U + k * N);
+    if constexpr (N < long_column)
+      y -= solution * Given<N>(U + k * N);
+    else
+      subtract(solution, U + k * N, y.data(), 0, k);
     x[k] = solution;
   }
 }
@@ -50,7 +71,8 @@ struct SmallLu::Ways {
 
 void SmallLu::prepare(Index n) {
   static constexpr Ways ways[] = {Ways::of<4>(),  Ways::of<8>(),  Ways::of<12>(), Ways::of<16>(),
-                                  Ways::of<24>(), Ways::of<32>(), Ways::of<40>()};
+                                  Ways::of<20>(), Ways::of<24>(), Ways::of<28>(), Ways::of<32>(),
+                                  Ways::of<36>(), Ways::of<40>()};
   n_ = n;
   ways_ =
       std::find_if(std::begin(ways), std::end(ways), [n](const Ways& w) { return w.length >= n; });

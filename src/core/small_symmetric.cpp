@@ -10,6 +10,11 @@
 namespace springfold {
 namespace {
 
+/// Columns are worked on in parts of four rows, also where one or the other row is above the diagonal.
+constexpr Index part = 4;
+using Part = Eigen::Map<Eigen::Array<double, part, 1>, Eigen::Aligned16>;
+using GivenPart = Eigen::Map<const Eigen::Array<double, part, 1>, Eigen::Aligned16>;
+
 /// The inverse of the power of two next to sqrt(value).
 double inverse_root(double value) { return std::ldexp(1.0, -((std::ilogb(value) + 1) >> 1)); }
 
@@ -90,7 +95,10 @@ void SmallSymmetric::eliminate_one(Index k) {
   for (Index j = k + 1; j < n_; ++j) {
     const double factor = inverse * at(j, k);
     if (factor == 0) continue;
-    for (Index i = j; i < n_; ++i) at(i, j) -= at(i, k) * factor;
+    const double* const l = columns_[to(k)].data();
+    double* const column = columns_[to(j)].data();
+    for (Index i = j / part * part; i < n_; i += part)
+      Part(column + i) -= factor * GivenPart(l + i);
   }
   for (Index i = k + 1; i < n_; ++i) at(i, k) *= inverse;
 }
@@ -105,7 +113,10 @@ void SmallSymmetric::eliminate_two(Index k) {
   for (Index j = k + 2; j < n_; ++j) {
     const double first = factor * (d11 * at(j, k) - at(j, k + 1));
     const double second = factor * (d22 * at(j, k + 1) - at(j, k));
-    for (Index i = j; i < n_; ++i) at(i, j) -= at(i, k) * first + at(i, k + 1) * second;
+    const double *const l = columns_[to(k)].data(), *const m = columns_[to(k + 1)].data();
+    double* const column = columns_[to(j)].data();
+    for (Index i = j / part * part; i < n_; i += part)
+      Part(column + i) -= GivenPart(l + i) * first + GivenPart(m + i) * second;
     at(j, k) = first;
     at(j, k + 1) = second;
   }
@@ -115,11 +126,13 @@ bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A) {
   assert(A.rows() == A.cols() && A.rows() <= largest);
   n_ = A.rows();
   double zero = 0;  // NaN where an entry is not finite
-  for (Index j = 0; j < n_; ++j)
+  for (Index j = 0; j < n_; ++j) {
+    std::fill_n(columns_[to(j)].data(), capacity, 0.0);
     for (Index i = j; i < n_; ++i) {
       at(i, j) = A(i, j);
       zero += 0 * A(i, j);
     }
+  }
   if (zero != 0) return false;
   if (n_ > 0) equilibrate();
   for (Index k = 0; k < n_;) {
@@ -137,18 +150,21 @@ bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A) {
   return true;
 }
 
-void SmallSymmetric::solve_column(double* x) const {
+/// For some columns of X side by side.
+template <class Row>
+void SmallSymmetric::solve_rows(Row* x) const {
   for (Index k = 0; k < n_;) {
     const bool two = is_two_[to(k)];
     const Index last = two ? k + 1 : k;
-    std::swap(x[last], x[row_[to(last)]]);
+    if (const Index other = row_[to(last)]; other != last) std::swap(x[last], x[other]);
     for (Index i = last + 1; i < n_; ++i) {
       x[i] -= at(i, k) * x[k];
       if (two) x[i] -= at(i, k + 1) * x[k + 1];
     }
     if (two) {
       const double b = at(k + 1, k), a = at(k, k) / b, c = at(k + 1, k + 1) / b;
-      const double first = x[k] / b, second = x[k + 1] / b, determinant = a * c - 1;
+      const Row first = x[k] / b, second = x[k + 1] / b;
+      const double determinant = a * c - 1;
       x[k] = (c * first - second) / determinant;
       x[k + 1] = (a * second - first) / determinant;
     } else {
@@ -163,18 +179,28 @@ void SmallSymmetric::solve_column(double* x) const {
       x[last] -= at(i, last) * x[i];
       if (two) x[first] -= at(i, first) * x[i];
     }
-    std::swap(x[last], x[row_[to(last)]]);
+    if (const Index other = row_[to(last)]; other != last) std::swap(x[last], x[other]);
     k = first;
   }
 }
 
 void SmallSymmetric::solve(Matrix& X) const {
   assert(X.rows() == n_);
-  for (Index j = 0; j < X.cols(); ++j) {
-    double* const x = X.col(j).data();
-    for (Index i = 0; scaled_ && i < n_; ++i) x[i] *= scale_[to(i)];
-    solve_column(x);
-    for (Index i = 0; scaled_ && i < n_; ++i) x[i] *= scale_[to(i)];
+  constexpr Index width = 4;
+  using Row = Eigen::Array<double, 1, width>;
+  std::array<Row, capacity> rows;
+  for (Index first = 0; first < X.cols(); first += width) {
+    const Index count = std::min(width, X.cols() - first);
+    for (Index i = 0; i < n_; ++i) {
+      rows[to(i)].setZero();
+      const double factor = scaled_ ? scale_[to(i)] : 1;
+      for (Index j = 0; j < count; ++j) rows[to(i)][j] = factor * X(i, first + j);
+    }
+    solve_rows(rows.data());
+    for (Index i = 0; i < n_; ++i) {
+      const double factor = scaled_ ? scale_[to(i)] : 1;
+      for (Index j = 0; j < count; ++j) X(i, first + j) = factor * rows[to(i)][j];
+    }
   }
 }
 

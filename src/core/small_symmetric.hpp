@@ -41,11 +41,12 @@ class SmallSymmetric {
   void exchange(Index k, Index next, Index p);
   void eliminate_one(Index k);
   void eliminate_two(Index k);
-  void solve_column(double* x) const;
+  template <class Row>
+  void solve_rows(Row* x) const;
 
   Index n_ = 0;
   bool scaled_ = false;
-  std::array<Column, capacity> columns_;
+  alignas(64) std::array<Column, capacity> columns_;
   Column scale_, values_;
   std::array<Index, capacity> row_;  ///< the row that was exchanged with this one
   std::array<bool, capacity> is_two_;
