@@ -60,22 +60,24 @@ Vector shrunk(const Matrix& from, const Matrix& to) {
   return sizes;
 }
 
-bool one_mode_vanishes(const WatchedStep& arc, Index m, const ZeroOf& touch) {
-  constexpr double small = 0.1;
+Index vanishing_modes(const WatchedStep& arc, Index m, const ZeroOf& zero) {
+  constexpr double small = 0.2;
   const auto& middle = arc.point(0.5 * arc.length());
   const auto E = middle ? arc.matrix(*middle) : std::nullopt;
-  if (!E) return false;
+  if (!E) return m;
   const Borders borders = borders_of(*E, m);
+  Index most = 0;
   // Not at the place itself, where points may be inexact.
   const double far = 0.1 * arc.length(), near = 0.01 * arc.length();
   for (const double side : {-1.0, 1.0}) {
-    const double at = touch.at + side * far;
+    const double at = zero.at + side * far;
     if (at < arc.low() || at > arc.high()) continue;
     const auto there = arc.sigma(at, borders);
-    const auto here = arc.sigma(touch.at + side * near, borders);
-    if (there && here && (shrunk(*there, *here).array() < small).count() > 1) return false;
+    const auto here = arc.sigma(zero.at + side * near, borders);
+    if (there && here)
+      most = std::max<Index>(most, (shrunk(*there, *here).array() < small).count());
   }
-  return true;
+  return most;
 }
 
 bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const ZeroOf& touch) {

@@ -14,7 +14,7 @@ bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const Zero
 /// depend on the units of the unknowns.
 Vector shrunk(const Matrix& from, const Matrix& to);
 
-/// Is it one of the m smallest modes alone that comes to zero at the touch? Several are a cluster.
-bool one_mode_vanishes(const WatchedStep& arc, Index m, const ZeroOf& touch);
+/// How many of the m smallest modes come to zero at this zero of det Sigma?
+Index vanishing_modes(const WatchedStep& arc, Index m, const ZeroOf& zero);
 
 }  // namespace springfold::continuation

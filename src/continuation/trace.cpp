@@ -18,6 +18,9 @@ namespace {
 /// Steps are not shortened below this to separate special points; what is left is one cluster.
 constexpr double unresolved_length = 1e-6;
 
+/// Share of the anchor's step: a cluster is not crossed from nearer to it.
+constexpr double near_cluster = 0.2;
+
 /// Neighbouring unresolved steps are one cluster with its total multiplicity.
 void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,
                     Curve& curve) {
@@ -105,7 +108,6 @@ bool cross_from(const Walker& walker, const std::vector<Event>& events, const Pr
 /// too near to it: on short steps beside it rounding would decide where the curve goes.
 bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
                    Progress& progress, Curve& curve) {
-  constexpr double near = 0.2;  // of the anchor's step
   anchor.tried = true;
   if (anchor.passing || curve.hits.size() != anchor.hits || !anchor.before.left.empty())
     return false;
@@ -113,7 +115,7 @@ bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Ancho
   for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
     Progress before = anchor.before;
     before.here = curve.points[i - 1];
-    if (i > anchor.points && reached - before.here.s < near * anchor.before.ds) break;
+    if (i > anchor.points && reached - before.here.s < near_cluster * anchor.before.ds) break;
     for (const double share : {1.0, 0.6, 0.35})
       if (cross_from(walker, events, before, share * anchor.before.ds, progress, curve))
         return true;
@@ -218,6 +220,37 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   return Outcome::go_on;
 }
 
+/// On steps much shorter than the stretch on which rounding hides special points nothing can be told of them: longer
+/// ones from the anchor, and from points between it and them, are tried, which must pass all the tests of a step and resolve everything on it.
+std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>& events,
+                                 const HitObserver& at_hit, const Anchor& anchor,
+                                 Progress& progress, Curve& curve) {
+  if (anchor.tried || anchor.passing || curve.hits.size() != anchor.hits ||
+      !anchor.before.left.empty())
+    return std::nullopt;
+  const double reached = progress.here.s;
+  for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
+    const CurvePoint& from = curve.points[i - 1];
+    if (i > anchor.points && reached - from.s < near_cluster * anchor.before.ds) break;
+    for (const double times : {4.0, 2.0, 1.0}) {
+      Progress longer = anchor.before;
+      longer.here = from;
+      longer.ds *= times;
+      Curve trial = curve;
+      trial.points.resize(i);
+      Refusal refused;
+      const Outcome outcome = advance(walker, events, at_hit, false, longer, trial, refused);
+      if (outcome == Outcome::shorten) continue;
+      trial.log.push_back({from.s, times * anchor.before.ds,
+                           "steps over special points that shorter steps do not resolve"});
+      curve = std::move(trial);
+      progress = std::move(longer);
+      return outcome;
+    }
+  }
+  return std::nullopt;
+}
+
 /// The main loop: steps until something ends the curve.
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
@@ -241,7 +274,10 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
       anchor.passing = anchor.passing || refused.passing;
       progress.ds *= 0.5;
       const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
-      if (last && cross_cluster(walker, events, anchor, progress, curve))
+      const auto over =
+          last ? step_over(walker, events, at_hit, anchor, progress, curve) : std::nullopt;
+      if (over && *over == Outcome::stop) return;
+      if (over || (last && cross_cluster(walker, events, anchor, progress, curve)))
         outcome = Outcome::go_on;
       else if (progress.ds >= walker.options.step.minimum)
         continue;

@@ -112,7 +112,9 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
     if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
     if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
     // The entries are too small against their rounding; the place itself may be well-conditioned.
-    if (crossings == 1 && zeros.size() == 1 && m == 2) continue;
+    if (crossings == 1 && zeros.size() == 1 && m == 2 &&
+        vanishing_modes(arc, most, zeros.front()) < 2)
+      continue;
     if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
       add({middle, (*curve)(middle), curve->slope(middle), unknown}, m, false);
     if (result.size() == 1) {
@@ -122,7 +124,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   }
   if (zeros.size() > 1) return {};
   const bool touches = zeros.front().touches;
-  if (touches && most > 1 && !one_mode_vanishes(arc, most, zeros.front())) return {};
+  if (touches && most > 1 && vanishing_modes(arc, most, zeros.front()) > 1) return {};
   const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
   if (places.size() == 1)
     add(places.front(), 1, false);
@@ -206,7 +208,7 @@ WatchedZeros singularities_on(const WatchedStep& arc,
                                        : 0.0;
   if (scale <= std::max(noise, blur)) return {.resolved = false};
   const ZeroSearch found =
-      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution, NoiseIs::bound);
+      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution, NoiseIs::doubt);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   if (result.order == 1) return result;

@@ -202,7 +202,7 @@ class Search {
       const auto value = place > p.a && place < p.b ? f_(place) : p.first(place);
       worst = value ? std::max(worst, std::abs(*value - p.first(place))) : noise_;
     };
-    const bool as_good = fit.error <= noise_ && noise_is_ == NoiseIs::bound;
+    const bool as_good = fit.error <= noise_ && noise_is_ != NoiseIs::threshold;
     if (as_good) {
       for (const double share : {0.07, 0.17, 0.39, 0.46, 0.57, 0.66, 0.86, 0.94})
         look_at(p.a + share * (p.b - p.a));
@@ -214,6 +214,11 @@ class Search {
                                     std::min(bound, digits * p.values.cwiseAbs().maxCoeff()), bound)
                        : bound;
     return fit.measured;
+  }
+
+  bool may_touch(const Fit& fit, double t, double value) const {
+    return noise_is_ == NoiseIs::doubt ? std::abs(value) <= std::max(noise_, 30 * fit.error)
+                                       : is_lost(fit, t, value);
   }
 
   /// Is the polynomial lost in its noise all the way from one place to another?
@@ -245,7 +250,7 @@ class Search {
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const double here = knots[i], v = value(here);
       const bool extremum = i + 1 < knots.size();
-      if (extremum && is_lost(fit, here, v)) {
+      if (extremum && may_touch(fit, here, v)) {
         if (!accurate) return false;
         if (!touched) touch = here;
         touched = true;

@@ -28,9 +28,10 @@ bool within_reach(const std::vector<double>& values);
 /// f may fail (nothing) where its point cannot be computed.
 using SampledFunction = std::function<std::optional<double>(double)>;
 
-/// What is said of noise: values below the threshold are zero, or it is a bound of what rounding may make; then touches
-/// and zeros are told apart by the noise that is seen.
-enum class NoiseIs { threshold, bound };
+/// What is said of noise. Threshold: values below it are zero. Bound: of what rounding may make; touches and pairs of
+/// zeros are told apart by the noise that is seen. Doubt: an extremum below it may be zero, since close to zeros there is
+/// more noise than can be seen; but only what is seen to be lost in noise is one feature.
+enum class NoiseIs { threshold, bound, doubt };
 
 /// Samples f at ten points, interpolates, and looks where the interpolant is zero or stationary
 /// close to zero. Features that lie closer together than a tenth of the interval, and intervals on

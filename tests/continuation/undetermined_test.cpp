@@ -71,6 +71,27 @@ struct FlatCrossings {
   }
 };
 
+TEST(Undetermined, TouchesOfAnEigenvalueAreTheSameAtAllStepLengths) {
+  for (const double c : {1.0, 1e-2})
+    for (const double steps : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+      const FlatCrossings problem{c, 0.1, {0.1, 0.1, 0.4}};
+      TraceOptions options;
+      options.step.initial *= steps;
+      options.step.maximum *= steps;
+      const Vector along = problem.at(-0.4999) - problem.at(-0.5);
+      const Ray ray = ray_of(problem, {problem.at(-0.5), -0.5, {}, {along, 1e-4}}, options);
+      const Curve curve =
+          trace(problem, problem.at(-0.5), -0.5, ray, {lambda_reaches(0.6)}, options);
+      ASSERT_EQ(curve.stop, StopReason::event) << c << ", " << steps << ": " << curve.stop_detail;
+      const auto touches = hits_of(curve, HitKind::touch),
+                 crossings = hits_of(curve, HitKind::branch_point);
+      ASSERT_EQ(touches.size(), 1u) << c << ", steps x " << steps;
+      EXPECT_NEAR(touches[0].point.lambda, 0.1, 1e-5) << c << ", steps x " << steps;
+      ASSERT_EQ(crossings.size(), 1u) << c << ", steps x " << steps;
+      EXPECT_NEAR(crossings[0].point.lambda, 0.4, 1e-7) << c << ", steps x " << steps;
+    }
+}
+
 TEST(Undetermined, PointsDoNotLeadACurveOntoAnotherBranchInSilence) {
   for (const double c : {1.0, 0.1})
     for (const double gap : {0.0, 1e-6, 1e-5, 1e-4})
