@@ -12,15 +12,17 @@ LOCA = {20: 0.046e-3, 50: 0.11e-3, 100: 0.60e-3, 200: 4.0e-3, 400: 27.7e-3}  # s
 
 POINTS = 200  # on the arc
 LONG_STEP = 0.2  # the largest step where points lie between the steps: springfold takes shorter ones
-WAYS = ("springfold", "spacing", "run")  # a step for every point; long steps; `springfold run`, long steps
+# A step for every point; long steps; `springfold run` with long steps, beside AUTO's own default output.
+WAYS = (("springfold", "AUTO"), ("spacing", "AUTO"), ("run", "AUTO default"))
 
 
 def compare_columns(c):
     say("\n(b) Column of N links, skew load, 200 points: CPU ms per point\n")
     say(f"  {'N':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} {'ratio':>7} "
-        f"{'run':>9} {'ratio':>7} {'LOCA':>7}   one line per point; run: springfold run, all columns")
+        f"{'default':>9} {'run':>9} {'ratio':>7} {'LOCA':>7}   one line per point; AUTO's default "
+        "output beside springfold run with all columns")
     numbers = [5, 20, 50, 100, 400] if c.quick else [5, 20, 50, 100, 200, 400]
-    alive = {"AUTO", *WAYS}
+    alive = {"AUTO", "AUTO default", *(way for way, _ in WAYS)}
     length = 1.4
     for links in numbers:
         problem, folder = programs.column(links), c.place(f"column-{links}")
@@ -44,21 +46,22 @@ def tasks_at(c, problem, folder, length, links, alive):
     after 20 points, or, with long steps, after the first one."""
     step = length / POINTS
     own = auto_step(c, problem, folder, links) if "AUTO" in alive else 0
-    spaced = c.place(f"column-spacing-{links}")
+    spaced, own_folder = c.place(f"column-spacing-{links}"), c.place(f"column-default-{links}")
     ways = {"AUTO": lambda p: c.auto.trace(problem, folder, own, p, "line", c.limit),
+            "AUTO default": lambda p: c.auto.trace(problem, own_folder, own, p, "default", c.limit),
             "springfold": lambda p: c.tracer.trace(problem, folder, step, p, "line", c.limit),
             "spacing": lambda p: c.tracer.trace(problem, folder, LONG_STEP, p, "line", c.limit,
                                                 spacing=step),
             "run": lambda p: c.program.trace(problem, spaced, LONG_STEP, p, limit=c.limit,
                                              spacing=step)}
-    few = {"AUTO": 20, "springfold": 20, "spacing": 2, "run": 2}
-    return few, spaced, {(name, points): lambda n=name, p=points: ways[n](p)
+    few = {"AUTO": 20, "AUTO default": 20, "springfold": 20, "spacing": 2, "run": 2}
+    return few, {"run": spaced, "AUTO": folder, "AUTO default": own_folder}, {(name, points): lambda n=name, p=points: ways[n](p)
                          for name in ways if name in alive for points in (few[name], 1000)}
 
 
 def column_at(c, links, problem, folder, length, alive):
     repetitions = 1 if links >= 400 else 3 if links >= 100 else 7
-    few, spaced, tasks = tasks_at(c, problem, folder, length, links, alive)
+    few, folders, tasks = tasks_at(c, problem, folder, length, links, alive)
     runs = alternate(repetitions, tasks)
     curves, seconds = {}, {}
     for name in sorted(alive):
@@ -67,8 +70,8 @@ def column_at(c, links, problem, folder, length, alive):
             say(f"  {links:6} {name}: {failure}; larger N are not tried")
             alive.discard(name)
             continue
-        curves[name] = (c.program.curve(spaced) if name == "run"
-                        else c.auto.curve(problem, folder) if name == "AUTO"
+        curves[name] = (c.program.curve(folders[name]) if name == "run"
+                        else c.auto.curve(problem, folders[name]) if name in folders
                         else c.tracer.curve(runs[name, 1000][-1]))
         points = POINTS if few[name] == 2 else max(1, curves[name].points - 20)
         seconds[name] = max(1e-9, median(runs[name, 1000]) - median(runs[name, few[name]])) / points
@@ -76,18 +79,20 @@ def column_at(c, links, problem, folder, length, alive):
 
 
 def column_verdicts(c, links, seconds, curves):
-    auto, loca = seconds.get("AUTO", math.nan), LOCA.get(links, math.nan)
-    numbers = [(1e3 * auto, 10, 4)]
-    for way, width in zip(WAYS, (11, 9, 9)):
-        mine = seconds.get(way, math.inf)
+    loca = LOCA.get(links, math.nan)
+    numbers = [(1e3 * seconds.get("AUTO", math.nan), 10, 4)]
+    for (way, beside), width in zip(WAYS, (11, 9, 9)):
+        mine, auto = seconds.get(way, math.inf), seconds.get(beside, math.nan)
+        if beside == "AUTO default":
+            numbers.append((1e3 * auto, 9, 4))
         numbers += [(1e3 * mine, width, 4), (auto / mine, 7, 2)]
     numbers.append((1e3 * loca, 7, 3))
     say(f"  {links:6} " + " ".join(f"{number:{width}.{digits}f}" if math.isfinite(number) else
                                    f"{'-':>{width}}" for number, width, digits in numbers))
     if links >= 20:
-        for way, words in zip(WAYS, ("a step for every point", "points between long steps",
-                                     "springfold run")):
-            mine = seconds.get(way, math.inf)
+        for (way, beside), words in zip(WAYS, ("a step for every point", "points between long steps",
+                                               "default output, points between long steps")):
+            mine, auto = seconds.get(way, math.inf), seconds.get(beside, math.nan)
             wanted = 100 if links == 400 and way == "spacing" else 1
             if not math.isnan(auto):
                 c.verdicts.add(auto / mine > wanted, f"(b) N = {links}, {words}: "

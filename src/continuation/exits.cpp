@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "exit_rays.hpp"
+#include "extended.hpp"
 #include "springfold/core/equilibration.hpp"
-#include "springfold/core/inertia.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -203,6 +203,10 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
   if (corank < 0 || corank > 2 || corank > at.x.size())
     return {.complete = false,
             .why = "branches are not searched for at points of corank " + std::to_string(corank)};
+  if (walker.problem.structured() && at.x.size() > most_entries)
+    return {.complete = false,
+            .why = "branches are not searched for among more than " + std::to_string(most_entries) +
+                   " unknowns"};
   const auto e = reduce(walker, at, corank);
   if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
   const double rho = std::min(2e-2 * e->scale, 0.1 / std::max(e->curvature, 1e-10));

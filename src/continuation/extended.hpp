@@ -60,6 +60,9 @@ Vector least_singular_values(const ExtendedMatrix& E, Index m);
 std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatrix& E0,
                                     const ExtendedMatrix& E1, bool only_largest = false);
 
+/// Matrices of more rows are not formed with their entries where they are structured.
+inline constexpr Index most_entries = 4000;
+
 /// Orthonormal columns of a fixed, irregular kind to start iterations from.
 Matrix irregular_columns(Index rows, Index columns);
 Matrix orthonormal(const Matrix& columns);

@@ -113,6 +113,10 @@ Tangents tangents_of_piece(const Walker& walker, const CurvePoint& at, bool on_s
   if (walker.problem.structured())
     if (auto tangent = regular_tangent(walker, at, full_rank))
       return {.list = {std::move(*tangent)}, .accuracy = 1e-9};
+  if (walker.problem.structured() && at.x.size() > most_entries)
+    return {.why =
+                "more than one curve, or none, passes through this point, which has too many "
+                "unknowns to look at their directions"};
   Linearisation linear;
   if (!linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear))
     return {.why = "derivatives are not defined here"};
