@@ -36,8 +36,7 @@ void PathProblem::put_basis(const Vector& y) const {
     const Index plain = own.cols() - (turning != nullptr ? 3 : 0);
     basis_.block(row, column, body.count, plain) = own.leftCols(plain);
     if (turning != nullptr)
-      basis_.block<3, 4>(turning->z - first, column + plain) =
-          rate_of(y.segment<4>(turning->y));
+      basis_.block<3, 4>(turning->z - first, column + plain) = rate_of(y.segment<4>(turning->y));
     column += plain + (turning != nullptr ? 4 : 0);
   }
 }

@@ -124,8 +124,7 @@ TEST(PathInStages, IsNotTakenForShortChains) {
 
 TEST(PathInStages, MatricesOutliveTheNextEvaluation) {
   std::mt19937 random(34);
-  const statics::System system =
-      long_chains(random, false, {TaskSpace::planar}, {{0, 1}, {0, 1}});
+  const statics::System system = long_chains(random, false, {TaskSpace::planar}, {{0, 1}, {0, 1}});
   const PathProblem problem(system, rule_for(random, system, 3));
   const Vector y = state(random, problem), v = random_vector(random, problem.size(), 1);
   const Piece piece = piece_at(system, problem.local(y, 0));
