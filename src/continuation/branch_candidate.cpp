@@ -105,7 +105,7 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
     }
     found.off = std::max({found.off, exact->misfit, std::abs(offset.along), offset.aside});
   }
-  if (!(place.doubt <= merged)) return false;
+  if (!(place.doubt <= merged) || found.off > poor) return false;
   const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
   const double beside = left();
   polish(arc, found.point, m);

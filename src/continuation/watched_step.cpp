@@ -236,7 +236,8 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
       });
       candidate.odd = candidate.odd != (turned || candidate.turns);
       const bool twice = std::any_of(found.begin(), found.end(), [&](const Candidate& other) {
-        return std::abs(other.at - candidate.at) < 0.1 * merged;
+        return std::abs(other.at - candidate.at) <
+               std::max(0.1 * merged, 10 * (other.off + candidate.off));
       });
       if (twice) return false;
       found.push_back(std::move(candidate));
