@@ -70,11 +70,14 @@ void floor_of_a_point(benchmark::State& state) {
 }
 BENCHMARK(floor_of_a_point)->Unit(benchmark::kMicrosecond);
 
-/// A trace of a thousand points with limit points, branch points, counts and evidence; the counter
-/// per_point is to be compared with the floor.
+/// A trace of a thousand points with limit points, branch points and counts; the counter per_point is to be
+/// compared with the floor.
+/// @param verified  every step is examined for a jump to another branch as well
+template <bool verified>
 void accepted_point(benchmark::State& state) {
   const Walk walk;
   continuation::TraceOptions options;
+  options.verify = verified;
   options.step.initial = options.step.maximum = step;
   options.maximum_points = 1000;
   double points = 0;
@@ -84,6 +87,7 @@ void accepted_point(benchmark::State& state) {
                                       .points.size());
   state.counters["per_point"] = Counter(points, Counter::kIsRate | Counter::kInvert);
 }
-BENCHMARK(accepted_point)->Unit(benchmark::kMillisecond);
+BENCHMARK(accepted_point<false>)->Unit(benchmark::kMillisecond);
+BENCHMARK(accepted_point<true>)->Unit(benchmark::kMillisecond);
 
 }  // namespace
