@@ -19,10 +19,12 @@ const Evaluator::Assembled* Evaluator::assemble_in_stages(
   at.staged = stiffness_in_stages(system, *stages_, A, problem_.rule().body);
   at.platform = at.staged.condensed.platform;
   at.stability = at.staged.condensed.stability;
-  if (!at.stability.pose_controlled && at.platform.K.size() > 0) {
-    // K is singular. With springs on the bodies that are stiff enough only unstable chains are counted.
-    const Matrix& K = at.platform.K;
-    const Matrix springs = 4 * std::max(K.norm(), 1e-3) * Matrix::Identity(K.rows(), K.cols());
+  if (!at.stability.pose_controlled) {
+    // K is singular, or a chain rigid. With stiff springs on the bodies only unstable chains are counted.
+    constexpr double stiff = 1e6;
+    const Index n = system.load_size;
+    const double stiffness = std::max(stiff * A.largest, 4 * at.platform.K.norm());
+    const Matrix springs = stiffness * Matrix::Identity(n, n);
     if (!stages_->matrix(system, point.piece, at.z, at.inputs, {}, springs, at.r, A))
       return nullptr;
     const auto inertia = A.inertia();

@@ -13,6 +13,10 @@ namespace {
 /// Eigenvalues below this share of the largest entry are rounding.
 constexpr double rounding = 1e-13;
 
+/// Beside the largest entries of A a stiffness like this is that of a rigid chain, blurred by rounding: a
+/// straight one gives way along itself with the square of its bend.
+constexpr double rigidity = 1e12;
+
 Vector eigenvalues(const Matrix& K) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(K, Eigen::EigenvaluesOnly).eigenvalues();
 }
@@ -70,8 +74,9 @@ StagedStiffness stiffness_in_stages(const System& system, const StageJacobians& 
   const bool regular = inertia && inertia->zero == 0;
   if (regular)
     result.condensed.stability.force_controlled = inertia->negative - system.closure_count();
-  if (!held) {
-    by_compliance(system, A, body, result);
+  const bool rigid = !held || !(X.bottomRows(nt).cwiseAbs().maxCoeff() < rigidity * A.largest);
+  if (rigid) {
+    if (regular) by_compliance(system, A, body, result);
     return result;
   }
   const Matrix K = symmetric_part(-X.bottomRows(nt));
