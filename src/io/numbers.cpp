@@ -10,7 +10,7 @@ namespace springfold::io {
 namespace {
 
 constexpr double largest_whole = 9007199254740992.0;  // 2^53: every whole number below is exact
-constexpr double largest_count = 1e6, most_segments = 200;
+constexpr double largest_count = 1e6, most_segments = 5000;
 
 bool holds(Range range, double value) {
   const bool whole = std::floor(value) == value && value <= largest_whole;
@@ -52,7 +52,7 @@ std::string range_in_words(Range range) {
     case Range::small_count:
       return "a whole number from 1 to 1000000";
     case Range::segment_count:
-      return "a whole number from 1 to 200";
+      return "a whole number from 1 to 5000";
   }
   return "a number";
 }

@@ -152,10 +152,10 @@ TEST_F(ElasticLinks, SayWhatIsWrongWithTheirKeys) {
               ElementsAre(HasSubstr("the inner diameter must be smaller than diameter")));
   EXPECT_THAT(about(replaced(round_beam, "E = 7e10", "E = 7e10, A = 1")),
               ElementsAre(HasSubstr(".A: either section or A, not both")));
-  EXPECT_THAT(about(replaced(round_beam, "length = 0.3", "length = 0.3, segments = 201")),
-              ElementsAre(HasSubstr(".segments: got 201, need a whole number from 1 to 200")));
+  EXPECT_THAT(about(replaced(round_beam, "length = 0.3", "length = 0.3, segments = 5001")),
+              ElementsAre(HasSubstr(".segments: got 5001, need a whole number from 1 to 5000")));
   EXPECT_THAT(about(replaced(round_beam, "length = 0.3", "length = 0.3, segments = 1.5")),
-              ElementsAre(HasSubstr(".segments: got 1.5, need a whole number from 1 to 200")));
+              ElementsAre(HasSubstr(".segments: got 1.5, need a whole number from 1 to 5000")));
   EXPECT_THAT(
       about(replaced(round_beam, "length = 0.3", R"(length = 0.3, directions = ["Rz", "Tx"])")),
       ElementsAre(HasSubstr(".directions[2]: got \"Tx\", need a list of")));
