@@ -124,7 +124,8 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   }
   if (zeros.size() > 1) return {};
   const bool touches = zeros.front().touches;
-  if (touches && most > 1 && vanishing_modes(arc, most, zeros.front()) > 1) return {};
+  // Of several modes one must be seen to vanish alone.
+  if (touches && most > 1 && vanishing_modes(arc, most, zeros.front()) != 1) return {};
   const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
   if (places.size() == 1)
     add(places.front(), 1, false);
