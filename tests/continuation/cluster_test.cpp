@@ -79,14 +79,13 @@ TEST(Cluster, IsAnIntervalAroundItsPoints) {
 }
 
 TEST(CloseCall, EigenvaluesThatTurnBackTogetherJustBeforeZeroAreNoTouch) {
-  for (double off = 1e-2; off > 5e-15; off /= 10)
-    for (const double unit : {1.0, 0.07, 0.03}) {
-      constexpr double share = 3.3;
+  for (double off = 3.3e-2; off > 1e-14; off /= 10)
+    for (const auto& [unit, share] : {std::pair(1.0, 1.0), {0.07, 1.0}, {0.03, 1.0}, {1.0, 0.5}}) {
       const Curve curve = nearly_degenerate(-share * off, unit).pushed_down();
       ASSERT_EQ(curve.stop, StopReason::event) << share * off << ": " << curve.stop_detail;
       ASSERT_EQ(curve.hits.size(), 2u) << share * off;
       EXPECT_TRUE(curve.hits[0].kind == HitKind::limit_point ||
-                  (off < 5e-9 && curve.hits[0].kind == HitKind::unresolved))
+                  (share * off < 2e-8 && curve.hits[0].kind == HitKind::unresolved))
           << share * off;
     }
 }
