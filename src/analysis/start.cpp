@@ -113,9 +113,10 @@ void report_move(const Setup& setup, const Study& study, const statics::StartPro
 StartReport report_of(const statics::FirstEquilibrium& first, const Study& study) {
   StartReport report;
   report.found = first.status == statics::StartStatus::found;
-  report.method = study.start.solver == StartSolver::newton
-                      ? "globalised Newton (KINSOL), then exact Newton"
-                      : "fixed-point iteration of paper eq. (6)";
+  report.method = study.start.solver == StartSolver::fixed_point
+                      ? "fixed-point iteration of paper eq. (6)"
+                  : first.in_stages ? "damped exact Newton, chains in stages"
+                                    : "globalised Newton (KINSOL), then exact Newton";
   if (report.found && first.attempts > 1)
     report.method += ", from a perturbed guess: see whether this is the equilibrium you mean";
   report.attempts = first.attempts;

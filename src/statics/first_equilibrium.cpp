@@ -258,6 +258,7 @@ bool solve_long_chains(const System& system, const StartProblem& problem, Equati
     result.inputs = state.inputs;
     if (!equations.solved(state, 1e-12)) continue;
     result.status = StartStatus::found;
+    result.in_stages = true;
     return true;
   }
   result.attempts = problem.attempts;

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "allocations.hpp"
+#include "springfold/statics/first_equilibrium.hpp"
 #include "staged.hpp"
 
 namespace springfold::statics {
@@ -153,6 +154,44 @@ TEST(Stages, AllocateNothingOnceTheStorageIsThere) {
   EXPECT_GT(allocations, before);  // the counter counts
 }
 #endif
+
+/// Moments in every joint of a cantilever balance the force at its tip.
+void expect_moments(const System& system, const FirstEquilibrium& found, int links) {
+  ASSERT_EQ(found.status, StartStatus::found);
+  EXPECT_TRUE(found.in_stages);
+  const Vector tip = found.z.tail(2), W = found.inputs.W;
+  double x = 0, y = 0, angle = 0;
+  for (int i = 0; i < links; ++i) {
+    const double turn = found.z[system.chain_slices[0].x + i];
+    EXPECT_NEAR(links * turn, (tip[0] - x) * W[1] - (tip[1] - y) * W[0], 1e-11) << "joint " << i;
+    angle += turn;
+    x += std::cos(angle) / links;
+    y += std::sin(angle) / links;
+  }
+  EXPECT_NEAR(x, tip[0], 1e-12);
+  EXPECT_NEAR(y, tip[1], 1e-12);
+}
+
+TEST(LongChains, AreFoundInEquilibriumUnderAForceThatBendsThemFar) {
+  constexpr int links = 400;
+  const System system = prepare(cantilever(links, 1, TaskSpace::xy));
+  for (const Vector& W : {Vector{{0.0, 0.1}}, Vector{{-1.0, 1.0}}, Vector{{0.0, 4.0}}})
+    expect_moments(system,
+                   first_equilibrium(system, {.z = guess(system), .inputs = {system.commands, W}}),
+                   links);
+}
+
+TEST(LongChains, AreHeldAtAGivenPoseByTheWrenchThatIsFound) {
+  constexpr int links = 400;
+  const System system = prepare(cantilever(links, 1, TaskSpace::xy));
+  StartProblem problem{.unknowns = StartUnknowns::wrench, .z = guess(system)};
+  problem.inputs = {system.commands, Vector::Zero(2)};
+  problem.z.tail(2) << 0.8, 0.4;
+  for (int i = 0; i < links; ++i) problem.z[system.chain_slices[0].x + i] = 1.0 / links;
+  const FirstEquilibrium found = first_equilibrium(system, problem);
+  EXPECT_EQ(Vector(found.z.tail(2)), Vector(problem.z.tail(2)));
+  expect_moments(system, found, links);
+}
 
 }  // namespace
 }  // namespace springfold::statics

@@ -39,15 +39,18 @@ struct FirstEquilibrium {
   Piece piece{};
   int attempts = 0;                     ///< tries used
   int iterations = 0;                   ///< of the successful try (or the last one)
+  bool in_stages = false;               ///< found by Newton's method for long chains
   double residual = 0;                  ///< largest entry of the equilibrium residual
   double moved = 0;                     ///< largest change of a coordinate or pose from the guess
   std::vector<int> chain_iterations{};  ///< paper's iteration: of every chain, last sweep
 };
 
-/// Closes the chains by damped minimum-norm Newton steps, at the guessed poses if they reach them,
-/// then solves the equilibrium with KINSOL (Newton with line search, exact matrix), then corrects
-/// to full precision; commands are found by solve_control_globally (kinetostatic_control.hpp). If that fails, again from seeded perturbations of growing size. Dimensionless systems are expected: coordinates of
-/// order one.
+/// Closes the chains by damped minimum-norm Newton steps, at the guessed poses if they reach them, then
+/// solves the equilibrium with KINSOL (Newton with line search, exact matrix), then corrects to full
+/// precision. Systems with long chains are tried by damped Newton steps in stages first, and by nothing else
+/// where they have more than 3,000 unknowns. Commands are found by solve_control_globally
+/// (kinetostatic_control.hpp). If that fails, again from seeded perturbations of growing size. Dimensionless
+/// systems are expected: coordinates of order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
 /// One chain at a given pose by the paper's fixed-point iteration, eq. (6), with the sign of the
