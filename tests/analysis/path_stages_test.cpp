@@ -109,7 +109,7 @@ TEST(PathInStages, HasTheResidualOfThePathWithEntries) {
     ASSERT_TRUE(equilibrium_residual(problem.turned(y, -0.3), piece, problem.local(y, -0.3),
                                      problem.inputs(-0.3), work, dense));
     const Index first = system.first_pose;
-    EXPECT_LT((in_stages - dense).head(first).cwiseAbs().maxCoeff(),
+    EXPECT_LT((in_stages.head(first) - dense.head(first)).cwiseAbs().maxCoeff(),
               1e-11 * (1 + dense.cwiseAbs().maxCoeff()));
   }
 }
