@@ -2,7 +2,7 @@
 # springfold beside AUTO-07p: scripts/bench-peers.sh [--quick]. Installs AUTO-07p and gfortran if they
 # are missing (Debian packages, root or sudo), compiles our equation files, runs both programs on the
 # same curves in alternation and prints medians, ratios and which of the wanted ones hold. Exit code 0
-# only if all hold. A few minutes; --quick about one, with fewer repetitions and shorter columns. docs/performance.md says what is measured.
+# only if all hold. A few minutes; --quick one or two, with fewer repetitions and columns. docs/performance.md says what is measured.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
