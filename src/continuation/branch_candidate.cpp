@@ -106,6 +106,10 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
     found.off = std::max({found.off, exact->misfit, std::abs(offset.along), offset.aside});
   }
   if (!(place.doubt <= merged) || found.off > poor) return false;
+  // A branch point somewhat farther away says that rounding has shaped the interpolants.
+  constexpr double farther = 1e-3;
+  const auto other = place_branch_point(arc.walker(), found.point, corank, farther);
+  if (other && other->misfit <= merged && other->off <= poor) return false;
   const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
   const double beside = left();
   polish(arc, found.point, m);
