@@ -55,8 +55,10 @@ def tasks_at(c, problem, folder, length, links, alive):
             "run": lambda p: c.program.trace(problem, spaced, LONG_STEP, p, limit=c.limit,
                                              spacing=step)}
     few = {"AUTO": 20, "AUTO default": 20, "springfold": 20, "spacing": 2, "run": 2}
-    return few, {"run": spaced, "AUTO": folder, "AUTO default": own_folder}, {(name, points): lambda n=name, p=points: ways[n](p)
-                         for name in ways if name in alive for points in (few[name], 1000)}
+    folders = {"run": spaced, "AUTO": folder, "AUTO default": own_folder}
+    tasks = {(name, points): lambda n=name, p=points: ways[n](p)
+             for name in ways if name in alive for points in (few[name], 1000)}
+    return few, folders, tasks
 
 
 def column_at(c, links, problem, folder, length, alive):

@@ -18,11 +18,7 @@ struct FlatLadder {
 
   static Index size() { return n; }
   static bool symmetric() { return true; }
-  static Matrix mirror() {
-    Vector v(n);
-    for (Index i = 0; i < n; ++i) v[i] = 1 + 0.3 * std::cos(2.0 * static_cast<double>(i));
-    return Matrix::Identity(n, n) - 2 / v.squaredNorm() * v * v.transpose();
-  }
+  static Matrix mirror() { return mirrored(n); }
   double slope(double z) const {
     double value = c;
     for (const double place : a) value *= z - place;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "problems.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -16,6 +17,13 @@ struct StartPoint {
   Piece piece{};
   Direction towards{};  ///< of the two ways the one nearer to this is taken
 };
+
+/// Reflection at a plane askew to all axes: mixes n unknowns and leaves the curves as they are.
+inline Matrix mirrored(Index n) {
+  Vector v(n);
+  for (Index i = 0; i < n; ++i) v[i] = 1 + 0.3 * std::cos(2.0 * static_cast<double>(i));
+  return Matrix::Identity(n, n) - 2 / v.squaredNorm() * v * v.transpose();
+}
 
 /// Start of a scalar problem.
 inline StartPoint at(double x, double lambda, double dx, double dlambda, Piece piece = {}) {

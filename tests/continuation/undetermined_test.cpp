@@ -17,11 +17,7 @@ struct FlatCrossings {
   static constexpr Index n = 6;
   static Index size() { return n; }
   static bool symmetric() { return true; }
-  static Matrix mirror() {
-    Vector v(n);
-    for (Index i = 0; i < n; ++i) v[i] = 1 + 0.3 * std::cos(2.0 * static_cast<double>(i));
-    return Matrix::Identity(n, n) - 2 / v.squaredNorm() * v * v.transpose();
-  }
+  static Matrix mirror() { return mirrored(n); }
   /// e and its first two derivatives.
   Vector e(double x) const {
     Vector value{{c, 0, 0}};
