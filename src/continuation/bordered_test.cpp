@@ -1,26 +1,25 @@
 #include "bordered_test.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "small_lu.hpp"
 #include "springfold/core/finite.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
-using OnStack = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, SmallLu::largest, 1>;
-
 /// Is the spectral radius of a matrix X >= 0 of n rows below 1/2? times(d, Xd) puts X d into Xd.
-template <class V, class Times>
-bool is_small(Index n, const Times& times) {
-  V d = V::Ones(n), Xd(n);
+template <class Times>
+bool is_small(Vector& d, Vector& Xd, const Times& times) {
+  d.setOnes();
   for (int i = 0; i < 8; ++i) {
-    times(d, Xd);
+    times();
     if ((Xd.array() / d.array()).maxCoeff() < 0.5) return true;
     const double largest = Xd.maxCoeff();
     if (!(largest > 0)) return true;
@@ -29,49 +28,66 @@ bool is_small(Index n, const Times& times) {
   return false;
 }
 
-template <class V>
-bool is_small(const Matrix& X) {
-  return X.allFinite() && is_small<V>(X.rows(), [&](const V& d, V& Xd) { Xd.noalias() = X * d; });
-}
-
-/// surely_regular() with few unknowns. |E0^-1| |E - E0| is no smaller than |E0^-1 (E - E0)| and takes one inverse
-/// for all E, which nearly always is enough.
-bool surely_regular(const SmallLu& lu, const std::vector<ExtendedMatrix>& E, const Matrix& E0) {
-  const Index n = E0.rows();
-  if (!(lu.smallest_pivot() > 0)) return false;
-  Matrix inverse = Matrix::Identity(n, n), motion = Matrix::Zero(n, n);
-  lu.solve(inverse);
-  inverse = inverse.cwiseAbs();
-  for (const ExtendedMatrix& other : E) motion = motion.cwiseMax((other.dense - E0).cwiseAbs());
-  OnStack moved(n);
-  const auto bound = [&](const OnStack& d, OnStack& Xd) {
+/// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
+/// is enough. The last rows are the same: nothing moves there.
+bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place* const> others) {
+  const Index n = middle.x.size();
+  Matrix &inverse = memory.inverse, &motion = memory.motion;
+  Vector &d = memory.sizes, &Xd = memory.step, &moved = memory.F;
+  middle.factors.invert(inverse);
+  if (!all_finite(inverse)) return false;
+  motion.setZero(n, n + 1);
+  for (const Place* other : others) {
+    motion.leftCols(n) =
+        motion.leftCols(n).cwiseMax((other->at.dF_dx - middle.at.dF_dx).cwiseAbs());
+    motion.col(n) = motion.col(n).cwiseMax((other->at.dF_dlambda - middle.at.dF_dlambda).cwiseAbs());
+  }
+  d.resize(n + 1);
+  Xd.resize(n + 1);
+  moved.resize(n);
+  const auto bound = [&] {
     moved.noalias() = motion * d;
-    Xd.noalias() = inverse * moved;
+    Xd.setZero();
+    for (Index j = 0; j < n; ++j) Xd.array() += moved[j] * inverse.col(j).array().abs();
   };
-  if (all_finite(inverse) && all_finite(motion) && is_small<OnStack>(n, bound)) return true;
-  for (const ExtendedMatrix& other : E) {
-    Matrix X = other.dense - E0;
-    lu.solve(X);
-    if (!is_small<OnStack>(Matrix(X.cwiseAbs()))) return false;
+  if (is_small(d, Xd, bound)) return true;
+  Matrix difference(n, n + 1), X(n + 1, n + 1);
+  for (const Place* other : others) {
+    difference << other->at.dF_dx - middle.at.dF_dx, other->at.dF_dlambda - middle.at.dF_dlambda;
+    X = (inverse.leftCols(n) * difference).cwiseAbs();
+    if (!X.allFinite() || !is_small(d, Xd, [&] { Xd.noalias() = X * d; })) return false;
   }
   return true;
 }
 
 }  // namespace
 
-bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
-  const ExtendedMatrix& E0 = E[middle];
-  if (E0.at.structured) {
+bool surely_regular(const Walker& walker, const Direction& tau, Samples samples) {
+  constexpr std::size_t most = 3;
+  assert(samples.size() <= most);
+  const std::size_t count = samples.size(), middle = count / 2;
+  std::array<Place*, most> places{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const CurvePoint& p = *samples[i];
+    places[i] = place_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
+    if (!places[i]) return false;
+  }
+  if (places[middle]->at.structured) {
     constexpr double safely = 1.0 / 3;
-    for (std::size_t i = 0; i < E.size(); ++i)
-      if (i != middle && !(relative_motion(E0, E0, E[i], true).front() < safely)) return false;
+    const auto matrix = [&](std::size_t i) {
+      return extended_matrix(places[i]->at, walker.weights, tau);
+    };
+    const ExtendedMatrix E0 = matrix(middle);
+    for (std::size_t i = 0; i < count; ++i)
+      if (i != middle && !(relative_motion(E0, E0, matrix(i), true).front() < safely)) return false;
     return true;
   }
-  if (SmallLu::fits(E0.rows())) return surely_regular(SmallLu(E0.dense), E, E0.dense);
-  const Eigen::PartialPivLU<Matrix> lu(E0.dense);
-  for (std::size_t i = 0; i < E.size(); ++i)
-    if (i != middle && !is_small<Vector>(lu.solve(E[i].dense - E0.dense).cwiseAbs())) return false;
-  return true;
+  if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
+  std::array<const Place*, most> others{};
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (i != middle) others[number++] = places[i];
+  return surely_regular(*walker.memory, *places[middle], std::span(others).first(number));
 }
 
 Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle) {

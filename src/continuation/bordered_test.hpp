@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "extended.hpp"
+#include "samples.hpp"
+#include "springfold/continuation/step.hpp"
 
 namespace springfold::continuation {
 
-/// False if a matrix that moves from E0 = E[middle] to one of the others may become singular on the way.
-/// With X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if the spectral radius of |X| is
-/// below 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and Wielandt). A factor of
-/// two is left for motion that is not straight. Of a structured E the radius itself is estimated, with a
-/// factor of three.
-bool surely_regular(const std::vector<ExtendedMatrix>& E, std::size_t middle);
+/// False if the extended matrix with the last row tau, moving from the middle sample E0 to one of the others, E1, may
+/// become singular on the way, or is not defined. With X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if the
+/// spectral radius of |X| is below 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and Wielandt). A factor
+/// of two is left for motion that is not straight. Of a structured E the radius itself is estimated, with a factor of three.
+bool surely_regular(const Walker& walker, const Direction& tau, Samples samples);
 
 /// Can all of E be singular between these matrices?
 struct Reach {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "samples.hpp"
 #include "springfold/continuation/step.hpp"
 
 namespace springfold::continuation {
@@ -15,6 +16,6 @@ namespace springfold::continuation {
 /// eigenvalues.
 /// @param samples  the step's ends and its middle, in order; all on one piece
 std::optional<Hit> cluster_on_step(const Walker& walker,
-                                   const std::vector<const CurvePoint*>& samples);
+                                   Samples samples);
 
 }  // namespace springfold::continuation

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "springfold/continuation/locate.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 
@@ -14,22 +15,42 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
   return signs;
 }
 
+namespace {
+
+/// The memory with what the problem says of itself.
+WorkingMemory& informed(const Walker& walker) {
+  WorkingMemory& memory = *walker.memory;
+  if (!memory.asked) {
+    memory.periods = walker.problem.periods();
+    memory.double_covers = walker.problem.double_covers();
+    memory.asked = true;
+  }
+  return memory;
+}
+
+void set_between(const Walker& walker, const CurvePoint& a, const CurvePoint& b, Direction& d) {
+  const WorkingMemory& memory = informed(walker);
+  d.dx = b.x;
+  d.dlambda = b.lambda - a.lambda;
+  if (!memory.double_covers.empty())
+    d.dx.array() *= nearest_signs(memory.double_covers, b.x, a.x).array();
+  d.dx -= a.x;
+  for (Index i = 0; i < d.dx.size(); ++i)
+    if (memory.periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], memory.periods[i]);
+}
+
+}  // namespace
+
 Direction direction_seen_from(const Walker& walker, const Vector& near, const CurvePoint& point) {
   Direction direction = point.tangent;
-  const auto covers = walker.problem.double_covers();
-  if (!covers.empty())
-    direction.dx = direction.dx.cwiseProduct(nearest_signs(covers, point.x, near)).eval();
+  const auto& covers = informed(walker).double_covers;
+  if (!covers.empty()) direction.dx.array() *= nearest_signs(covers, point.x, near).array();
   return direction;
 }
 
 Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
-  Direction d{b.x, b.lambda - a.lambda};
-  const auto covers = walker.problem.double_covers();
-  if (!covers.empty()) d.dx = d.dx.cwiseProduct(nearest_signs(covers, b.x, a.x)).eval();
-  d.dx -= a.x;
-  const Vector periods = walker.problem.periods();
-  for (Index i = 0; i < d.dx.size(); ++i)
-    if (periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], periods[i]);
+  Direction d;
+  set_between(walker, a, b, d);
   return d;
 }
 
@@ -51,7 +72,8 @@ bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to) {
   if (target.piece != from.piece) return std::nullopt;
-  const Direction offset = between(walker, from, target);
+  Direction& offset = walker.memory->direction;
+  set_between(walker, from, target, offset);
   const double h = to.s - from.s;
   const double along = metric_product(walker.weights, offset, from.tangent);
   // The curve bends away from its tangent by no more than a fraction of the step.

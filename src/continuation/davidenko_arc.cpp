@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "working_memory.hpp"
+
 namespace springfold::continuation {
 namespace {
 
@@ -81,8 +83,11 @@ std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, dou
   const Index n = u.size() - 1;
   const auto border = flow_at(walker, u, arc.from);
   if (!border) return std::nullopt;
-  const NewtonResult newton = correct(walker.problem, walker.weights, u.head(n), u[n],
-                                      arc.from.piece, *border, walker.options.newton);
+  NewtonResult& newton = walker.memory->newton;
+  newton.x = u.head(n);
+  newton.lambda = u[n];
+  correct(walker.problem, walker.weights, arc.from.piece, *border, walker.options.newton,
+          *walker.memory);
   if (!converged(newton)) return std::nullopt;
   Vector v(n + 1);
   v << newton.x, newton.lambda;

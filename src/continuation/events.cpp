@@ -1,6 +1,8 @@
 #include "events.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
 #include "chebyshev.hpp"
@@ -47,15 +49,17 @@ std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePo
 
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
-bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& samples,
+bool add_user_event(const Walker& walker, Samples samples,
                     const Event& event, std::vector<Found>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
-  std::vector<double> values;
+  std::array<double, 3> storage{};
+  assert(samples.size() <= storage.size());
+  const std::span values(storage.data(), samples.size());
   double scale = 0;
-  for (const CurvePoint* sample : samples) {
-    values.push_back(event.value(*sample));
-    scale = std::max(scale, std::abs(values.back()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    values[i] = event.value(*samples[i]);
+    scale = std::max(scale, std::abs(values[i]));
   }
   if (!within_reach(values)) return true;
   // At the ends the very values that the neighbouring steps see: a sign must not change in between.
@@ -93,11 +97,8 @@ bool add_user_event(const Walker& walker, const std::vector<const CurvePoint*>& 
 }  // namespace
 
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const std::optional<CurvePoint>& middle,
-                          const std::vector<Event>& events) {
-  std::vector<const CurvePoint*> samples{&from};
-  if (middle && middle->s < to.s) samples.push_back(&*middle);
-  samples.push_back(&to);
+                          const CurvePoint* middle, const std::vector<Event>& events) {
+  const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
 
   StepEvents result;
   SingularPoints singular = singular_points(walker, samples);

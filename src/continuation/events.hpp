@@ -19,9 +19,9 @@ struct StepEvents {
   bool flat = false;  ///< with a doubt: lambda stands still to rounding; shorter steps do not help
 };
 
-/// @param middle  the curve's point half-way, or empty: then only the ends are compared
+/// @param middle  the curve's point half-way, or nullptr: then only the ends are compared
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const std::optional<CurvePoint>& middle,
+                          const CurvePoint* middle,
                           const std::vector<Event>& events);
 
 }  // namespace springfold::continuation

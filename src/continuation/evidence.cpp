@@ -7,6 +7,7 @@
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "words.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -22,7 +23,7 @@ double residual_limit(double t) {
 std::string residual_doubt(const Walker& walker, const CurvePoint& from, double ds) {
   constexpr double noise = 1e-12;
   constexpr int parts = 8;
-  Vector &F = walker.storage.F, &x = walker.storage.x;
+  Vector &F = walker.memory->F, &x = walker.memory->x;
   const auto size_at = [&](double t) {
     const double d = t * ds;
     x = from.x + d * from.tangent.dx;
@@ -86,18 +87,13 @@ double corrector_noise(const Walker& walker, const CurvePoint& point) {
 
 }  // namespace
 
-Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
+std::string examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                    CurvePoint& middle) {
   const double ds = to.s - from.s;
-  Evidence evidence;
-  evidence.doubt = residual_doubt(walker, from, ds);
-  if (!evidence.doubt.empty()) return evidence;
-  evidence.middle = point_at(walker, from, 0.5 * ds);
-  if (!evidence.middle) {
-    evidence.doubt = "no point of the curve found half-way";
-    return evidence;
-  }
-  const CurvePoint& middle = *evidence.middle;
-  Direction d;
+  std::string doubt = residual_doubt(walker, from, ds);
+  if (!doubt.empty()) return doubt;
+  if (!find_point_at(walker, from, 0.5 * ds, middle)) return "no point of the curve found half-way";
+  Direction& d = walker.memory->direction;
   const auto bend = [&](const CurvePoint& p) {
     const double along = p.s - from.s;
     d.dx = p.x - from.x - along * from.tangent.dx;
@@ -113,12 +109,20 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
   const double size = std::max(bend(middle), 0.25 * bend(to));
   const double off = off_cubic(walker, from, to, middle, d);
   if (exceeds(off, share * size))
-    evidence.doubt = "the point half-way is " + rounded(off / ds) +
-                     " steps off the cubic through both ends: another branch may be near";
+    return "the point half-way is " + rounded(off / ds) +
+           " steps off the cubic through both ends: another branch may be near";
   const double left = off_integral(walker, from, to, middle, d);
-  if (evidence.doubt.empty() && exceeds(left, smaller_share * size))
-    evidence.doubt = "the end is " + rounded(left / ds) +
-                     " steps from where the tangents lead: another branch may be near";
+  if (exceeds(left, smaller_share * size))
+    return "the end is " + rounded(left / ds) +
+           " steps from where the tangents lead: another branch may be near";
+  return {};
+}
+
+Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
+  Evidence evidence;
+  CurvePoint middle;
+  evidence.doubt = examine(walker, from, to, middle);
+  if (middle.tangent.dx.size() > 0) evidence.middle = std::move(middle);
   return evidence;
 }
 

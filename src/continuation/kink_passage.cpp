@@ -11,6 +11,7 @@
 #include "kink_rays.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "springfold/core/inertia.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -64,9 +65,10 @@ bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
   if (rate > (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical)) return false;
-  Linearisation at;
-  if (seen || !linearise(walker.problem, from.x, from.lambda, from.piece, at)) return true;
-  const double noise = rate_noise(extended_matrix(at, walker.weights, from.tangent));
+  if (seen) return true;
+  const Place* at = place_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
+  if (!at) return true;
+  const double noise = rate_noise(extended_matrix(at->at, walker.weights, from.tangent));
   return rate <= clear_of_rounding * noise && !widened(walker, from, to, noise);
 }
 
@@ -119,8 +121,7 @@ Walker without_special_points(const Walker& walker) {
 }
 
 StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoint& to,
-                         const std::optional<CurvePoint>& middle, const std::vector<Event>& events,
-                         Curve& curve) {
+                         const CurvePoint* middle, const std::vector<Event>& events, Curve& curve) {
   to.negative.reset();
   StepEvents found = events_on_step(without_special_points(walker), from, to, middle, events);
   const auto before = other_negatives(walker, from), after = other_negatives(walker, to);
@@ -135,7 +136,7 @@ StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoin
 /// Special points between `from` and `to`, just before a kink at kink_s that may itself be special.
 /// A search also sees what lies just beyond its own end: each one stops at a twentieth of what is left.
 StepEvents special_points(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          double kink_s, const std::optional<CurvePoint>& middle) {
+                          double kink_s, const CurvePoint* middle) {
   if (to.s >= kink_s) return events_on_step(walker, from, to, middle, {});
   StepEvents all;
   CurvePoint start = from;
@@ -146,7 +147,7 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
       all.doubt = "the curve could not be followed up to a kink";
       return all;
     }
-    StepEvents part = events_on_step(walker, start, *next, std::nullopt, {});
+    StepEvents part = events_on_step(walker, start, *next, nullptr, {});
     all.hits.insert(all.hits.end(), part.hits.begin(), part.hits.end());
     all.stops.insert(all.stops.end(), part.stops.begin(), part.stops.end());
     if (all.doubt.empty() && !part.doubt.empty()) {
@@ -162,13 +163,11 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
 /// Special points between the bounds, events of the caller on the whole step.
 StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                           const CurvePoint& end, const CurvePoint& begin,
-                          const std::optional<CurvePoint>& middle,
-                          const std::vector<Event>& events) {
+                          const CurvePoint* middle, const std::vector<Event>& events) {
   StepEvents found = events_on_step(without_special_points(walker), begin, end, middle, events);
   if (!(to.s > from.s)) return found;
-  std::optional<CurvePoint> inside = middle;
-  if (inside && !(inside->s > from.s && inside->s < to.s)) inside.reset();
-  StepEvents special = special_points(walker, from, to, end.s, inside);
+  const bool inside = middle && middle->s > from.s && middle->s < to.s;
+  StepEvents special = special_points(walker, from, to, end.s, inside ? middle : nullptr);
   for (std::size_t i = 0; i < special.hits.size(); ++i) {
     const auto after = std::find_if(found.hits.begin(), found.hits.end(), [&](const Hit& hit) {
       return hit.point.s > special.hits[i].point.s;
@@ -327,7 +326,7 @@ void settle_families(Curve& curve) {
 }
 
 StepEvents passage_events(const Walker& walker, const Progress& progress, const KinkSearch& kink,
-                          CurvePoint& end, const std::optional<CurvePoint>& middle,
+                          CurvePoint& end, const CurvePoint* middle,
                           const std::vector<Event>& events, Curve& curve) {
   const CurvePoint& begin = progress.here;
   const double length = end.s - begin.s;
@@ -336,27 +335,26 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
     curve.log.push_back(
         {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
   const bool seen = progress.flat || open_family(begin, curve) != nullptr;
-  if (stands_still(walker, begin, inside ? &*middle : nullptr, end, seen))
+  if (stands_still(walker, begin, inside ? middle : nullptr, end, seen))
     return family_events(walker, begin, end, middle, events, curve);
-  Beside from{begin}, to{end};
+  std::optional<Beside> from, to;  // where they are not the ends of the step
   if (progress.clear_of > begin.s) {
     const auto clear = point_at(walker, begin, std::min(progress.clear_of - begin.s, length));
-    from = {clear ? *clear : end, 0, true};
+    from = Beside{clear ? *clear : end, 0, true};
   }
   if (kink.status == KinkSearch::Status::found) {
     to = beside(walker, end, -1, length);
-    if (to.sense == 0) to = {begin, 0, true};  // too flat and short for anything
+    if (to->sense == 0) to = Beside{begin, 0, true};  // too flat and short for anything
   }
-  StepEvents found = from.moved || to.moved
-                         ? events_between(walker, from.point, to.point, end, begin, middle, events)
+  const CurvePoint &first = from ? from->point : begin, &last = to ? to->point : end;
+  StepEvents found = from || (to && to->moved)
+                         ? events_between(walker, first, last, end, begin, middle, events)
                          : events_on_step(walker, begin, end, middle, events);
   const std::vector<Index> resting = resting_switches(walker, begin, end);
   if (resting.empty()) return found;
   if (!progress.left.empty()) note_resting(walker, begin, resting, curve.log);
-  std::vector<const CurvePoint*> samples{&from.point};
-  if (inside) samples.push_back(&*middle);
-  samples.push_back(&to.point);
-  add_half_branches(walker, samples, resting, found, curve);
+  add_half_branches(walker, StepSamples(first, inside ? middle : nullptr, last), resting, found,
+                    curve);
   return found;
 }
 

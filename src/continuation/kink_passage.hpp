@@ -47,9 +47,10 @@ void settle_families(Curve& curve);
 ///  - where switches rest on their surfaces, zeros of the eigenvalues in all pieces beside them, and
 ///    the branches that leave there to one side (half-branches).
 /// @param kink  what first_kink() said of this step
+/// @param middle  the curve's point half-way, or nullptr
 /// @param end   its number of negative eigenvalues is taken away within a family
 StepEvents passage_events(const Walker& walker, const Progress& progress, const KinkSearch& kink,
-                          CurvePoint& end, const std::optional<CurvePoint>& middle,
+                          CurvePoint& end, const CurvePoint* middle,
                           const std::vector<Event>& events, Curve& curve);
 
 }  // namespace springfold::continuation

@@ -6,6 +6,7 @@
 #include "kink_rays.hpp"
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "working_memory.hpp"
 #include "zeros.hpp"
 
 namespace springfold::continuation {
@@ -24,11 +25,11 @@ struct Watched {
   double noise = 0;  ///< values below this are rounding of the corrected points
 
   std::optional<double> value(double ds) const {
-    const auto point = point_at(walker, from, ds);
-    return point ? value(*point) : std::nullopt;
+    CurvePoint& point = walker.memory->trial;
+    return find_point_at(walker, from, ds, point) ? value(point) : std::nullopt;
   }
   std::optional<double> value(const CurvePoint& p) const {
-    Vector g;
+    Vector& g = walker.memory->g;
     if (!walker.problem.switches(p.x, p.lambda, g)) return std::nullopt;
     return side * g[j];
   }
@@ -229,25 +230,35 @@ double largest(const CurvePoint& p) {
 
 }  // namespace
 
+namespace {
+
+bool read_switches(const Walker& walker, const CurvePoint& p, WorkingMemory::Switches& at) {
+  return walker.problem.switches(p.x, p.lambda, at.g) &&
+         walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
+}
+
+double rate_along(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+  return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
+}
+
+}  // namespace
+
 std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
                                     const CurvePoint& to) {
   std::vector<Index> resting;
-  Vector g0, g1, dl0, dl1;
-  Matrix dg0, dg1;
+  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
   if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
-      !walker.problem.switches(from.x, from.lambda, g0) ||
-      !walker.problem.switches(to.x, to.lambda, g1))
+      !walker.problem.switches(from.x, from.lambda, first.g) ||
+      !walker.problem.switches(to.x, to.lambda, last.g))
     return resting;
   std::vector<Index> candidates;
-  for (Index j = 0; j < g0.size(); ++j)
-    if (std::max(std::abs(g0[j]), std::abs(g1[j])) <= walker.options.simultaneous)
+  for (Index j = 0; j < first.g.size(); ++j)
+    if (std::max(std::abs(first.g[j]), std::abs(last.g[j])) <= walker.options.simultaneous)
       candidates.push_back(j);
-  if (candidates.empty() || !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
-      !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
+  if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
     return resting;
   for (const Index j : candidates) {
-    if (std::max(std::abs(switch_rate(dg0, dl0, j, from.tangent)),
-                 std::abs(switch_rate(dg1, dl1, j, to.tangent))) > flat)
+    if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) > flat)
       continue;
     bool stays = true;
     for (const double share : {0.31, 0.62}) {
@@ -266,17 +277,13 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   KinkSearch result;
   const Index m = walker.problem.switch_count();
   if (m == 0) return result;
-  Vector g0, g1, dl0, dl1;
-  Matrix dg0, dg1;
-  if (!walker.problem.switches(from.x, from.lambda, g0) ||
-      !walker.problem.switches(to.x, to.lambda, g1) ||
-      !walker.problem.switch_gradients(from.x, from.lambda, dg0, dl0) ||
-      !walker.problem.switch_gradients(to.x, to.lambda, dg1, dl1))
+  const std::vector<Index> resting = resting_switches(walker, from, to);
+  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
+  if (!read_switches(walker, from, first) || !read_switches(walker, to, last))
     return {.status = KinkSearch::Status::suspicious};
   // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
   const double along = metric_product(walker.weights, to.tangent, from.tangent);
   const double h = to.s - from.s, noise = 1e-12 * std::max(largest(from), largest(to));
-  const std::vector<Index> resting = resting_switches(walker, from, to);
   const auto among = [](const std::vector<Index>& list, Index j) {
     return std::find(list.begin(), list.end(), j) != list.end();
   };
@@ -284,8 +291,8 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     if (among(resting, j)) continue;
     const double side = from.piece[static_cast<std::size_t>(j)];
     const Watched watched{walker, from, h, j, side, noise};
-    const Cubic ends{side * g0[j], side * switch_rate(dg0, dl0, j, from.tangent), side * g1[j],
-                     side * switch_rate(dg1, dl1, j, to.tangent) / along, h};
+    const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
+                     side * rate_along(last, j, to) / along, h};
     Crossing crossing = crossing_of(watched, ends, among(left, j));
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);

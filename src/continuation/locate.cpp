@@ -6,16 +6,23 @@
 #include <limits>
 
 #include "coincide.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 
+bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point) {
+  StepMeasures measures;
+  std::string refusal;
+  point.x = from.x + ds * from.tangent.dx;
+  point.lambda = from.lambda + ds * from.tangent.dlambda;
+  point.s = from.s + ds;
+  return find_point(walker, from.piece, from.tangent, point, measures, refusal);
+}
+
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds) {
-  StepResult result =
-      point_on_curve(walker, from.x + ds * from.tangent.dx, from.lambda + ds * from.tangent.dlambda,
-                     from.piece, from.tangent);
-  if (!result.point) return std::nullopt;
-  result.point->s = from.s + ds;
-  return std::move(result.point);
+  std::optional<CurvePoint> point(std::in_place);
+  if (!find_point_at(walker, from, ds, *point)) point.reset();
+  return point;
 }
 
 std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,

@@ -1,21 +1,16 @@
 #include "springfold/continuation/newton.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "small_lu.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/core/inertia.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-/// Smallest over largest pivot below this counts as singular.
-constexpr double singular_pivot = 1e-15;
 
 /// Newton stops only when the next correction would be shorter than this.
 constexpr double refined_step = 1e-14;
@@ -26,47 +21,23 @@ constexpr double noise_step = 1e-8;
 /// The same where the residual itself is no more than rounding.
 constexpr double blurred_step = 1e-6;
 
-/// Rounding errors that the terms of F have, estimated from its derivatives.
-double rounding_of_residual(const Linearisation& at, const Vector& x, double lambda) {
-  return std::numeric_limits<double>::epsilon() *
-         (magnitudes(at, x) + std::abs(lambda) * at.dF_dlambda.cwiseAbs())
-             .lpNorm<Eigen::Infinity>();
+/// Are these residuals no more than a few times the rounding errors that the terms of F have?
+bool is_rounding(double residual, const Linearisation& at, const Vector& x, double lambda,
+                 Vector& sizes) {
+  if (at.structured) {
+    sizes = at.structured->magnitudes(x);
+  } else {
+    sizes.setZero(x.size());
+    for (Index j = 0; j < x.size(); ++j)
+      sizes.array() += at.dF_dx.col(j).array().abs() * std::abs(x[j]);
+  }
+  sizes.array() += std::abs(lambda) * at.dF_dlambda.array().abs();
+  return residual <=
+         4 * (std::numeric_limits<double>::epsilon() * sizes.lpNorm<Eigen::Infinity>());
 }
 
 double norm(const Vector& weights, const Direction& d) {
   return std::sqrt(metric_product(weights, d, d));
-}
-
-bool is_small(const Linearisation& at) {
-  return !at.structured && SmallLu::fits(at.dF_dlambda.size() + 1);
-}
-
-/// solve_bordered() with few unknowns, on the stack. @param x  (r, rho), replaced by the solution
-bool solve_small(const Linearisation& at, const Vector& weights, const Direction& border,
-                 double* x) {
-  const Index n = at.dF_dlambda.size();
-  std::array<double, static_cast<std::size_t>(SmallLu::largest)> row;
-  for (Index i = 0; i < n; ++i) row[static_cast<std::size_t>(i)] = weights[i] * border.dx[i];
-  const SmallLu lu(at.dF_dx, at.dF_dlambda, Eigen::Map<const Vector>(row.data(), n),
-                   border.dlambda);
-  if (!(lu.smallest_pivot() > singular_pivot * lu.largest_pivot())) return false;
-  lu.solve(x);
-  return true;
-}
-
-/// The correction for a residual F, with lambda's as its last entry. @returns false where the matrix is singular
-bool correction_for(const Linearisation& at, const Vector& weights, const Direction& border,
-                    const Vector& F, Vector& step) {
-  const Index n = F.size();
-  step.resize(n + 1);
-  if (is_small(at)) {
-    step.head(n) = -F;
-    step[n] = 0;
-    return solve_small(at, weights, border, step.data());
-  }
-  const auto solution = solve_bordered(at, weights, border, -F, 0.0);
-  if (solution) step << solution->dx, solution->dlambda;
-  return solution.has_value();
 }
 
 }  // namespace
@@ -112,46 +83,19 @@ std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& w
                                         const Direction& border, const Vector& r, double rho) {
   const Index n = r.size();
   assert(at.dF_dlambda.size() == n && border.dx.size() == n);
-  if (at.structured) {
-    const FrontalBorders borders{at.dF_dlambda, weights.cwiseProduct(border.dx),
-                                 Matrix::Constant(1, 1, border.dlambda)};
-    Matrix X(n + 1, 1);
-    X << r, rho;
-    if (!at.structured->solve(borders, X, false)) return std::nullopt;
-    return Direction{X.col(0).head(n), X(n, 0)};
-  }
-  assert(at.dF_dx.rows() == n && at.dF_dx.cols() == n);
-  if (is_small(at)) {
-    std::array<double, static_cast<std::size_t>(SmallLu::largest)> x;
-    std::copy_n(r.data(), n, x.data());
-    x[static_cast<std::size_t>(n)] = rho;
-    if (!solve_small(at, weights, border, x.data())) return std::nullopt;
-    return Direction{Eigen::Map<const Vector>(x.data(), n), x[static_cast<std::size_t>(n)]};
-  }
-  Matrix A(n + 1, n + 1);
-  A << at.dF_dx, at.dF_dlambda, (weights.array() * border.dx.array()).matrix().transpose(),
-      border.dlambda;
-  const Eigen::PartialPivLU<Matrix> lu(A);
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > singular_pivot * pivots.maxCoeff())) return std::nullopt;
-  Vector right(n + 1);
-  right << r, rho;
-  const Vector solution = lu.solve(right);
-  return Direction{solution.head(n), solution[n]};
+  BorderedFactors factors;
+  factors.begin(at, false);
+  if (!factors.set_border(weights, border)) return std::nullopt;
+  Vector x(n + 1);
+  x << r, rho;
+  if (!factors.solve(x.data())) return std::nullopt;
+  return Direction{x.head(n), x[n]};
 }
 
 std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weights,
                                     const Direction& reference) {
   const Index n = at.dF_dlambda.size();
-  std::optional<Direction> tangent;
-  if (is_small(at)) {
-    std::array<double, static_cast<std::size_t>(SmallLu::largest)> x{};
-    x[static_cast<std::size_t>(n)] = 1;
-    if (solve_small(at, weights, reference, x.data()))
-      tangent = Direction{Eigen::Map<const Vector>(x.data(), n), x[static_cast<std::size_t>(n)]};
-  } else {
-    tangent = solve_bordered(at, weights, reference, Vector::Zero(n), 1.0);
-  }
+  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(n), 1.0);
   if (!tangent) return std::nullopt;
   const double length = norm(weights, *tangent);
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
@@ -176,23 +120,45 @@ std::string_view to_string(NewtonStatus status) {
   return "unknown";
 }
 
-NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
-                     const Piece& piece, const Direction& border, const NewtonOptions& options) {
-  CorrectorStorage storage;
-  return correct(problem, weights, std::move(x), lambda, piece, border, options, storage);
+bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
+                const Direction& reference, Direction& tangent) {
+  if (!place.factors.set_border(weights, reference)) return false;
+  const Index n = place.x.size();
+  Vector& u = memory.step;
+  u.setZero(n + 1);
+  u[n] = 1;
+  if (!place.factors.solve(u.data())) return false;
+  const auto dx = u.head(n).array();
+  const double length = std::sqrt((weights.array() * dx * dx).sum() + u[n] * u[n]);
+  if (!(length > 0) || !std::isfinite(length)) return false;
+  tangent.dx = u.head(n) / length;
+  tangent.dlambda = u[n] / length;
+  return true;
 }
 
 NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
-                     const Piece& piece, const Direction& border, const NewtonOptions& options,
-                     CorrectorStorage& storage) {
-  NewtonResult result{.x = std::move(x), .lambda = lambda};
-  Linearisation& at = storage.at;
-  Vector &F = storage.F, &step = storage.step;
+                     const Piece& piece, const Direction& border, const NewtonOptions& options) {
+  const auto memory = working_memory();
+  memory->newton.x = std::move(x);
+  memory->newton.lambda = lambda;
+  correct(problem, weights, piece, border, options, *memory);
+  return std::move(memory->newton);
+}
+
+void correct(ProblemView problem, const Vector& weights, const Piece& piece,
+             const Direction& border, const NewtonOptions& options, WorkingMemory& memory) {
+  NewtonResult& result = memory.newton;
+  Vector &F = memory.F, &step = memory.step;
   const Index n = result.x.size();
+  const Place* place = nullptr;
   double before = 0;
+  result.iterations = 0;
+  result.residual_norm = result.contraction = 0;
+  result.corrections.clear();
+  const auto ends = [&result](NewtonStatus status) { result.status = status; };
   for (;; ++result.iterations) {
     const bool inside = problem.residual(result.x, result.lambda, piece, F) && F.allFinite();
-    if (!inside) return result;  // status is still outside_domain
+    if (!inside) return ends(NewtonStatus::outside_domain);
     result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
     const double scale =
         std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
@@ -203,43 +169,35 @@ NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, doubl
       return result.residual_norm * (result.corrections.back() / before);
     };
     const auto rounded = [&] {
-      return result.residual_norm <= 4 * rounding_of_residual(at, result.x, result.lambda);
+      return is_rounding(result.residual_norm, place->at, result.x, result.lambda, memory.sizes);
     };
     const bool refined = !result.corrections.empty() &&
                          (result.residual_norm == 0 ||
                           (before > 0 && left_over() <= refined_step * scale) || rounded());
     before = result.residual_norm;
-    if (small && refined) {
-      result.status = NewtonStatus::converged;
-      return result;
-    }
+    if (small && refined) return ends(NewtonStatus::converged);
     const bool settled =
         small && (result.corrections.empty() || result.corrections.back() < noise_step);
-    if (result.iterations == options.maximum_iterations) {
-      result.status = settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations;
-      return result;
-    }
-    if (!linearise(problem, result.x, result.lambda, piece, at)) return result;
-    if (!correction_for(at, weights, border, F, step)) {
-      result.status = settled ? NewtonStatus::converged : NewtonStatus::singular;
-      return result;
-    }
+    if (result.iterations == options.maximum_iterations)
+      return ends(settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
+    Place* const here = place_at(problem, memory, result.x, result.lambda, piece);
+    if (!here) return ends(NewtonStatus::outside_domain);
+    place = here;
+    step.resize(n + 1);
+    step.head(n) = -F;
+    step[n] = 0;
+    if (!here->factors.set_border(weights, border) || !here->factors.solve(step.data()))
+      return ends(settled ? NewtonStatus::converged : NewtonStatus::singular);
     const double length =
         std::sqrt((weights.array() * step.head(n).array().square()).sum() + step[n] * step[n]);
     if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > 0.1 && (length < noise_step || (length < blurred_step && rounded()))) {
-        result.status = NewtonStatus::converged;
-        return result;
-      }
+      if (small && ratio > 0.1 && (length < noise_step || (length < blurred_step && rounded())))
+        return ends(NewtonStatus::converged);
       result.contraction = std::max(result.contraction, ratio);
-      if (ratio > 1) {
-        result.status = NewtonStatus::diverges;
-        return result;
-      }
+      if (ratio > 1) return ends(NewtonStatus::diverges);
     }
-    if (result.corrections.empty()) result.corrections.reserve(4);
     result.corrections.push_back(length);
     result.x += step.head(n);
     result.lambda += step[n];

@@ -1,7 +1,6 @@
 #include "normalised.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -70,67 +69,20 @@ bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Ve
 
 bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                              Vector& dG_dlambda) const {
-  if (const Place* place = remembered(y, lambda, piece, false)) {
-    dG_dy = place->dG_dy;
-    dG_dlambda = place->dG_dlambda;
-    return true;
-  }
   x_ = y.cwiseProduct(unit_);
   if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
-  Place& place = remember(y, lambda, piece);
-  place.dG_dy.resize(dG_dy.rows(), dG_dy.cols());
-  for (Index j = 0; j < dG_dy.cols(); ++j) {
-    dG_dy.col(j).array() *= force_.array() * unit_[j];
-    place.dG_dy.col(j) = dG_dy.col(j);
-  }
+  for (Index j = 0; j < dG_dy.cols(); ++j) dG_dy.col(j).array() *= force_.array() * unit_[j];
   dG_dlambda.array() *= force_.array();
-  place.dG_dlambda = dG_dlambda;
-  place.structured = {};
   return true;
 }
 
 bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                                         StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
-  if (const Place* place = remembered(y, lambda, piece, true)) {
-    dG_dy = place->structured;
-    dG_dlambda = place->dG_dlambda;
-    return true;
-  }
-  // The oldest one goes first, so that its storage can be used again.
-  Place& place = remember(y, lambda, piece);
-  place.structured = {};
-  place.lambda = std::numeric_limits<double>::quiet_NaN();
   x_ = y.cwiseProduct(unit_);
   if (!problem_.structured_derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
   dG_dy = scaled(std::move(dG_dy), force_, unit_);
   dG_dlambda.array() *= force_.array();
-  place.lambda = lambda;
-  place.dG_dy.resize(0, 0);
-  place.dG_dlambda = dG_dlambda;
-  place.structured = dG_dy;
   return true;
-}
-
-const Normalised::Place* Normalised::remembered(const Vector& y, double lambda, const Piece& piece,
-                                                bool structured) const {
-  for (const Place& place : places_)
-    if (place.lambda == lambda && place.y == y && place.piece == piece &&
-        static_cast<bool>(place.structured.solve) == structured)
-      return &place;
-  return nullptr;
-}
-
-Normalised::Place& Normalised::remember(const Vector& y, double lambda, const Piece& piece) const {
-  if (places_.size() < most_places) {
-    places_.push_back({y, lambda, piece});
-    return places_.back();
-  }
-  Place& place = places_[oldest_];
-  oldest_ = (oldest_ + 1) % most_places;
-  place.y = y;
-  place.lambda = lambda;
-  place.piece = piece;
-  return place;
 }
 
 bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
@@ -142,7 +94,8 @@ bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
 
 bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
                                   Vector& dh_dlambda) const {
-  if (!problem_.switch_gradients(y.cwiseProduct(unit_), lambda, dh_dy, dh_dlambda)) return false;
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
   dh_dy.array().colwise() *= surface_.array();
   dh_dy.array().rowwise() *= unit_.transpose().array();
   dh_dlambda.array() *= surface_.array();

@@ -15,9 +15,6 @@ namespace springfold::continuation {
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
 ///     h_j = surface_j g_j
 ///
-/// It also remembers the derivatives at the last few places: the tangent, the test functions and the next
-/// step ask for them at the same ones.
-///
 /// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
 /// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
 /// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's.
@@ -69,22 +66,7 @@ class Normalised {
   Vector surface_{};  ///< factors of the switching functions
   bool trivial_ = true;
 
-  struct Place {
-    Vector y{};
-    double lambda = 0;
-    Piece piece{};
-    Matrix dG_dy{};
-    Vector dG_dlambda{};
-    StructuredMatrix structured{};  ///< instead of dG_dy
-  };
-  const Place* remembered(const Vector& y, double lambda, const Piece& piece,
-                          bool structured) const;
-  Place& remember(const Vector& y, double lambda, const Piece& piece) const;
-  static constexpr std::size_t most_places =
-      6;  // of a step and its middle: begin, two guesses, two points
-  mutable std::vector<Place> places_{};
   mutable Vector x_{};
-  mutable std::size_t oldest_ = 0;
 };
 
 /// trace() without a change of units: for callers that have changed them already.

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -15,11 +16,13 @@ namespace {
 
 /// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
 /// that has the samples' rates and leads from one sample's lambda to the next.
-bool may_turn(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+bool may_turn(const WatchedStep& arc, Samples samples) {
   const CurvePoint& from = *samples.front();
   const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
-  Matrix A(n, n);
-  Vector right(n);
+  constexpr int most = 5;
+  assert(n <= most);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> A(n, n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> right(n);
   for (Index i = 0; i < m; ++i) {
     const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
     const double u = (p.s - from.s) / arc.length();
@@ -33,7 +36,7 @@ bool may_turn(const WatchedStep& arc, const std::vector<const CurvePoint*>& samp
     if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
   }
   SmallLu(A).solve(right.data());
-  const Vector& c = right;
+  const auto& c = right;
   constexpr int parts = 24;
   constexpr double far = 0.3;  // from zero, compared with the largest rate
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -52,7 +55,7 @@ bool too_close(const ZeroOf& one, const ZeroOf& next) {
 }
 
 /// Rounding of lambda's rate on the step.
-double noise_of_rate(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+double noise_of_rate(const WatchedStep& arc, Samples samples) {
   double scale = 0;
   for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
   const auto E = arc.matrix(*samples[samples.size() / 2]);
@@ -70,7 +73,7 @@ bool stand_alone(const std::vector<ZeroOf>& turns) {
 
 /// Zeros of lambda's rate. What they are must depend on the curve, not on the step: where the rate is lost in its
 /// rounding at an end of the step, they are looked for on a wider one.
-WatchedZeros turns_on(const WatchedStep& arc, const std::vector<const CurvePoint*>& samples) {
+WatchedZeros turns_on(const WatchedStep& arc, Samples samples) {
   constexpr double perhaps_lost = 1e-8;
   const double first = std::abs(samples.front()->tangent.dlambda),
                last = std::abs(samples.back()->tangent.dlambda);
@@ -242,7 +245,7 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 }  // namespace
 
 SingularPoints singular_points(const Walker& walker,
-                               const std::vector<const CurvePoint*>& samples) {
+                               Samples samples) {
   constexpr double most_blur = 3e-5;
   SingularPoints result;
   const CurvePoint &from = *samples.front(), &to = *samples.back();

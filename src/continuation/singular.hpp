@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "samples.hpp"
 #include "springfold/continuation/step.hpp"
 
 namespace springfold::continuation {
@@ -22,6 +23,6 @@ struct SingularPoints {
 /// point, an eigenvalue alone at a branch point, the tangent with an eigenvalue that does not change
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
 /// @param samples  the step's ends and points between them, in order; all on one piece
-SingularPoints singular_points(const Walker& walker, const std::vector<const CurvePoint*>& samples);
+SingularPoints singular_points(const Walker& walker, Samples samples);
 
 }  // namespace springfold::continuation

@@ -81,7 +81,7 @@ void SmallLu::prepare(Index n) {
   std::fill_n(U_.data(), n * length_, 0.0);
 }
 
-SmallLu::SmallLu(const Matrix& A) {
+SmallLu::SmallLu(const Eigen::Ref<const Matrix>& A) {
   assert(A.rows() == A.cols() && fits(A.rows()));
   prepare(A.rows());
   for (Index j = 0; j < n_; ++j) std::copy_n(A.col(j).data(), n_, column(j));

@@ -16,7 +16,7 @@ class SmallLu {
   static bool fits(Index rows) { return rows <= largest; }
 
   /// @param A  square, at most `largest` rows
-  explicit SmallLu(const Matrix& A);
+  explicit SmallLu(const Eigen::Ref<const Matrix>& A);
   /// | A    b |
   /// | c^T  d |   @pre A.rows() < largest
   SmallLu(const Matrix& A, const Vector& b, const Eigen::Ref<const Vector>& c, double d);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "words.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -16,10 +17,6 @@ double angle_between(const Vector& weights, const Direction& a, const Direction&
   const double half_chord =
       0.5 * std::sqrt((weights.array() * (a.dx - b.dx).array().square()).sum() + dlambda * dlambda);
   return 2 * std::asin(std::min(1.0, half_chord));
-}
-
-StepResult refused(std::string why, const StepMeasures& measures = {}) {
-  return {.measures = measures, .refusal = std::move(why)};
 }
 
 std::string judge(const StepMeasures& m, const StepOptions& options) {
@@ -33,43 +30,64 @@ std::string judge(const StepMeasures& m, const StepOptions& options) {
 
 }  // namespace
 
+bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
+                CurvePoint& point, StepMeasures& measures, std::string& refusal) {
+  WorkingMemory& memory = *walker.memory;
+  NewtonResult& newton = memory.newton;
+  newton.x.swap(point.x);
+  newton.lambda = point.lambda;
+  correct(walker.problem, walker.weights, piece, reference, walker.options.newton, memory);
+  measures = {.contraction = newton.contraction,
+              .deviation = newton.corrections.empty() ? 0 : newton.corrections.front()};
+  if (!converged(newton)) {
+    refusal = to_string(newton.status);
+    if (newton.status == NewtonStatus::diverges)
+      refusal += ", contraction " + rounded(newton.contraction);
+    return false;
+  }
+  point.x.swap(newton.x);
+  point.lambda = newton.lambda;
+  Place* const place = place_at(walker.problem, memory, point.x, point.lambda, piece);
+  if (!place) {
+    refusal = to_string(NewtonStatus::outside_domain);
+    return false;
+  }
+  if (!tangent_at(memory, *place, walker.weights, reference, point.tangent)) {
+    refusal = "no unique tangent";
+    return false;
+  }
+  point.piece = piece;
+  point.negative.reset();
+  if (walker.problem.symmetric()) point.negative = place->factors.negative();
+  measures.turn = angle_between(walker.weights, point.tangent, reference);
+  return true;
+}
+
 StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
                           const Direction& reference) {
-  NewtonResult newton = correct(walker.problem, walker.weights, std::move(x), lambda, piece,
-                                reference, walker.options.newton, walker.storage);
   StepResult result;
-  result.measures.contraction = newton.contraction;
-  result.measures.deviation = newton.corrections.empty() ? 0 : newton.corrections.front();
-  if (!converged(newton)) {
-    result.refusal = std::string(to_string(newton.status));
-    if (newton.status == NewtonStatus::diverges)
-      result.refusal += ", contraction " + rounded(newton.contraction);
-    return result;
-  }
-  Linearisation& at = walker.storage.at;
-  if (!linearise(walker.problem, newton.x, newton.lambda, piece, at))
-    return refused(std::string(to_string(NewtonStatus::outside_domain)), result.measures);
-  auto tangent = tangent_at(at, walker.weights, reference);
-  if (!tangent) return refused("no unique tangent", result.measures);
-  CurvePoint point{.x = std::move(newton.x),
-                   .lambda = newton.lambda,
-                   .tangent = std::move(*tangent),
-                   .piece = piece};
-  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
-  result.measures.turn = angle_between(walker.weights, point.tangent, reference);
-  result.point = std::move(point);
+  CurvePoint point{.x = std::move(x), .lambda = lambda};
+  if (find_point(walker, piece, reference, point, result.measures, result.refusal))
+    result.point = std::move(point);
   return result;
 }
 
+bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
+              StepMeasures& measures, std::string& refusal) {
+  to.x = from.x + ds * from.tangent.dx;
+  to.lambda = from.lambda + ds * from.tangent.dlambda;
+  to.s = from.s + ds;
+  const bool found = find_point(walker, from.piece, from.tangent, to, measures, refusal);
+  measures.deviation /= ds;
+  if (!found) return false;
+  refusal = judge(measures, walker.options.step);
+  return refusal.empty();
+}
+
 StepResult try_step(const Walker& walker, const CurvePoint& from, double ds) {
-  StepResult result =
-      point_on_curve(walker, from.x + ds * from.tangent.dx, from.lambda + ds * from.tangent.dlambda,
-                     from.piece, from.tangent);
-  result.measures.deviation /= ds;
-  if (!result.point) return result;
-  std::string why = judge(result.measures, walker.options.step);
-  if (!why.empty()) return refused(std::move(why), result.measures);
-  result.point->s = from.s + ds;
+  StepResult result;
+  CurvePoint to;
+  if (try_step(walker, from, ds, to, result.measures, result.refusal)) result.point = std::move(to);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "springfold/continuation/trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -9,8 +10,10 @@
 #include "events.hpp"
 #include "kink_passage.hpp"
 #include "normalised.hpp"
+#include "samples.hpp"
 #include "springfold/continuation/evidence.hpp"
 #include "words.hpp"
+#include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -90,9 +93,9 @@ bool cross_from(const Walker& walker, const std::vector<Event>& events, const Pr
   if (!evidence.doubt.empty() || !step.point->negative != !from.negative) return false;
   if (start_again(walker, curve.points.front(), from, *step.point)) return false;
   if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) return false;
-  auto cluster = cluster_on_step(walker, {&from, &*evidence.middle, &*step.point});
+  auto cluster = cluster_on_step(walker, StepSamples(from, &*evidence.middle, *step.point));
   if (!cluster) return false;
-  const StepEvents wanted = events_on_step(plain, from, *step.point, evidence.middle, events);
+  const StepEvents wanted = events_on_step(plain, from, *step.point, &*evidence.middle, events);
   if (!wanted.hits.empty() || !wanted.doubt.empty()) return false;
   std::erase_if(curve.points, [&](const CurvePoint& p) { return p.s > from.s; });
   curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});
@@ -154,30 +157,26 @@ bool is_reported(const Curve& curve, const Hit& hit) {
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
                 bool report, Progress& progress, Curve& curve, Refusal& refused) {
   std::string& refusal = refused.reason;
-  StepResult step = try_step(walker, progress.here, progress.ds);
-  if (!step.point) {
-    refusal = step.refusal;
+  CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
+  StepMeasures measures;
+  if (!try_step(walker, progress.here, progress.ds, next, measures, refusal))
     return Outcome::shorten;
-  }
-  std::optional<CurvePoint> middle;
+  const CurvePoint* middle = nullptr;
   if (walker.options.verify) {
-    Evidence evidence = examine(walker, progress.here, *step.point);
-    if (!evidence.doubt.empty()) {
-      refusal = evidence.doubt;
-      return Outcome::shorten;
-    }
-    middle = std::move(evidence.middle);
+    refusal = examine(walker, progress.here, next, half_way);
+    if (!refusal.empty()) return Outcome::shorten;
+    middle = &half_way;
   }
-  KinkSearch kink = first_kink(walker, progress.here, *step.point, progress.left);
+  KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
     refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
                                                : std::string("a switching surface"));
     return Outcome::shorten;
   }
-  const auto start = start_again(walker, curve.points.front(), progress.here, *step.point);
+  const auto start = start_again(walker, curve.points.front(), progress.here, next);
   const bool meets_kink = kink.status == KinkSearch::Status::found;
   const bool closed = start && !(meets_kink && kink.point.s < start->s);
-  CurvePoint& end = meets_kink ? kink.point : *step.point;
+  CurvePoint& end = meets_kink ? kink.point : next;
   if (closed) kink.status = KinkSearch::Status::none;
   const bool cut = meets_kink && !closed;
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
@@ -205,7 +204,10 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
                          "cut: " + names_of(walker.problem, kink.active)});
     return pass_kink(walker, kink, progress, curve);
   }
-  progress.here = closed ? *start : std::move(*step.point);
+  if (closed)
+    progress.here = *start;
+  else
+    std::swap(progress.here, next);
   progress.left.clear();
   curve.points.push_back(progress.here);
   account_over_gap(curve);
@@ -215,13 +217,35 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   }
   // Past something unresolved the next step gets away from it.
   progress.ds = found.doubt.empty() || found.flat
-                    ? next_step_length(progress.ds, step.measures, walker.options.step)
+                    ? next_step_length(progress.ds, measures, walker.options.step)
                     : std::min(100 * unresolved_length, walker.options.step.maximum);
   return Outcome::go_on;
 }
 
+/// One step from a kept point, `times` as long as the anchor's, which must pass all the tests of a step and resolve
+/// everything on it.
+std::optional<Outcome> step_over_from(const Walker& walker, const std::vector<Event>& events,
+                                      const HitObserver& at_hit, const Anchor& anchor,
+                                      std::size_t points, double times, Progress& progress,
+                                      Curve& curve) {
+  Progress longer = anchor.before;
+  longer.here = curve.points[points - 1];
+  longer.ds *= times;
+  const double begin = longer.here.s;
+  Curve trial = curve;
+  trial.points.resize(points);
+  Refusal refused;
+  const Outcome outcome = advance(walker, events, at_hit, false, longer, trial, refused);
+  if (outcome == Outcome::shorten) return std::nullopt;
+  trial.log.push_back({begin, times * anchor.before.ds,
+                       "steps over special points that shorter steps do not resolve"});
+  curve = std::move(trial);
+  progress = std::move(longer);
+  return outcome;
+}
+
 /// On steps much shorter than the stretch on which rounding hides special points nothing can be told of them: longer
-/// ones from the anchor, and from points between it and them, are tried, which must pass all the tests of a step and resolve everything on it.
+/// ones from the anchor, and from points between it and them, are tried.
 std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>& events,
                                  const HitObserver& at_hit, const Anchor& anchor,
                                  Progress& progress, Curve& curve) {
@@ -229,25 +253,16 @@ std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>&
       !anchor.before.left.empty())
     return std::nullopt;
   const double reached = progress.here.s;
-  for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
-    const CurvePoint& from = curve.points[i - 1];
-    if (i > anchor.points && reached - from.s < near_cluster * anchor.before.ds) break;
-    for (const double times : {4.0, 2.0, 1.0}) {
-      Progress longer = anchor.before;
-      longer.here = from;
-      longer.ds *= times;
-      Curve trial = curve;
-      trial.points.resize(i);
-      Refusal refused;
-      const Outcome outcome = advance(walker, events, at_hit, false, longer, trial, refused);
-      if (outcome == Outcome::shorten) continue;
-      trial.log.push_back({from.s, times * anchor.before.ds,
-                           "steps over special points that shorter steps do not resolve"});
-      curve = std::move(trial);
-      progress = std::move(longer);
-      return outcome;
+  const std::size_t last = curve.points.size();
+  for (const auto& lengths : {std::array{4.0, 2.0, 1.0}, std::array{32.0, 16.0, 8.0}})
+    for (std::size_t i = anchor.points; i <= last; ++i) {
+      const double away = reached - curve.points[i - 1].s;
+      if (i > anchor.points && away < near_cluster * anchor.before.ds) break;
+      for (const double times : lengths)
+        if (const auto outcome =
+                step_over_from(walker, events, at_hit, anchor, i, times, progress, curve))
+          return outcome;
     }
-  }
   return std::nullopt;
 }
 

@@ -176,8 +176,9 @@ double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::siz
 }  // namespace
 
 WatchedZeros singularities_on(const WatchedStep& arc,
-                              const std::vector<const CurvePoint*>& samples) {
+                              Samples samples) {
   if (!arc.walker().options.branch_points) return {};
+  if (surely_regular(arc.walker(), arc.from().tangent, samples)) return {};
   std::vector<ExtendedMatrix> E;
   for (const CurvePoint* p : samples) {
     auto matrix = arc.matrix(*p);
@@ -185,7 +186,6 @@ WatchedZeros singularities_on(const WatchedStep& arc,
     E.push_back(std::move(*matrix));
   }
   const std::size_t middle = E.size() / 2;
-  if (surely_regular(E, middle)) return {};
   const Reach reach = reach_of(E, middle);
   WatchedZeros result{.order = reach.order, .examined = true};
   const Borders borders = borders_of(E[middle], result.order);

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "bordered_test.hpp"
+#include "samples.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "working_memory.hpp"
 #include "zeros.hpp"
 
 namespace springfold::continuation {
@@ -45,9 +47,9 @@ class WatchedStep {
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
   }
   std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
-    Linearisation at;
-    if (!linearise(walker_.problem, p.x, p.lambda, p.piece, at)) return std::nullopt;
-    return extended_matrix(at, walker_.weights, from_.tangent);
+    const Place* place = place_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
+    if (!place) return std::nullopt;
+    return extended_matrix(place->at, walker_.weights, from_.tangent);
   }
   std::optional<Matrix> sigma(double ds, const Borders& borders) const {
     const auto& p = point(ds);
@@ -84,7 +86,7 @@ struct WatchedZeros {
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
 WatchedZeros singularities_on(const WatchedStep& arc,
-                              const std::vector<const CurvePoint*>& samples);
+                              Samples samples);
 
 /// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
 /// @returns false when a zero could not be told to be a branch point

@@ -287,7 +287,7 @@ class Search {
 
 }  // namespace
 
-bool within_reach(const std::vector<double>& values) {
+bool within_reach(std::span<const double> values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if ((*low < 0) != (*high < 0) || *low == 0 || *high == 0) return true;
   return std::min(std::abs(*low), std::abs(*high)) < *high - *low;

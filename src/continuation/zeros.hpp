@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace springfold::continuation {
@@ -23,7 +24,7 @@ struct ZeroSearch {
 
 /// Could a function with these samples be zero between them? Far from zero, compared with how much it
 /// changes, it could not.
-bool within_reach(const std::vector<double>& values);
+bool within_reach(std::span<const double> values);
 
 /// f may fail (nothing) where its point cannot be computed.
 using SampledFunction = std::function<std::optional<double>(double)>;

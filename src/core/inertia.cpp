@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "equal_sizes.hpp"
-#include "small_symmetric.hpp"
 #include "springfold/core/equilibration.hpp"
+#include "springfold/core/small_symmetric.hpp"
 
 namespace springfold {
 namespace {

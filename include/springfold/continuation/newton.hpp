@@ -64,17 +64,8 @@ struct NewtonResult {
   return result.status == NewtonStatus::converged;
 }
 
-/// What the corrector needs besides its result: whoever keeps it from call to call saves memory from the heap.
-struct CorrectorStorage {
-  Linearisation at{};
-  Vector F{}, x{}, step{};
-};
-
 /// Newton's method with the exact matrix on F(u) = 0, border . (u - u_predicted) = 0, u = (x, lambda).
 /// No clamping, no state: callers decide what a failure means.
-NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
-                     const Piece& piece, const Direction& border, const NewtonOptions& options,
-                     CorrectorStorage& storage);
 NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
                      const Piece& piece, const Direction& border, const NewtonOptions& options);
 

@@ -1,6 +1,7 @@
 // One step along a curve as a function of values: a refused step cannot leave a trace.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -8,12 +9,18 @@
 
 namespace springfold::continuation {
 
+/// Derivatives and factorisations at the last few places, and vectors that are used again: a walk does not ask the
+/// heap for memory with every step, and what is known of a place is not computed twice.
+struct WorkingMemory;
+std::shared_ptr<WorkingMemory> working_memory();
+
 /// What the engine needs beside the problem while it walks.
 struct Walker {
   ProblemView problem;
   Vector weights{};  ///< metric of x
   TraceOptions options{};
-  mutable CorrectorStorage storage{};  ///< one walker serves one thread
+  /// Copies of a walker share it; they and the walker serve one thread, and one problem.
+  std::shared_ptr<WorkingMemory> memory = working_memory();
 };
 
 /// How nonlinear the curve was over one step.

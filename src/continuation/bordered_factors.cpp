@@ -1,0 +1,188 @@
+#include "bordered_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/core/inertia.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Smallest over largest pivot below this counts as singular.
+constexpr double singular_pivot = 1e-15;
+
+/// Of its largest pivot: eigenvalues of dF/dx below this are zero.
+constexpr double zero_eigenvalue = 1e-13;
+
+using Front = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
+
+}  // namespace
+
+void BorderedFactors::begin(const Linearisation& at, bool symmetric) {
+  at_ = &at;
+  n_ = at.dF_dlambda.size();
+  symmetric_ = symmetric;
+  factorised_ = finite_ = false;
+  way_ = at.structured                                ? Way::structured
+         : symmetric && n_ <= SmallSymmetric::largest ? Way::symmetric
+         : SmallLu::fits(n_ + 1)                      ? Way::small
+                                                      : Way::large;
+}
+
+bool BorderedFactors::factorise_symmetric() {
+  if (factorised_) return finite_;
+  factorised_ = true;
+  const SmallSymmetric::PutOff put_off{.border = at_->dF_dlambda.data()};
+  finite_ = K_.factorise(at_->dF_dx, &put_off);
+  if (!finite_) return false;
+  if (K_.put_off() >= SmallLu::largest) {  // hardly any of them can be used
+    way_ = Way::large;
+    factorised_ = false;
+    return true;
+  }
+  K_.forward<1>(at_->dF_dlambda.data(), b_.data());
+  K_.divide<1>(b_.data());
+  return true;
+}
+
+/// With K = dF/dx, y = L^-1 P S dF/dlambda, z = L^-1 P S row, each in the parts of D_1 and of R, what is left is
+///
+///     | R      y_2                      |
+///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
+bool BorderedFactors::border_symmetric() {
+  K_.forward<1>(row_.data(), z_.data());
+  const Index rest = K_.put_off(), done = n_ - rest;
+  double corner = corner_, size = std::abs(corner_);
+  for (Index i = 0; i < done; ++i) {
+    const double part = z_[static_cast<std::size_t>(i)] * b_[static_cast<std::size_t>(i)];
+    corner -= part;
+    size += std::abs(part);
+  }
+  if (rest == 0) {
+    last_ = corner;
+    return std::abs(corner) > singular_pivot * size;
+  }
+  Front front(rest + 1, rest + 1);
+  for (Index j = 0; j < rest; ++j) {
+    for (Index i = 0; i < rest; ++i) front(i, j) = K_.rest(i, j);
+    front(rest, j) = z_[static_cast<std::size_t>(done + j)];
+    front(j, rest) = b_[static_cast<std::size_t>(done + j)];
+  }
+  front(rest, rest) = corner;
+  front_.emplace(front);
+  return front_->smallest_pivot() > singular_pivot * std::max(front_->largest_pivot(), size);
+}
+
+bool BorderedFactors::border_general() {
+  if (way_ == Way::small) {
+    front_.emplace(at_->dF_dx, at_->dF_dlambda, row_, corner_);
+    return front_->smallest_pivot() > singular_pivot * front_->largest_pivot();
+  }
+  storage_.resize(n_ + 1, n_ + 1);
+  storage_ << at_->dF_dx, at_->dF_dlambda, row_.transpose(), corner_;
+  large_.compute(storage_);
+  const auto pivots = large_.matrixLU().diagonal().cwiseAbs();
+  return pivots.minCoeff() > singular_pivot * pivots.maxCoeff();
+}
+
+bool BorderedFactors::set_border(const Vector& weights, const Direction& border) {
+  if (way_ == Way::symmetric && !factorise_symmetric()) return false;
+  const bool same = factorised_ && way_ != Way::symmetric && corner_ == border.dlambda &&
+                    row_.size() == n_ && row_ == weights.cwiseProduct(border.dx);
+  if (same) return finite_;
+  row_ = weights.cwiseProduct(border.dx);
+  corner_ = border.dlambda;
+  if (way_ == Way::symmetric) return border_symmetric();
+  factorised_ = true;
+  if (way_ == Way::structured) {
+    borders_.B = at_->dF_dlambda;
+    borders_.C = row_;
+    borders_.D.setConstant(1, 1, corner_);
+    return finite_ = true;
+  }
+  return finite_ = border_general();
+}
+
+template <int width>
+void BorderedFactors::solve_symmetric(double* x) const {
+  using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
+  Columns<width> y;
+  const Index rest = K_.put_off(), done = n_ - rest;
+  const auto row = [&](Index i) { return Row(y.data() + i * width); };
+  K_.forward<width>(x, y.data());
+  K_.divide<width>(y.data());
+  Row last(x + n_ * width);
+  for (Index i = 0; i < done; ++i) last -= z_[static_cast<std::size_t>(i)] * row(i);
+  if (rest == 0) {
+    last /= last_;
+  } else {
+    std::array<double, static_cast<std::size_t>(SmallLu::largest)> right;
+    for (Index c = 0; c < width; ++c) {
+      for (Index i = 0; i < rest; ++i) right[static_cast<std::size_t>(i)] = row(done + i)[c];
+      right[static_cast<std::size_t>(rest)] = last[c];
+      front_->solve(right.data());
+      for (Index i = 0; i < rest; ++i) row(done + i)[c] = right[static_cast<std::size_t>(i)];
+      last[c] = right[static_cast<std::size_t>(rest)];
+    }
+  }
+  for (Index i = 0; i < done; ++i) row(i) -= b_[static_cast<std::size_t>(i)] * last;
+  K_.backward<width>(y.data(), x);
+}
+
+bool BorderedFactors::solve(double* x) {
+  switch (way_) {
+    case Way::symmetric:
+      solve_symmetric<1>(x);
+      return true;
+    case Way::small:
+      front_->solve(x);
+      return true;
+    case Way::large: {
+      Eigen::Map<Vector> solution(x, n_ + 1);
+      storage_ = solution;
+      solution = large_.solve(storage_.col(0));
+      return true;
+    }
+    case Way::structured:
+      storage_ = Eigen::Map<const Vector>(x, n_ + 1);
+      if (!at_->structured->solve(borders_, storage_, false)) return false;
+      std::copy_n(storage_.data(), n_ + 1, x);
+      return true;
+  }
+  return false;
+}
+
+void BorderedFactors::invert(Matrix& inverse) {
+  const Index size = n_ + 1;
+  inverse.setIdentity(size, size);
+  if (way_ == Way::small) return front_->solve(inverse);
+  if (way_ != Way::symmetric) {
+    inverse = large_.inverse();
+    return;
+  }
+  constexpr int width = 4;
+  Columns<width> x;
+  for (Index first = 0; first < size; first += width) {
+    std::fill_n(x.data(), width * size, 0.0);
+    const Index count = std::min<Index>(width, size - first);
+    for (Index j = 0; j < count; ++j) x[static_cast<std::size_t>((first + j) * width + j)] = 1;
+    solve_symmetric<width>(x.data());
+    for (Index i = 0; i < size; ++i)
+      for (Index j = 0; j < count; ++j) inverse(i, first + j) = x[static_cast<std::size_t>(i * width + j)];
+  }
+}
+
+std::optional<Index> BorderedFactors::negative() {
+  if (way_ == Way::symmetric && !factorise_symmetric()) return std::nullopt;
+  if (way_ != Way::symmetric) return negative_eigenvalues(*at_);
+  double largest = 0;
+  for (Index i = 0; i < n_; ++i) largest = std::max(largest, std::abs(K_.value(i)));
+  Index count = 0;
+  for (Index i = 0; i < n_; ++i) {
+    if (std::abs(K_.value(i)) <= zero_eigenvalue * largest) return std::nullopt;
+    count += K_.value(i) < 0;
+  }
+  return count;
+}
+
+}  // namespace springfold::continuation

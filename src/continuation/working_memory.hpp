@@ -1,0 +1,69 @@
+// What a walk keeps from step to step. Private to the engine.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "bordered_factors.hpp"
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// What is known at one place.
+struct Place {
+  Vector x{};
+  double lambda = std::numeric_limits<double>::quiet_NaN();
+  Piece piece{};
+  Linearisation at{};
+  BorderedFactors factors;
+};
+
+struct WorkingMemory {
+  WorkingMemory() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
+
+  std::array<Place, 6> places;  // of a step and its middle: begin, two guesses, two points
+  std::size_t oldest = 0;
+  NewtonResult newton{};
+  Vector F{}, step{}, sizes{}, x{};
+  Direction direction{};
+  Matrix inverse{}, motion{};
+  CurvePoint next{}, middle{};  ///< of the step that is being taken
+  CurvePoint trial{};           ///< between them
+  struct Switches {
+    Vector g{}, dg_dlambda{};
+    Matrix dg_dx{};
+  };
+  Switches at_from{}, at_to{};
+  Vector g{};
+
+  bool asked = false;  ///< what follows is the problem's
+  Vector periods{};
+  std::vector<Index> double_covers{};
+};
+
+/// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until
+/// five other places have been asked for.
+/// @returns nullptr outside the domain
+Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
+                const Piece& piece);
+
+/// correct() from memory.newton.x and .lambda on, with the result there.
+void correct(ProblemView problem, const Vector& weights, const Piece& piece,
+             const Direction& border, const NewtonOptions& options, WorkingMemory& memory);
+
+/// The unit tangent of tangent_at(), from the factors at hand. @returns false when the bordered matrix is singular
+bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
+                const Direction& reference, Direction& tangent);
+
+/// point_on_curve(), from the guess point.x and point.lambda on. @param refusal  why not, if false is returned
+bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
+                CurvePoint& point, StepMeasures& measures, std::string& refusal);
+
+/// try_step(), point_at() and examine() with their results in storage of the caller's.
+bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
+              StepMeasures& measures, std::string& refusal);
+bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
+std::string examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                    CurvePoint& middle);
+
+}  // namespace springfold::continuation
