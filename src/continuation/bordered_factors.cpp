@@ -14,7 +14,8 @@ constexpr double singular_pivot = 1e-15;
 /// Of its largest pivot: eigenvalues of dF/dx below this are zero.
 constexpr double zero_eigenvalue = 1e-13;
 
-using Front = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
+using Front =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
 
 }  // namespace
 
@@ -168,7 +169,8 @@ void BorderedFactors::invert(Matrix& inverse) {
     for (Index j = 0; j < count; ++j) x[static_cast<std::size_t>((first + j) * width + j)] = 1;
     solve_symmetric<width>(x.data());
     for (Index i = 0; i < size; ++i)
-      for (Index j = 0; j < count; ++j) inverse(i, first + j) = x[static_cast<std::size_t>(i * width + j)];
+      for (Index j = 0; j < count; ++j)
+        inverse(i, first + j) = x[static_cast<std::size_t>(i * width + j)];
   }
 }
 

@@ -40,7 +40,8 @@ bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place*
   for (const Place* other : others) {
     motion.leftCols(n) =
         motion.leftCols(n).cwiseMax((other->at.dF_dx - middle.at.dF_dx).cwiseAbs());
-    motion.col(n) = motion.col(n).cwiseMax((other->at.dF_dlambda - middle.at.dF_dlambda).cwiseAbs());
+    motion.col(n) =
+        motion.col(n).cwiseMax((other->at.dF_dlambda - middle.at.dF_dlambda).cwiseAbs());
   }
   d.resize(n + 1);
   Xd.resize(n + 1);

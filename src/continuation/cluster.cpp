@@ -59,8 +59,7 @@ std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b
 }
 
 /// Zeros of lambda's rate and of det Sigma; nothing if one of them is not smooth on the step.
-std::optional<Roots> all_roots(const WatchedStep& arc,
-                               Samples samples) {
+std::optional<Roots> all_roots(const WatchedStep& arc, Samples samples) {
   std::vector<ExtendedMatrix> E;
   for (const CurvePoint* p : samples) {
     auto matrix = arc.matrix(*p);
@@ -90,8 +89,7 @@ std::optional<Roots> all_roots(const WatchedStep& arc,
 
 }  // namespace
 
-std::optional<Hit> cluster_on_step(const Walker& walker,
-                                   Samples samples) {
+std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
   // Shares of half the step: how wide a cluster may be, and how far from the step's ends.
   constexpr double wide = 0.35, clear = 0.35;
   const CurvePoint &from = *samples.front(), &to = *samples.back();

@@ -15,7 +15,6 @@ namespace springfold::continuation {
 /// compared with the step, far from any other, and explain the change of the number of negative
 /// eigenvalues.
 /// @param samples  the step's ends and its middle, in order; all on one piece
-std::optional<Hit> cluster_on_step(const Walker& walker,
-                                   Samples samples);
+std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples);
 
 }  // namespace springfold::continuation

@@ -49,8 +49,8 @@ std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePo
 
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
-bool add_user_event(const Walker& walker, Samples samples,
-                    const Event& event, std::vector<Found>& found) {
+bool add_user_event(const Walker& walker, Samples samples, const Event& event,
+                    std::vector<Found>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
   std::array<double, 3> storage{};

@@ -21,7 +21,6 @@ struct StepEvents {
 
 /// @param middle  the curve's point half-way, or nullptr: then only the ends are compared
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const CurvePoint* middle,
-                          const std::vector<Event>& events);
+                          const CurvePoint* middle, const std::vector<Event>& events);
 
 }  // namespace springfold::continuation

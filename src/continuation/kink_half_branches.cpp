@@ -50,8 +50,8 @@ void take_own(StepEvents& found, std::vector<Place>& places) {
   found = std::move(rest);
 }
 
-void find_places(const Walker& walker, Samples samples,
-                 const std::vector<Index>& resting, StepEvents& found, std::vector<Place>& places) {
+void find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+                 StepEvents& found, std::vector<Place>& places) {
   const Piece own = samples.front()->piece;
   for (unsigned pattern = 1; pattern < (1u << resting.size()); ++pattern) {
     Piece piece = own;
@@ -155,8 +155,8 @@ void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vec
 
 }  // namespace
 
-void add_half_branches(const Walker& walker, Samples samples,
-                       const std::vector<Index>& resting, StepEvents& found, Curve& curve) {
+void add_half_branches(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+                       StepEvents& found, Curve& curve) {
   if (!walker.problem.symmetric() || !walker.options.branch_points) return;
   if (resting.size() > most_resting)
     return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);

@@ -13,7 +13,7 @@ namespace springfold::continuation {
 /// zero whose branch has no part in its piece is noted in the log, and is a kink with one way out if
 /// the number of negative eigenvalues of the step's own piece changes there.
 /// @param samples  the step's ends and points between them, in order
-void add_half_branches(const Walker& walker, Samples samples,
-                       const std::vector<Index>& resting, StepEvents& found, Curve& curve);
+void add_half_branches(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+                       StepEvents& found, Curve& curve);
 
 }  // namespace springfold::continuation

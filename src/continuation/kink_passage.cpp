@@ -162,8 +162,8 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
 
 /// Special points between the bounds, events of the caller on the whole step.
 StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const CurvePoint& end, const CurvePoint& begin,
-                          const CurvePoint* middle, const std::vector<Event>& events) {
+                          const CurvePoint& end, const CurvePoint& begin, const CurvePoint* middle,
+                          const std::vector<Event>& events) {
   StepEvents found = events_on_step(without_special_points(walker), begin, end, middle, events);
   if (!(to.s > from.s)) return found;
   const bool inside = middle && middle->s > from.s && middle->s < to.s;

@@ -32,8 +32,7 @@ bool is_rounding(double residual, const Linearisation& at, const Vector& x, doub
       sizes.array() += at.dF_dx.col(j).array().abs() * std::abs(x[j]);
   }
   sizes.array() += std::abs(lambda) * at.dF_dlambda.array().abs();
-  return residual <=
-         4 * (std::numeric_limits<double>::epsilon() * sizes.lpNorm<Eigen::Infinity>());
+  return residual <= 4 * (std::numeric_limits<double>::epsilon() * sizes.lpNorm<Eigen::Infinity>());
 }
 
 double norm(const Vector& weights, const Direction& d) {

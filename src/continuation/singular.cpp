@@ -244,8 +244,7 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 }  // namespace
 
-SingularPoints singular_points(const Walker& walker,
-                               Samples samples) {
+SingularPoints singular_points(const Walker& walker, Samples samples) {
   constexpr double most_blur = 3e-5;
   SingularPoints result;
   const CurvePoint &from = *samples.front(), &to = *samples.back();

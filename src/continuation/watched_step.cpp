@@ -175,8 +175,7 @@ double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::siz
 
 }  // namespace
 
-WatchedZeros singularities_on(const WatchedStep& arc,
-                              Samples samples) {
+WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
   if (!arc.walker().options.branch_points) return {};
   if (surely_regular(arc.walker(), arc.from().tangent, samples)) return {};
   std::vector<ExtendedMatrix> E;

@@ -85,8 +85,7 @@ struct WatchedZeros {
 };
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
-WatchedZeros singularities_on(const WatchedStep& arc,
-                              Samples samples);
+WatchedZeros singularities_on(const WatchedStep& arc, Samples samples);
 
 /// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
 /// @returns false when a zero could not be told to be a branch point

@@ -8,9 +8,9 @@ std::shared_ptr<WorkingMemory> working_memory() { return std::make_shared<Workin
 
 Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
                 const Piece& piece) {
-  const auto known = std::find_if(
-      memory.places.begin(), memory.places.end(),
-      [&](const Place& p) { return p.lambda == lambda && p.x == x && p.piece == piece; });
+  const auto known = std::find_if(memory.places.begin(), memory.places.end(), [&](const Place& p) {
+    return p.lambda == lambda && p.x == x && p.piece == piece;
+  });
   if (known != memory.places.end()) return &*known;
   Place& place = memory.places[memory.oldest];
   place.lambda = std::numeric_limits<double>::quiet_NaN();
