@@ -46,8 +46,8 @@ double Evaluator::force_rate_in_stages(const continuation::CurvePoint& point, do
                        problem_.inputs(point.lambda), {}, {}, r, A))
     return std::numeric_limits<double>::quiet_NaN();
   for (Index k = 0; k < d_; ++k)
-    size = std::hypot(size, A.product(Vector::Unit(system.size, t_ + k)).norm());
-  return conjugate_.dot(A.product(dz).segment(t_, d_));
+    size = std::hypot(size, product(A, Vector::Unit(system.size, t_ + k)).norm());
+  return conjugate_.dot(product(A, dz).segment(t_, d_));
 }
 
 std::vector<Index> Evaluator::closure_ranks_in_stages() const {

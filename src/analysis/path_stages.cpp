@@ -29,12 +29,16 @@ void PathProblem::put_basis(const Vector& y) const {
   for (std::size_t b = 0; b < system_.body_slices.size(); ++b) {
     const statics::BodySlice& body = system_.body_slices[b];
     const Index row = body.t - first;
-    const Matrix own = body.t == t_ ? rule_.N : Matrix::Identity(body.count, body.count);
     const FreeRotation* turning = nullptr;
     for (const FreeRotation& r : rotations_)
       if (r.body == b) turning = &r;
-    const Index plain = own.cols() - (turning != nullptr ? 3 : 0);
-    basis_.block(row, column, body.count, plain) = own.leftCols(plain);
+    const Index free = body.t == t_ ? rule_.N.cols() : body.count;
+    const Index plain = free - (turning != nullptr ? 3 : 0);
+    auto own = basis_.block(row, column, body.count, plain);
+    if (body.t == t_)
+      own = rule_.N.leftCols(plain);
+    else
+      own.setIdentity();
     if (turning != nullptr)
       basis_.block<3, 4>(turning->z - first, column + plain) = rate_of(y.segment<4>(turning->y));
     column += plain + (turning != nullptr ? 4 : 0);
@@ -48,7 +52,6 @@ bool PathProblem::structured_derivatives(const Vector& y, double lambda, const P
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
   put_basis(y);
-  added_.resize(0, 0);
   if (!rotations_.empty()) {
     const Index first = system_.first_pose;
     if (!stages_->residual(present, piece, z_, inputs_, r_)) return false;

@@ -61,6 +61,25 @@ bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place*
   return true;
 }
 
+/// Largest magnitude of an eigenvalue of E0^-1 (E1 - E0), of structured matrices with the same last row.
+/// @pre the row is set in middle.factors
+double largest_motion(WorkingMemory& memory, Place& middle, const Place& other) {
+  const Index n = middle.x.size();
+  Vector &v = memory.x, &there = memory.F, &here = memory.sizes;
+  const auto put_image = [&](const auto& direction, Vector& image) {
+    v = direction.head(n);
+    other.at.structured->product(v, there);
+    there += direction[n] * other.at.dF_dlambda;
+    middle.at.structured->product(v, here);
+    here += direction[n] * middle.at.dF_dlambda;
+    image.resize(n + 1);
+    image.head(n) = there - here;
+    image[n] = 0;
+    return middle.factors.solve(image.data());
+  };
+  return largest_eigenvalue(memory.arnoldi, n + 1, put_image);
+}
+
 }  // namespace
 
 bool surely_regular(const Walker& walker, const Direction& tau, Samples samples) {
@@ -73,17 +92,14 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
     places[i] = place_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
     if (!places[i]) return false;
   }
+  if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
   if (places[middle]->at.structured) {
     constexpr double safely = 1.0 / 3;
-    const auto matrix = [&](std::size_t i) {
-      return extended_matrix(places[i]->at, walker.weights, tau);
-    };
-    const ExtendedMatrix E0 = matrix(middle);
     for (std::size_t i = 0; i < count; ++i)
-      if (i != middle && !(relative_motion(E0, E0, matrix(i), true).front() < safely)) return false;
+      if (i != middle && !(largest_motion(*walker.memory, *places[middle], *places[i]) < safely))
+        return false;
     return true;
   }
-  if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
   std::array<const Place*, most> others{};
   std::size_t number = 0;
   for (std::size_t i = 0; i < count; ++i)

@@ -17,6 +17,13 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 
 namespace {
 
+/// d times nearest_signs().
+void take_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near,
+                Vector& d) {
+  for (const Index i : double_covers)
+    if (x.segment<4>(i).dot(near.segment<4>(i)) < 0) d.segment<4>(i) *= -1;
+}
+
 /// The memory with what the problem says of itself.
 WorkingMemory& informed(const Walker& walker) {
   WorkingMemory& memory = *walker.memory;
@@ -32,8 +39,7 @@ void set_between(const Walker& walker, const CurvePoint& a, const CurvePoint& b,
   const WorkingMemory& memory = informed(walker);
   d.dx = b.x;
   d.dlambda = b.lambda - a.lambda;
-  if (!memory.double_covers.empty())
-    d.dx.array() *= nearest_signs(memory.double_covers, b.x, a.x).array();
+  take_signs(memory.double_covers, b.x, a.x, d.dx);
   d.dx -= a.x;
   for (Index i = 0; i < d.dx.size(); ++i)
     if (memory.periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], memory.periods[i]);
@@ -43,8 +49,7 @@ void set_between(const Walker& walker, const CurvePoint& a, const CurvePoint& b,
 
 Direction direction_seen_from(const Walker& walker, const Vector& near, const CurvePoint& point) {
   Direction direction = point.tangent;
-  const auto& covers = informed(walker).double_covers;
-  if (!covers.empty()) direction.dx.array() *= nearest_signs(covers, point.x, near).array();
+  take_signs(informed(walker).double_covers, point.x, near, direction.dx);
   return direction;
 }
 

@@ -8,13 +8,15 @@
 #include <cmath>
 #include <limits>
 
+#include "arnoldi.hpp"
+
 namespace springfold::continuation {
 namespace {
 
 /// Jacobi's method is the more accurate one; on larger matrices it takes too long.
 constexpr Index jacobi_size = 32;
 
-/// Steps of Arnoldi's method, and of inverse iteration for singular vectors.
+/// Steps of inverse iteration for singular vectors.
 constexpr Index most_steps = 16;
 
 /// All columns of a structured E by a function of columns of dF/dx.
@@ -127,7 +129,7 @@ ExtendedMatrix extended_matrix(const Linearisation& at, const Vector& weights,
 
 Matrix product(const ExtendedMatrix& E, const Matrix& X) {
   if (!E.at.structured) return E.dense * X;
-  return by_columns(E, X, false, [&](const Vector& v) { return E.at.structured->product(v); });
+  return by_columns(E, X, false, [&](const Vector& v) { return product(*E.at.structured, v); });
 }
 
 Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X) {
@@ -135,7 +137,7 @@ Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X) {
   ExtendedMatrix sizes = E;
   sizes.at.dF_dlambda = E.at.dF_dlambda.cwiseAbs();
   return by_columns(sizes, X.cwiseAbs(), true,
-                    [&](const Vector& v) { return E.at.structured->magnitudes(v); });
+                    [&](const Vector& v) { return magnitudes(*E.at.structured, v); });
 }
 
 std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders,
@@ -179,43 +181,21 @@ Vector least_singular_values(const ExtendedMatrix& E, Index m) {
 }
 
 std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatrix& E0,
-                                    const ExtendedMatrix& E1, bool only_largest) {
+                                    const ExtendedMatrix& E1) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Matrix small;  // the map itself, or what Arnoldi's basis sees of it
   if (!E.at.structured) {
     small = E.dense.partialPivLu().solve(E1.dense - E0.dense);
   } else {
-    const Index n = E.rows();
-    const Index steps = std::min(most_steps, n);
-    Matrix basis(n, steps + 1);
-    basis.col(0) = irregular_columns(n, 1);
-    Matrix H = Matrix::Zero(steps + 1, steps);
-    Index size = 0;
-    double before = infinity;
-    while (size < steps) {
-      const Matrix v = basis.col(size);
-      const Matrix difference = product(E1, v) - product(E0, v);
-      const auto w = solve_with(E, {}, difference);
-      if (!w) return {infinity};
-      Vector next = w->col(0);
-      for (int pass = 0; pass < 2; ++pass) {
-        const Vector in_basis = basis.leftCols(size + 1).transpose() * next;
-        H.col(size).head(size + 1) += in_basis;
-        next -= basis.leftCols(size + 1) * in_basis;
-      }
-      const double left = next.norm();
-      ++size;
-      H(size, size - 1) = left;
-      if (!(left > 1e-12 * H.norm())) break;
-      basis.col(size) = next / left;
-      if (!only_largest || size < 3) continue;
-      // What is small needs to be known only roughly.
-      constexpr double share = 0.02, negligible = 0.01;
-      const double now = magnitudes_of(H.topLeftCorner(size, size)).front();
-      if (std::abs(now - before) <= share * now + negligible) break;
-      before = now;
-    }
-    small = H.topLeftCorner(size, size);
+    Arnoldi arnoldi;
+    arnoldi.begin(E.rows());
+    do {
+      const Matrix v = arnoldi.newest();
+      const auto image = solve_with(E, {}, product(E1, v) - product(E0, v));
+      if (!image) return {infinity};
+      arnoldi.image() = image->col(0);
+    } while (arnoldi.add());
+    small = arnoldi.map();
   }
   return small.allFinite() ? magnitudes_of(small) : std::vector<double>{infinity};
 }

@@ -56,9 +56,8 @@ Vector least_singular_values(const ExtendedMatrix& E, Index m);
 
 /// Magnitudes of the largest eigenvalues of E^-1 (E1 - E0), descending: all of them, or those that some
 /// steps of Arnoldi's method show where E is structured. Infinity where E is singular.
-/// @param only_largest  no more steps than the first of them needs
 std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatrix& E0,
-                                    const ExtendedMatrix& E1, bool only_largest = false);
+                                    const ExtendedMatrix& E1);
 
 /// Matrices of more rows are not formed with their entries where they are structured.
 inline constexpr Index most_entries = 4000;

@@ -25,7 +25,7 @@ constexpr double blurred_step = 1e-6;
 bool is_rounding(double residual, const Linearisation& at, const Vector& x, double lambda,
                  Vector& sizes) {
   if (at.structured) {
-    sizes = at.structured->magnitudes(x);
+    at.structured->magnitudes(x, sizes);
   } else {
     sizes.setZero(x.size());
     for (Index j = 0; j < x.size(); ++j)
@@ -48,8 +48,13 @@ double metric_product(const Vector& weights, const Direction& a, const Direction
 bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                Linearisation& at) {
   if (!problem.structured()) return linearise_densely(problem, x, lambda, piece, at);
+  // The same object again if nobody else has it; what it holds is let go first, for the problem to use.
+  auto matrix = std::const_pointer_cast<StructuredMatrix>(std::move(at.structured));
   at.structured.reset();
-  auto matrix = std::make_shared<StructuredMatrix>();
+  if (matrix.use_count() == 1)
+    *matrix = {};
+  else
+    matrix = std::make_shared<StructuredMatrix>();
   if (!problem.structured_derivatives(x, lambda, piece, *matrix, at.dF_dlambda) ||
       !at.dF_dlambda.allFinite())
     return false;
@@ -65,11 +70,11 @@ bool linearise_densely(ProblemView problem, const Vector& x, double lambda, cons
 }
 
 Vector product(const Linearisation& at, const Vector& v) {
-  return at.structured ? at.structured->product(v) : Vector(at.dF_dx * v);
+  return at.structured ? product(*at.structured, v) : Vector(at.dF_dx * v);
 }
 
 Vector magnitudes(const Linearisation& at, const Vector& v) {
-  return at.structured ? at.structured->magnitudes(v) : Vector(at.dF_dx.cwiseAbs() * v.cwiseAbs());
+  return at.structured ? magnitudes(*at.structured, v) : Vector(at.dF_dx.cwiseAbs() * v.cwiseAbs());
 }
 
 std::optional<Index> negative_eigenvalues(const Linearisation& at) {

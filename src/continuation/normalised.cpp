@@ -79,8 +79,9 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
 bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                                         StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.structured_derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
-  dG_dy = scaled(std::move(dG_dy), force_, unit_);
+  if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
+    return false;
+  matrices_.put(force_, unit_, dG_dy);
   dG_dlambda.array() *= force_.array();
   return true;
 }

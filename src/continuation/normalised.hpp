@@ -67,6 +67,7 @@ class Normalised {
   bool trivial_ = true;
 
   mutable Vector x_{};
+  mutable ScaledMatrices matrices_{};
 };
 
 /// trace() without a change of units: for callers that have changed them already.

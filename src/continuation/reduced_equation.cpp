@@ -127,7 +127,7 @@ Matrix product(const ScaledJacobian& J, const Matrix& X) {
   if (!J.structured) return J.dense * X;
   const Index n = J.dF_dlambda.size();
   Matrix Y = J.dF_dlambda * X.bottomRows(1);
-  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += J.structured->product(X.col(c).head(n));
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += product(*J.structured, X.col(c).head(n));
   return Y;
 }
 
@@ -135,7 +135,7 @@ Matrix magnitudes(const ScaledJacobian& J, const Matrix& X) {
   if (!J.structured) return J.dense.cwiseAbs() * X.cwiseAbs();
   const Index n = J.dF_dlambda.size();
   Matrix Y = J.dF_dlambda.cwiseAbs() * X.bottomRows(1).cwiseAbs();
-  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += J.structured->magnitudes(X.col(c).head(n));
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += magnitudes(*J.structured, X.col(c).head(n));
   return Y;
 }
 

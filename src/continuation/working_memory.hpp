@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "arnoldi.hpp"
 #include "bordered_factors.hpp"
 #include "springfold/continuation/step.hpp"
 
@@ -27,6 +28,7 @@ struct WorkingMemory {
   Vector F{}, step{}, sizes{}, x{};
   Direction direction{};
   Matrix inverse{}, motion{};
+  Arnoldi arnoldi{};
   CurvePoint next{}, middle{};  ///< of the step that is being taken
   CurvePoint trial{};           ///< between them
   struct Switches {

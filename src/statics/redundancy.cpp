@@ -73,7 +73,7 @@ class Closures {
     e = r_(rows_);
     J.resize(static_cast<Index>(rows_.size()), static_cast<Index>(columns_.size()));
     for (Index k = 0; k < J.rows(); ++k) {
-      const Vector row = A.product(Vector::Unit(system_.size, rows_[static_cast<std::size_t>(k)]));
+      const Vector row = product(A, Vector::Unit(system_.size, rows_[static_cast<std::size_t>(k)]));
       J.row(k) = row(columns_);
     }
     return true;

@@ -22,6 +22,6 @@ void fill_chain(const StagePlan& plan, const System& system, std::size_t i, Stag
 
 /// (A dz + dR/drho drho) of the chain without its springs.
 void add_chain_product(const System& system, std::size_t i, const ChainSums& sums, const Vector& dz,
-                       const Vector& drho, Vector& product);
+                       const Vector& drho, StageScratch& scratch, Vector& product);
 
 }  // namespace springfold::statics

@@ -22,10 +22,20 @@ struct StageJacobians::Slot {
   StageSolver solver;
   FrontalBorders borders{};  ///< that the solver has now
   bool factorised = false;
+  StageMatrix sizes{};  ///< once they are asked for
+  bool sized = false;
+  Matrix basis_sizes{}, added_sizes{};
+  StageScratch scratch{};
+  Vector absolute{}, dz{}, dr{}, root{};
 
   bool factorise(const FrontalBorders& wanted);
   bool take(const FrontalBorders& wanted);
-  Vector product(const Vector& v, bool sizes) const;
+  bool solve(const FrontalBorders& wanted, Matrix& X, bool transposed);
+  std::optional<Inertia> inertia();
+  void multiply(const StageMatrix& A, const Matrix& basis, const Matrix& own, const Vector& v,
+                Vector& result);
+  void product(const Vector& v, Vector& result);
+  void magnitudes(const Vector& v, Vector& result);
 };
 
 namespace {
@@ -33,7 +43,10 @@ namespace {
 /// Borders that grow more in the elimination take part in it themselves.
 constexpr double largest_growth = 1e4;
 
-double most(const Matrix& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0; }
+template <class Entries>
+double most(const Entries& m) {
+  return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0;
+}
 
 double largest_entry(const StageMatrix& matrix) {
   double largest = most(matrix.stiffness);
@@ -65,24 +78,49 @@ bool StageJacobians::Slot::take(const FrontalBorders& wanted) {
   return solver.frontal().border_growth() <= largest_growth || factorise(wanted);
 }
 
-/// A_y v, or the sizes of what is summed up in it.
-Vector StageJacobians::Slot::product(const Vector& v, bool sizes) const {
+bool StageJacobians::Slot::solve(const FrontalBorders& wanted, Matrix& X, bool transposed) {
+  if (!take(wanted)) return false;
+  return transposed ? solver.solve_transposed(X) : solver.solve(X);
+}
+
+std::optional<Inertia> StageJacobians::Slot::inertia() {
+  const Index n = layout->plan.size();
+  if (!factorised && !factorise({Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)})) return std::nullopt;
+  return solver.inertia();
+}
+
+/// (basis^T A basis + own) v
+void StageJacobians::Slot::multiply(const StageMatrix& A, const Matrix& basis, const Matrix& own,
+                                    const Vector& v, Vector& result) {
   const StagePlan& plan = layout->plan;
-  const Index first = plan.chain_unknowns, root = plan.root_unknowns;
-  const Vector turned = matrix.basis * v.tail(root);
-  Vector dz(first + turned.size());
-  dz << v.head(first), sizes ? Vector(matrix.basis.cwiseAbs() * v.tail(root).cwiseAbs()) : turned;
-  const Vector dr = sizes ? stage_magnitudes(plan, layout->system, matrix, dz)
-                          : stage_product(plan, layout->system, matrix, dz, {});
-  Vector result(plan.size());
+  const Index first = plan.chain_unknowns, count = plan.root_unknowns, poses = basis.rows();
+  dz.resize(first + poses);
+  dz.head(first) = v.head(first);
+  dz.tail(poses).noalias() = basis * v.tail(count);
+  stage_product(plan, layout->system, A, dz, {}, scratch, dr);
+  result.resize(plan.size());
   result.head(first) = dr.head(first);
-  const Vector poses = dr.tail(dr.size() - first);
-  result.tail(root) = sizes ? Vector(matrix.basis.cwiseAbs().transpose() * poses)
-                            : Vector(matrix.basis.transpose() * poses);
-  if (added.size() > 0)
-    result.tail(root) +=
-        sizes ? Vector(added.cwiseAbs() * v.tail(root).cwiseAbs()) : Vector(added * v.tail(root));
-  return result;
+  result.tail(count).noalias() = basis.transpose() * dr.tail(poses);
+  if (own.size() == 0) return;
+  root.noalias() = own * v.tail(count);
+  result.tail(count) += root;
+}
+
+void StageJacobians::Slot::product(const Vector& v, Vector& result) {
+  multiply(matrix, matrix.basis, added, v, result);
+}
+
+/// The sizes of what is summed up in A_y v.
+void StageJacobians::Slot::magnitudes(const Vector& v, Vector& result) {
+  if (!sized) {
+    put_sizes(matrix, sizes);
+    basis_sizes = matrix.basis.cwiseAbs();
+    added_sizes = -added.cwiseAbs();
+    sized = true;
+  }
+  absolute = v.cwiseAbs();
+  multiply(sizes, basis_sizes, added_sizes, absolute, result);
+  result = -result;
 }
 
 bool prefers_stages(const System& system, Index unknowns) {
@@ -115,31 +153,29 @@ bool StageJacobians::residual(const System& system, const Piece& piece, const Ve
 bool StageJacobians::matrix(const System& system, const Piece& piece, const Vector& z,
                             const Inputs& inputs, const Matrix& basis, const Matrix& added,
                             Vector& r, StructuredMatrix& A_y) {
-  const std::shared_ptr<Slot> slot = free_slot();
-  slot->factorised = false;
+  const std::shared_ptr<Slot> owner = free_slot();
+  Slot* const slot = owner.get();
+  slot->factorised = slot->sized = false;
   slot->added = added;
   if (!equilibrium_stages(layout_->plan, system, piece, z, inputs, basis, added, r, slot->matrix))
     return false;
-  last_ = slot;
+  last_ = owner;
   A_y.largest = largest_entry(slot->matrix);
-  A_y.product = [slot](const Vector& v) { return slot->product(v, false); };
-  A_y.magnitudes = [slot](const Vector& v) { return slot->product(v, true); };
+  A_y.product = [slot](const Vector& v, Vector& result) { slot->product(v, result); };
+  A_y.magnitudes = [slot](const Vector& v, Vector& result) { slot->magnitudes(v, result); };
   A_y.solve = [slot](const FrontalBorders& borders, Matrix& X, bool transposed) {
-    if (!slot->take(borders)) return false;
-    return transposed ? slot->solver.solve_transposed(X) : slot->solver.solve(X);
+    return slot->solve(borders, X, transposed);
   };
-  A_y.inertia = [slot]() -> std::optional<Inertia> {
-    const Index n = slot->layout->plan.size();
-    if (!slot->factorised && !slot->factorise({Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}))
-      return std::nullopt;
-    return slot->solver.inertia();
-  };
+  A_y.inertia = [slot] { return slot->inertia(); };
+  A_y.owner = owner;
   return true;
 }
 
 Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
   assert(last_ != nullptr);
-  return stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho);
+  Vector product;
+  stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho, last_->scratch, product);
+  return product;
 }
 
 Matrix StageJacobians::chain_stiffness(std::size_t chain, const Matrix& held) const {
@@ -154,7 +190,7 @@ Matrix StageJacobians::chain_stiffness(std::size_t chain, const Matrix& held) co
     const Vector dz = held.col(t - first + c);
     Vector r = Vector::Zero(system.size);
     if (layout_->plan.chains[chain].staged) {
-      add_chain_product(system, chain, last_->matrix.sums[chain], dz, {}, r);
+      add_chain_product(system, chain, last_->matrix.sums[chain], dz, {}, last_->scratch, r);
     } else {
       const std::vector<Index>& places = layout_->plan.dense[chain].places;
       r(places) = last_->matrix.blocks[chain] * Vector(dz(places));

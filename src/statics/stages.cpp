@@ -218,8 +218,10 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   matrix.groups.resize(system.coupled.size());
   for (std::size_t k = 0; k < system.coupled.size(); ++k)
     matrix.groups[k] = system.coupled[k].stiffness;
-  matrix.basis = basis;
-  if (basis.rows() == 0) matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
+  if (basis.rows() > 0)
+    matrix.basis = basis;
+  else
+    matrix.basis.setIdentity(plan.root_unknowns, plan.root_unknowns);
   cut_bases(plan, system, matrix);
   matrix.scale.setOnes(plan.pattern.size);
   matrix.values.resize(plan.pattern.first_value.back());
@@ -235,35 +237,65 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   return matrix.root.allFinite();
 }
 
-Vector stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-                     const Vector& dz, const Vector& drho) {
-  Vector product = Vector::Zero(system.size);
+namespace {
+
+/// product += block v, in the rows at these places.
+void add_product(const Matrix& block, const Vector& v, const std::vector<Index>& places,
+                 StageScratch& scratch, Vector& product) {
+  scratch.out.noalias() = block * v;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    product[places[k]] += scratch.out[static_cast<Index>(k)];
+}
+
+/// product += block dz, for the unknowns at these places.
+void add_block(const Matrix& block, const std::vector<Index>& places, const Vector& dz,
+               StageScratch& scratch, Vector& product) {
+  const auto n = static_cast<Index>(places.size());
+  scratch.in.resize(n);
+  for (Index k = 0; k < n; ++k) scratch.in[k] = dz[places[static_cast<std::size_t>(k)]];
+  add_product(block, scratch.in, places, scratch, product);
+}
+
+}  // namespace
+
+void stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                   const Vector& dz, const Vector& drho, StageScratch& scratch, Vector& product) {
+  product.setZero(system.size);
   product.head(plan.chain_unknowns) = matrix.stiffness.cwiseProduct(dz.head(plan.chain_unknowns));
   for (std::size_t i = 0; i < plan.chains.size(); ++i) {
     if (!plan.chains[i].staged) continue;
-    add_chain_product(system, i, matrix.sums[i], dz, drho, product);
-    for (const StageGroup& entry : plan.chains[i].groups) {
-      const CoordinateGroup& group = system.coupled[entry.group];
-      product(group.coordinates) += matrix.groups[entry.group] * Vector(dz(group.coordinates));
-    }
+    add_chain_product(system, i, matrix.sums[i], dz, drho, scratch, product);
+    for (const StageGroup& entry : plan.chains[i].groups)
+      add_block(matrix.groups[entry.group], system.coupled[entry.group].coordinates, dz, scratch,
+                product);
   }
   for (std::size_t p = 0; p < matrix.blocks.size(); ++p) {
     const bool bodies = p == plan.chains.size();
     if (!bodies && plan.chains[p].staged) continue;
     const std::vector<Index>& places = plan.dense[p].places;
-    product(places) += matrix.blocks[p] * Vector(dz(places));
-    if (drho.size() > 0) product(places) += matrix.block_rates[p] * drho;
+    add_block(matrix.blocks[p], places, dz, scratch, product);
+    if (drho.size() > 0) add_product(matrix.block_rates[p], drho, places, scratch, product);
   }
+}
+
+Vector stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                     const Vector& dz, const Vector& drho) {
+  StageScratch scratch;
+  Vector product;
+  stage_product(plan, system, matrix, dz, drho, scratch, product);
   return product;
 }
 
-Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-                        const Vector& dz) {
-  StageMatrix sizes;  // all signs such that the terms of the product add up
+/// All signs such that the terms of the product add up.
+void put_sizes(const StageMatrix& matrix, StageMatrix& sizes) {
   sizes.stiffness = -matrix.stiffness.cwiseAbs();
-  for (const Matrix& group : matrix.groups) sizes.groups.push_back(-group.cwiseAbs());
-  for (const ChainSums& sums : matrix.sums) {
-    ChainSums& size = sizes.sums.emplace_back();
+  sizes.groups.resize(matrix.groups.size());
+  for (std::size_t k = 0; k < matrix.groups.size(); ++k)
+    sizes.groups[k] = -matrix.groups[k].cwiseAbs();
+  sizes.sums.resize(matrix.sums.size());
+  for (std::size_t i = 0; i < matrix.sums.size(); ++i) {
+    const ChainSums& sums = matrix.sums[i];
+    ChainSums& size = sizes.sums[i];
     size.turn = sums.turn.cwiseAbs();
     size.moment = sums.moment.cwiseAbs();
     size.J = sums.J.cwiseAbs();
@@ -272,7 +304,15 @@ Vector stage_magnitudes(const StagePlan& plan, const System& system, const Stage
     size.H_from = sums.H_from.cwiseAbs();
     size.H_to = sums.H_to.cwiseAbs();
   }
-  for (const Matrix& block : matrix.blocks) sizes.blocks.push_back(-block.cwiseAbs());
+  sizes.blocks.resize(matrix.blocks.size());
+  for (std::size_t p = 0; p < matrix.blocks.size(); ++p)
+    sizes.blocks[p] = -matrix.blocks[p].cwiseAbs();
+}
+
+Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                        const Vector& dz) {
+  StageMatrix sizes;
+  put_sizes(matrix, sizes);
   return -stage_product(plan, system, sizes, dz.cwiseAbs(), {});
 }
 

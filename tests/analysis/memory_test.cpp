@@ -60,26 +60,29 @@ Piece piece_at(const PathProblem& problem, const Vector& y) {
   return piece;
 }
 
-/// A straight column of links with springs between them, pushed askew.
-PathProblem column(int links) {
+/// A straight column of links with springs between them, pushed askew. In space they turn about x, y and z one after the
+/// other.
+PathProblem column(int links, model::TaskSpace space = model::TaskSpace::xy) {
   using namespace model;
+  const Index d = dimension(space);
   Mechanism m;
-  m.bodies.push_back({"tip", TaskSpace::xy, Vector{{1, 0}}});
+  m.bodies.push_back({"tip", space, Vector::Unit(d, 0)});
   Chain chain{.name = "column"};
   for (int i = 0; i < links; ++i) {
-    chain.elements.push_back(Joint{.name = "j" + std::to_string(i + 1),
-                                   .role = JointRole::preloaded,
-                                   .spring = linear(links)});
+    Joint joint{
+        .name = "j" + std::to_string(i + 1), .role = JointRole::preloaded, .spring = linear(links)};
+    if (space == TaskSpace::spatial) joint.axis = Vec3<double>::Unit(i % 3);
+    chain.elements.push_back(joint);
     chain.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX() / links}});
   }
   m.chains.push_back(chain);
   const statics::System system = statics::prepare(m);
-  const Vector none = Vector::Zero(2);
+  const Vector none = Vector::Zero(d);
   PathRule rule{.t_start = none, .t_rate = none};
-  rule.N = Matrix::Identity(2, 2);
+  rule.N = Matrix::Identity(d, d);
   rule.rho_start = rule.rho_rate = system.commands;
   rule.W_start = none;
-  rule.W_rate = Vector{{-1, -0.1}};
+  rule.W_rate = -Vector::Unit(d, 0) - 0.1 * Vector::Unit(d, 1);
   return {system, rule};
 }
 
@@ -100,6 +103,8 @@ long allocations_for(const PathProblem& problem, int points,
 /// Of one step, beyond the list of points, which grows a few times.
 double per_step(const PathProblem& problem, const std::vector<continuation::Event>& events = {}) {
   constexpr int few = 50, many = 250;
+  allocations_for(problem, many,
+                  events);  // the problem keeps memory of its own, as much as it needs on the way
   const long extra = allocations_for(problem, many, events) - allocations_for(problem, few, events);
   return static_cast<double>(extra) / (many - few);
 }
@@ -111,6 +116,18 @@ TEST(AStep, AsksForNoMemoryButThatOfThePointItKeeps) {
   EXPECT_LE(per_step(problem_of(linear(0.05), true)), point + list);
   EXPECT_LE(per_step(column(30)), point + list);
   EXPECT_LE(per_step(problem_of(one_sided(0.05, 0.8), false)), point + 1 + list);
+}
+
+TEST(AStep, AsksForNoMoreWhereAChainIsEvaluatedInStages) {
+  using enum model::TaskSpace;
+  constexpr double point = 2, list = 0.05;
+  for (const auto& [links, space] :
+       {std::pair{60, xy}, std::pair{200, xy}, std::pair{60, planar}, std::pair{60, spatial}}) {
+    const PathProblem problem = column(links, space);
+    ASSERT_TRUE(problem.structured());
+    EXPECT_LE(per_step(problem), point + list)
+        << links << " links, " << model::dimension(space) << " coordinates of the tip";
+  }
 }
 
 TEST(AStep, AsksForNoneWhereEventsAreWatchedEither) {

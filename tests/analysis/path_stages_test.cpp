@@ -69,8 +69,8 @@ void expect_equal(std::mt19937& random, const PathProblem& problem) {
   EXPECT_GT(J.largest, 0.1 * size);
   EXPECT_LT(J.largest, 100 * size);
   const Vector v = random_vector(random, n, 1);
-  EXPECT_LT((J.product(v) - A * v).cwiseAbs().maxCoeff(), 1e-11 * size);
-  EXPECT_GE((J.magnitudes(v) - A.cwiseAbs() * v.cwiseAbs()).minCoeff(), -1e-10 * size);
+  EXPECT_LT((product(J, v) - A * v).cwiseAbs().maxCoeff(), 1e-11 * size);
+  EXPECT_GE((magnitudes(J, v) - A.cwiseAbs() * v.cwiseAbs()).minCoeff(), -1e-10 * size);
 
   const FrontalBorders borders = random_borders(random, n, 2);
   const Matrix M = with_borders(A, borders), right = random_vector(random, n + 2, 1);
@@ -131,10 +131,10 @@ TEST(PathInStages, MatricesOutliveTheNextEvaluation) {
   StructuredMatrix first, second;
   Vector rate;
   ASSERT_TRUE(problem.structured_derivatives(y, 0, piece, first, rate));
-  const Vector product = first.product(v);
+  const Vector before = product(first, v);
   ASSERT_TRUE(problem.structured_derivatives(1.5 * y, 0.2, piece, second, rate));
-  EXPECT_EQ(first.product(v), product);
-  EXPECT_NE(second.product(v), product);
+  EXPECT_EQ(product(first, v), before);
+  EXPECT_NE(product(second, v), before);
 }
 
 }  // namespace

@@ -65,11 +65,11 @@ struct LinkColumn {
       return springfold::product(held->pattern, values, Matrix(0, 0), {}, v);
     };
     J.largest = 4;
-    J.product = [held, times](const Vector& v) { return times(held->values, v); };
-    J.magnitudes = [held, times](const Vector& v) {
+    J.product = [held, times](const Vector& v, Vector& Jv) { Jv = times(held->values, v); };
+    J.magnitudes = [held, times](const Vector& v, Vector& result) {
       std::vector<double> sizes = held->values;
       for (double& size : sizes) size = std::abs(size);
-      return times(sizes, v.cwiseAbs());
+      result = times(sizes, v.cwiseAbs());
     };
     J.solve = [held](const FrontalBorders& borders, Matrix& X, bool transposed) {
       if (!held->frontal.factorise(held->values, Matrix(0, 0), borders)) return false;

@@ -141,14 +141,23 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
                         const Matrix& added, Vector& residual, StageMatrix& matrix,
                         bool with_matrix = true);
 
+/// Scratch of products, used again.
+struct StageScratch {
+  Vector motion{}, turned{}, closure{}, wrench{}, in{}, out{};
+};
+
 /// A dz + (d residual/d rho) drho without poses' basis, for any change of unknowns and commands.
 /// @param dz    size of z
 /// @param drho  commands; empty: zero
+void stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
+                   const Vector& dz, const Vector& drho, StageScratch& scratch, Vector& product);
 Vector stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
                      const Vector& dz, const Vector& drho);
 
-/// |A| |dz| or more: the sizes of what is summed up in A dz, for estimates of its rounding. Entries of
-/// A that are sums themselves count with the sizes of their terms.
+/// The matrix whose product with -|dz| is |A| |dz| or more: the sizes of what is summed up in A dz, for estimates of
+/// its rounding. Entries of A that are sums themselves count with the sizes of their terms.
+/// @param sizes  good for products only
+void put_sizes(const StageMatrix& matrix, StageMatrix& sizes);
 Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
                         const Vector& dz);
 
