@@ -1,6 +1,7 @@
 #include "front.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace springfold {
@@ -215,8 +216,13 @@ void keep(const Front& front, Index pivots, FrontFactors& factors) {
   }
 }
 
-void forward(const FrontFactors& factors, std::size_t f, double* right, Index stride,
-             Index columns) {
+namespace {
+
+/// `width` columns side by side, or, if it is zero, as many as there are.
+template <Index width>
+void forward_in(const FrontFactors& factors, std::size_t f, double* right, Index stride,
+                Index columns) {
+  if (width > 0) stride = columns = width;
   const FrontFactors::Front& front = factors.fronts[f];
   const Index* ids = factors.ids.data() + front.ids;
   for (Index t = 0; t < front.pivots; ++t) {
@@ -230,19 +236,40 @@ void forward(const FrontFactors& factors, std::size_t f, double* right, Index st
   }
 }
 
-void backward(const FrontFactors& factors, std::size_t f, double* right, Index stride,
-              Index columns) {
+template <Index width>
+void backward_in(const FrontFactors& factors, std::size_t f, double* right, Index stride,
+                 Index columns) {
+  if (width > 0) stride = columns = width;
   const FrontFactors::Front& front = factors.fronts[f];
   const Index* ids = factors.ids.data() + front.ids;
   for (Index t = front.pivots; t-- > 0;) {
     const double* l = factors.L.data() + front.L + t * front.size;
     const bool first_of_two = factors.two[front.D + static_cast<std::size_t>(t)] == 1;
     double* pivot = right + ids[t] * stride;
+    std::array<double, width> sum;
+    std::copy_n(pivot, width, sum.begin());
+    double* to = width > 0 ? sum.data() : pivot;
     for (Index i = t + (first_of_two ? 2 : 1); i < front.size; ++i) {
       const double* row = right + ids[i] * stride;
-      for (Index c = 0; c < columns; ++c) pivot[c] -= l[i] * row[c];
+      for (Index c = 0; c < columns; ++c) to[c] -= l[i] * row[c];
     }
+    std::copy_n(sum.begin(), width, pivot);
   }
+}
+
+}  // namespace
+
+void forward(const FrontFactors& factors, std::size_t f, double* right, Index stride,
+             Index columns) {
+  if (stride == 1 && columns == 1) return forward_in<1>(factors, f, right, stride, columns);
+  if (stride == 2 && columns == 2) return forward_in<2>(factors, f, right, stride, columns);
+  forward_in<0>(factors, f, right, stride, columns);
+}
+
+void backward(const FrontFactors& factors, std::size_t f, double* right, Index stride,
+              Index columns) {
+  if (stride == 1 && columns == 1) return backward_in<1>(factors, f, right, stride, columns);
+  backward_in<0>(factors, f, right, stride, columns);
 }
 
 void divide(const FrontFactors& factors, std::size_t f, double* right, Index stride,

@@ -5,6 +5,12 @@
 
 namespace springfold::statics {
 
+/// The first n numbers of a vector that only grows.
+inline auto first_of(Vector& v, Index n) {
+  if (v.size() < n) v.resize(n);
+  return v.head(n);
+}
+
 /// Geometry, closure and loads of chain i in one pass out and one pass back.
 void evaluate_chain(const ChainStages& chain, const System& system, std::size_t i, const Vector& z,
                     const Inputs& inputs, ChainSums& out);

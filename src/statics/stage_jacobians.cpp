@@ -171,11 +171,15 @@ bool StageJacobians::matrix(const System& system, const Piece& piece, const Vect
   return true;
 }
 
-Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
+void StageJacobians::product(const Vector& dz, const Vector& drho, Vector& result) const {
   assert(last_ != nullptr);
-  Vector product;
-  stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho, last_->scratch, product);
-  return product;
+  stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho, last_->scratch, result);
+}
+
+Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
+  Vector result;
+  product(dz, drho, result);
+  return result;
 }
 
 Matrix StageJacobians::chain_stiffness(std::size_t chain, const Matrix& held) const {

@@ -56,10 +56,10 @@ bool add_part(const StagePlan& plan, std::size_t p, const System& system, const 
   own.z.resize(n);
   for (Index k = 0; k < n; ++k) own.z[k] = z[part.places[static_cast<std::size_t>(k)]];
   const bool finite =
-      with_matrix ? equilibrium_matrix(own.system, own.piece, own.z, own.inputs, matrix.dense,
-                                       own.residual, matrix.blocks[p], &matrix.block_rates[p])
-                  : equilibrium_residual(own.system, own.piece, own.z, own.inputs, matrix.dense,
-                                         own.residual);
+      with_matrix
+          ? equilibrium_matrix(own.system, own.piece, own.z, own.inputs, own.work, own.residual,
+                               matrix.blocks[p], &matrix.block_rates[p])
+          : equilibrium_residual(own.system, own.piece, own.z, own.inputs, own.work, own.residual);
   for (Index k = 0; k < n; ++k)
     residual[part.places[static_cast<std::size_t>(k)]] += own.residual[k];
   return finite;
@@ -151,15 +151,14 @@ void fill_dense(const StagePlan& plan, const System& system, std::size_t i, Stag
   const Index own = slice.x_count + slice.F_count;
   const Matrix& A = matrix.blocks[i];
   const Index poses = A.rows() - own;
-  Matrix values = Matrix::Zero(m, m);
+  Eigen::Map<Matrix> values(matrix.values.data() + plan.pattern.first_value[f], m, m);
+  values.setZero();
   values.topLeftCorner(own, own) = A.topLeftCorner(own, own);
   for (Index c = own; c < m; ++c)
-    values.row(c).head(own) =
+    values.row(c).head(own).noalias() =
         matrix.basis.col(ids[c] - plan.chain_unknowns).transpose() * A.block(own, 0, poses, own);
   for (Index c = 0; c < m; ++c)
     for (Index r = c; r < m; ++r) values(r, c) *= matrix.scale[ids[r]] * matrix.scale[ids[c]];
-  std::copy(values.data(), values.data() + m * m,
-            matrix.values.data() + plan.pattern.first_value[f]);
 }
 
 /// Everything between poses.
@@ -240,20 +239,21 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
 namespace {
 
 /// product += block v, in the rows at these places.
-void add_product(const Matrix& block, const Vector& v, const std::vector<Index>& places,
+template <class Given>
+void add_product(const Matrix& block, const Given& v, const std::vector<Index>& places,
                  StageScratch& scratch, Vector& product) {
-  scratch.out.noalias() = block * v;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    product[places[k]] += scratch.out[static_cast<Index>(k)];
+  auto out = first_of(scratch.out, block.rows());
+  out.noalias() = block * v;
+  for (std::size_t k = 0; k < places.size(); ++k) product[places[k]] += out[static_cast<Index>(k)];
 }
 
 /// product += block dz, for the unknowns at these places.
 void add_block(const Matrix& block, const std::vector<Index>& places, const Vector& dz,
                StageScratch& scratch, Vector& product) {
   const auto n = static_cast<Index>(places.size());
-  scratch.in.resize(n);
-  for (Index k = 0; k < n; ++k) scratch.in[k] = dz[places[static_cast<std::size_t>(k)]];
-  add_product(block, scratch.in, places, scratch, product);
+  auto in = first_of(scratch.in, n);
+  for (Index k = 0; k < n; ++k) in[k] = dz[places[static_cast<std::size_t>(k)]];
+  add_product(block, in, places, scratch, product);
 }
 
 }  // namespace

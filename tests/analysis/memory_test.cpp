@@ -86,6 +86,42 @@ PathProblem column(int links, model::TaskSpace space = model::TaskSpace::xy) {
   return {system, rule};
 }
 
+/// A chain bent into a bow, from the origin to (1, 0); headings change by `bend` all in all.
+model::Chain bow(int links, double bend) {
+  using namespace model;
+  const auto turn = [](double angle) {
+    return RigidLink{{rotation_about<double>(Vec3<double>::UnitZ(), angle), Vec3<double>::Zero()}};
+  };
+  const double between = -bend / links, first = (bend + between) / 2;
+  double span = 0;
+  for (int i = 0; i < links; ++i) span += std::cos(first + i * between);
+  Chain chain{.name = "bow", .elements = {turn(first)}};
+  for (int i = 0; i < links; ++i) {
+    chain.elements.push_back(Joint{.name = "j" + std::to_string(i + 1),
+                                   .role = JointRole::preloaded,
+                                   .spring = linear(links)});
+    chain.elements.push_back(RigidLink{{Mat3<double>::Identity(), Vec3<double>::UnitX() / span}});
+    chain.elements.push_back(turn(between));
+  }
+  chain.elements.push_back(turn(first - between));
+  return chain;
+}
+
+/// Bows that meet in a planar body, pushed together.
+PathProblem bows(int links, int fewer) {
+  model::Mechanism m;
+  m.bodies.push_back({"joint", model::TaskSpace::planar, Vector{{1, 0, 0}}});
+  m.chains = {bow(links, 1), bow(fewer, -1), bow(links, 2)};
+  for (std::size_t i = 0; i < m.chains.size(); ++i) m.chains[i].name += std::to_string(i + 1);
+  const statics::System system = statics::prepare(m);
+  const Vector none = Vector::Zero(3);
+  PathRule rule{.t_start = none, .t_rate = none, .N = Matrix::Identity(3, 3)};
+  rule.rho_start = rule.rho_rate = system.commands;
+  rule.W_start = none;
+  rule.W_rate = Vector{{-1, -0.1, 0}};
+  return {system, rule};
+}
+
 long allocations_for(const PathProblem& problem, int points,
                      const std::vector<continuation::Event>& events = {}) {
   continuation::TraceOptions options;
@@ -128,6 +164,9 @@ TEST(AStep, AsksForNoMoreWhereAChainIsEvaluatedInStages) {
     EXPECT_LE(per_step(problem), point + list)
         << links << " links, " << model::dimension(space) << " coordinates of the tip";
   }
+  const PathProblem closed = bows(60, 5);
+  ASSERT_TRUE(closed.structured());
+  EXPECT_LE(per_step(closed), point + list);
 }
 
 TEST(AStep, AsksForNoneWhereEventsAreWatchedEither) {

@@ -34,6 +34,7 @@ class StageJacobians {
               const Matrix& basis, const Matrix& added, Vector& r, StructuredMatrix& A_y);
 
   /// A dz + (d residual/d rho) drho at the place of the last matrix(); see stage_product().
+  void product(const Vector& dz, const Vector& drho, Vector& result) const;
   Vector product(const Vector& dz, const Vector& drho) const;
 
   /// Stiffness of one chain at the place of the last matrix(), paper eq. (12), all bodies held.

@@ -119,9 +119,9 @@ struct StageMatrix {
     Inputs inputs{};
     Piece piece{};
     Vector z{}, residual{};
+    Workspace work{};
   };
   std::vector<Part> parts{};                     ///< scratch
-  Workspace dense{};                             ///< scratch
   std::vector<Matrix> from_basis{}, to_basis{};  ///< scratch: basis of each chain's ends
   Matrix poses{}, half{};                        ///< scratch
   std::vector<double> diagonal{}, sorted{};      ///< scratch
