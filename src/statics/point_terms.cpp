@@ -9,19 +9,16 @@ using model::LoadKind;
 using model::PointMotion;
 using model::Vec3;
 
-Vector variables_of(const PointSlice& slice, const Vector& z, const Vector& rho) {
-  Vector v(slice.point.variable_count());
+void evaluate(const System& system, std::size_t point, const Vector& z, const Vector& rho,
+              Workspace::Point& out) {
+  const PointSlice& slice = system.points[point];
+  Vector& v = out.variables;
+  v.resize(slice.point.variable_count());
   for (Index k = 0; k < v.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     v[k] = (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
   }
-  return v;
-}
-
-void evaluate(const System& system, std::size_t point, const Vector& z, const Vector& rho,
-              PointMotion<double>& out) {
-  const PointSlice& slice = system.points[point];
-  model::evaluate_point<double>(slice.point, variables_of(slice, z, rho), out);
+  model::evaluate_point<double>(slice.point, v, out.at);
 }
 
 /// The load in world axes.
@@ -30,11 +27,6 @@ Vec3<double> vector_of(const PointLoad& load, const PointMotion<double>& at,
   const double factor = load.number < 0 || factors.size() == 0 ? 1 : factors[load.number];
   const Vec3<double> vector = factor * load.vector;
   return load.follows ? Vec3<double>(at.pose.R * vector) : vector;
-}
-
-/// Generalised forces, one per variable of the point.
-Vector forces_of(LoadKind kind, const PointMotion<double>& at, const Vec3<double>& vector) {
-  return (kind == LoadKind::force ? at.dp : at.spin).transpose() * vector;
 }
 
 /// d(generalised force j)/d(variable k).
@@ -57,11 +49,13 @@ void add_derivative(const PointSlice& row, Index j, const PointSlice& column, In
   if (dR_drho != nullptr && column.rho[c] >= 0) (*dR_drho)(r, column.rho[c]) += value;
 }
 
-void add_load(const System& system, const PointLoad& load, const PointMotion<double>& at,
+void add_load(const System& system, const PointLoad& load, Workspace::Point& point,
               const Vector& factors, Vector& residual, Matrix* A, Matrix* dR_drho) {
   const PointSlice& slice = system.points[load.point];
+  const PointMotion<double>& at = point.at;
   const Vec3<double> vector = vector_of(load, at, factors);
-  const Vector Q = forces_of(load.kind, at, vector);
+  Vector& Q = point.forces;  // generalised, one per variable of the point
+  Q.noalias() = (load.kind == LoadKind::force ? at.dp : at.spin).transpose() * vector;
   for (Index j = 0; j < Q.size(); ++j) {
     const Index row = slice.z[static_cast<std::size_t>(j)];
     if (row < 0) continue;
@@ -140,27 +134,34 @@ void add_point_terms(const System& system, const Vector& z, const Inputs& inputs
   for (const PointLoad& load : system.loads)
     add_load(system, load, work.points[load.point], inputs.loads, residual, A, dR_drho);
   for (const PointSpring& spring : system.line_springs)
-    SpringTerm(system, spring, work.points[spring.from], work.points[spring.to])
+    SpringTerm(system, spring, work.points[spring.from].at, work.points[spring.to].at)
         .add(residual, A, dR_drho);
 }
 
-Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates) {
+void put_load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates,
+                   Workspace& work, Vector& rate) {
   assert(rates.size() == static_cast<Index>(system.mechanism.loads.size()));
-  Vector rate = Vector::Zero(system.size);
-  PointMotion<double> at;
+  rate.setZero(system.size);
+  work.points.resize(system.points.size());
   for (const PointLoad& load : system.loads) {
     if (load.number < 0 || rates[load.number] == 0) continue;
-    evaluate(system, load.point, z, rho, at);
-    add_load(system, load, at, rates, rate, nullptr, nullptr);
+    evaluate(system, load.point, z, rho, work.points[load.point]);
+    add_load(system, load, work.points[load.point], rates, rate, nullptr, nullptr);
   }
+}
+
+Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates) {
+  Workspace work;
+  Vector rate;
+  put_load_rate(system, z, rho, rates, work, rate);
   return rate;
 }
 
 Vec3<double> position_of(const System& system, std::size_t point, const Vector& z,
                          const Vector& rho) {
-  PointMotion<double> at;
-  evaluate(system, point, z, rho, at);
-  return at.pose.p;
+  Workspace::Point p;
+  evaluate(system, point, z, rho, p);
+  return p.at.pose.p;
 }
 
 LineSpringState line_spring_state(const System& system, std::size_t spring, const Vector& z,
@@ -195,15 +196,14 @@ double spring_energy(const System& system, const Vector& z) {
 
 double load_potential(const System& system, const Vector& z, const Inputs& inputs) {
   double potential = 0;
-  PointMotion<double> at;
+  Workspace::Point point;
+  const PointMotion<double>& at = point.at;
   for (const PointLoad& load : system.loads) {
-    evaluate(system, load.point, z, inputs.rho, at);
+    evaluate(system, load.point, z, inputs.rho, point);
     const Vec3<double> vector = vector_of(load, at, inputs.loads);
     // A moment with a potential turns about axes of one direction, each by its own variable.
-    potential -= load.kind == LoadKind::force
-                     ? vector.dot(at.pose.p)
-                     : (at.spin.transpose() * vector)
-                           .dot(variables_of(system.points[load.point], z, inputs.rho));
+    potential -= load.kind == LoadKind::force ? vector.dot(at.pose.p)
+                                              : (at.spin.transpose() * vector).dot(point.variables);
   }
   for (const BodySlice& body : system.body_slices)
     potential -= inputs.W.segment(body.W, body.count).dot(z.segment(body.t, body.count));

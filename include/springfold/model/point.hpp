@@ -32,6 +32,7 @@ struct PointMotion {
   detail::BodyFrame<S> body{};
   Index rotation = 0;   ///< first variable of the body's rotation vector
   bool vector = false;  ///< the body has a rotation vector: variables rotation .. rotation + 2
+  Eigen::Matrix<S, 3, Eigen::Dynamic> origins{};  ///< scratch: a point on each axis of rotation
 };
 
 template <class S>
@@ -43,7 +44,8 @@ void evaluate_point(const CompiledPoint& point, const VectorOf<S>& v, PointMotio
   out.spin.setZero(3, n);
   out.rotation = lengths;
   out.vector = point.body_moves && point.space == TaskSpace::spatial;
-  Eigen::Matrix<S, 3, Eigen::Dynamic> origins(3, n);  // a point on each axis of rotation
+  auto& origins = out.origins;
+  origins.resize(3, n);
   Pose<S> frame;
   if (point.body_moves) {
     out.body = detail::body_frame<S>(point.space, v, true);

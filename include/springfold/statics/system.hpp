@@ -145,7 +145,11 @@ struct Workspace {
   std::vector<model::Closure<double>> closures{};
   std::vector<Vector> variables{};
   std::vector<Vector> wrenches{};
-  std::vector<model::PointMotion<double>> points{};
+  struct Point {
+    Vector variables{}, forces{};
+    model::PointMotion<double> at{};
+  };
+  std::vector<Point> points{};
   Matrix gauge{};  ///< redundant closures: A = the derivative of the gradient - gauge^T gauge
   Vector undetermined{};  ///< redundant closures: zero where they do not contradict each other
 };
@@ -194,6 +198,8 @@ LineSpringState line_spring_state(const System& system, std::size_t spring, cons
 /// d residual/d(factors) times `rates`: minus the generalised forces of the mechanism's loads, each
 /// times its rate. @returns size entries
 Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates);
+void put_load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates,
+                   Workspace& work, Vector& rate);
 
 /// Adds d residual/dW times W_rate to `rate`: load_columns times W_rate, without the columns.
 void add_wrench_rate(const System& system, const Vector& z, const Vector& W_rate, Vector& rate);
