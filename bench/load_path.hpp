@@ -42,10 +42,14 @@ struct LoadPath {
     return statics::equilibrium_residual(system, {}, z, present, work, F);
   }
   bool derivatives(const Vector& z, double lambda, Matrix& dF_dz, Vector& dF_dlambda) const {
+    return equations(z, lambda, scratch, dF_dz, dF_dlambda);
+  }
+  bool equations(const Vector& z, double lambda, Vector& F, Matrix& dF_dz,
+                 Vector& dF_dlambda) const {
     present.W = lambda * direction;
     dF_dlambda.setZero(system.size);
     statics::add_wrench_rate(system, z, direction, dF_dlambda);
-    return statics::equilibrium_matrix(system, {}, z, present, work, scratch, dF_dz);
+    return statics::equilibrium_matrix(system, {}, z, present, work, F, dF_dz);
   }
   Vector metric() const {  // chain wrenches do not count in the arc length
     Vector weights = Vector::Ones(system.size);

@@ -172,17 +172,19 @@ bool PathProblem::residual(const Vector& y, double lambda, const Piece& piece, V
   };
   if (rotations_.empty() && is_whole_) return evaluate(F);
   const bool finite = evaluate(r_);
-  if (rotations_.empty()) {
-    reduce_rows(r_, F);
-    return finite;
-  }
+  reduce_residual(y, F);
+  return finite;
+}
+
+/// F from the residual of the statics in r_.
+void PathProblem::reduce_residual(const Vector& y, Vector& F) const {
+  if (rotations_.empty()) return reduce_rows(r_, F);
   reduce_rows(r_, v_);
   put_quaternions(y, v_, F);
   for (const FreeRotation& r : rotations_) {
     const Quaternion q = y.segment<4>(r.y);
     F.segment<4>(r.y) += (q.squaredNorm() - 1) * q;
   }
-  return finite;
 }
 
 /// d residual/d lambda. @param A  of this point, like dR_drho_; null: that of the stages
@@ -217,17 +219,23 @@ bool PathProblem::put_rate(const Vector& y, double lambda, const Piece& piece,
 
 bool PathProblem::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dF_dy,
                               Vector& dF_dlambda) const {
+  return equations(y, lambda, piece, F_, dF_dy, dF_dlambda);
+}
+
+bool PathProblem::equations(const Vector& y, double lambda, const Piece& piece, Vector& F,
+                            Matrix& dF_dy, Vector& dF_dlambda) const {
   if (!has_rotations(y)) return false;
   put_local(y, lambda, z_);
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
   Matrix* const by_commands = moves_commands_ ? &dR_drho_ : nullptr;
   if (rotations_.empty() && is_whole_)
-    return equilibrium_matrix(present, piece, z_, inputs_, work_, r_, dF_dy, by_commands) &&
+    return equilibrium_matrix(present, piece, z_, inputs_, work_, F, dF_dy, by_commands) &&
            put_rate(y, lambda, piece, present, &dF_dy, dF_dlambda);
   if (!equilibrium_matrix(present, piece, z_, inputs_, work_, r_, A_, by_commands) ||
       !put_rate(y, lambda, piece, present, &A_, rate_))
     return false;
+  reduce_residual(y, F);
   if (rotations_.empty()) {
     reduce_matrix(A_, dF_dy);
     reduce_rows(rate_, dF_dlambda);

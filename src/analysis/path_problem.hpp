@@ -58,6 +58,8 @@ class PathProblem {
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const;
   bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dF_dy,
                    Vector& dF_dlambda) const;
+  bool equations(const Vector& y, double lambda, const Piece& piece, Vector& F, Matrix& dF_dy,
+                 Vector& dF_dlambda) const;
   /// Chains so long that their matrices are better not formed?
   bool structured() const { return stages_.has_value(); }
   bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
@@ -119,6 +121,7 @@ class PathProblem {
   void put_quaternions(const Vector& y, const Matrix& plain, Matrix& result) const;
   void put_quaternions(const Vector& y, const Vector& plain, Vector& result) const;
   void reduce_rows(const Vector& r, Vector& reduced) const;
+  void reduce_residual(const Vector& y, Vector& F) const;
   void reduce_matrix(const Matrix& A, Matrix& reduced) const;
   void spread(const Vector& v, Vector& y) const;
   void gather(const Vector& y, Vector& v) const;
@@ -137,7 +140,7 @@ class PathProblem {
   mutable statics::System turned_{};
   mutable statics::Workspace work_{};
   mutable statics::Inputs inputs_{};
-  mutable Vector z_{}, v_{}, r_{}, rate_{};
+  mutable Vector z_{}, v_{}, r_{}, rate_{}, F_{};
   mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
   mutable std::vector<model::Mat3<double>> frames_{};
   mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains

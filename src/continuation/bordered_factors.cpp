@@ -14,6 +14,13 @@ constexpr double singular_pivot = 1e-15;
 /// Of its largest pivot: eigenvalues of dF/dx below this are zero.
 constexpr double zero_eigenvalue = 1e-13;
 
+/// Columns side by side, row by row.
+template <int width>
+struct Columns {
+  alignas(64) std::array<double, static_cast<std::size_t>(width* SmallSymmetric::padded)> numbers;
+  double* data() { return numbers.data(); }
+};
+
 using Front =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
 
@@ -41,8 +48,6 @@ bool BorderedFactors::factorise_symmetric() {
     factorised_ = false;
     return true;
   }
-  K_.forward<1>(at_->dF_dlambda.data(), b_.data());
-  K_.divide<1>(b_.data());
   return true;
 }
 
@@ -51,7 +56,17 @@ bool BorderedFactors::factorise_symmetric() {
 ///     | R      y_2                      |
 ///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
 bool BorderedFactors::border_symmetric() {
-  K_.forward<1>(row_.data(), z_.data());
+  Columns<2> borders, carried;
+  for (Index i = 0; i < n_; ++i) {
+    borders.data()[2 * i] = at_->dF_dlambda[i];
+    borders.data()[2 * i + 1] = row_[i];
+  }
+  K_.forward<2>(borders.data(), carried.data());
+  for (Index i = 0; i < n_; ++i) {
+    b_[static_cast<std::size_t>(i)] = carried.data()[2 * i];
+    z_[static_cast<std::size_t>(i)] = carried.data()[2 * i + 1];
+  }
+  K_.divide<1>(b_.data());
   const Index rest = K_.put_off(), done = n_ - rest;
   double corner = corner_, size = std::abs(corner_);
   for (Index i = 0; i < done; ++i) {
@@ -104,16 +119,21 @@ bool BorderedFactors::set_border(const Vector& weights, const Direction& border)
   return finite_ = border_general();
 }
 
+/// @param only_last  x is zero but for its last row
 template <int width>
-void BorderedFactors::solve_symmetric(double* x) const {
+void BorderedFactors::solve_symmetric(double* x, bool only_last) const {
   using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
   Columns<width> y;
   const Index rest = K_.put_off(), done = n_ - rest;
   const auto row = [&](Index i) { return Row(y.data() + i * width); };
-  K_.forward<width>(x, y.data());
-  K_.divide<width>(y.data());
   Row last(x + n_ * width);
-  for (Index i = 0; i < done; ++i) last -= z_[static_cast<std::size_t>(i)] * row(i);
+  if (only_last) {
+    Eigen::Map<Eigen::ArrayXd>(y.data(), n_ * width).setZero();
+  } else {
+    K_.forward<width>(x, y.data());
+    K_.divide<width>(y.data());
+    for (Index i = 0; i < done; ++i) last -= z_[static_cast<std::size_t>(i)] * row(i);
+  }
   if (rest == 0) {
     last /= last_;
   } else {
@@ -127,13 +147,22 @@ void BorderedFactors::solve_symmetric(double* x) const {
     }
   }
   for (Index i = 0; i < done; ++i) row(i) -= b_[static_cast<std::size_t>(i)] * last;
+  Eigen::Map<Eigen::Array<double, 4 * width, 1>>(y.data() + n_ * width).setZero();
   K_.backward<width>(y.data(), x);
+}
+
+bool BorderedFactors::solve_for_tangent(double* x) {
+  std::fill_n(x, n_, 0.0);
+  x[n_] = 1;
+  if (way_ != Way::symmetric) return solve(x);
+  solve_symmetric<1>(x, true);
+  return true;
 }
 
 bool BorderedFactors::solve(double* x) {
   switch (way_) {
     case Way::symmetric:
-      solve_symmetric<1>(x);
+      solve_symmetric<1>(x, false);
       return true;
     case Way::small:
       front_->solve(x);
@@ -153,36 +182,43 @@ bool BorderedFactors::solve(double* x) {
   return false;
 }
 
-void BorderedFactors::invert(Matrix& inverse) {
-  const Index size = n_ + 1;
-  inverse.setIdentity(size, size);
-  if (way_ == Way::small) return front_->solve(inverse);
+void BorderedFactors::invert(std::span<const Index> rows, Matrix& columns) {
+  const Index size = n_ + 1, count = static_cast<Index>(rows.size());
+  columns.setZero(size, count);
   if (way_ != Way::symmetric) {
-    inverse = large_.inverse();
+    for (Index j = 0; j < count; ++j) columns(rows[static_cast<std::size_t>(j)], j) = 1;
+    if (way_ == Way::small)
+      front_->solve(columns);
+    else
+      columns = large_.solve(columns).eval();
     return;
   }
   constexpr int width = 4;
   Columns<width> x;
-  for (Index first = 0; first < size; first += width) {
+  for (Index first = 0; first < count; first += width) {
     std::fill_n(x.data(), width * size, 0.0);
-    const Index count = std::min<Index>(width, size - first);
-    for (Index j = 0; j < count; ++j) x[static_cast<std::size_t>((first + j) * width + j)] = 1;
-    solve_symmetric<width>(x.data());
-    for (Index i = 0; i < size; ++i)
-      for (Index j = 0; j < count; ++j)
-        inverse(i, first + j) = x[static_cast<std::size_t>(i * width + j)];
+    const Index used = std::min<Index>(width, count - first);
+    for (Index j = 0; j < used; ++j)
+      x.data()[rows[static_cast<std::size_t>(first + j)] * width + j] = 1;
+    solve_symmetric<width>(x.data(), false);
+    for (Index j = 0; j < used; ++j)
+      for (Index i = 0; i < size; ++i) columns(i, first + j) = x.data()[i * width + j];
   }
 }
 
 std::optional<Index> BorderedFactors::negative() {
   if (way_ == Way::symmetric && !factorise_symmetric()) return std::nullopt;
   if (way_ != Way::symmetric) return negative_eigenvalues(*at_);
+  std::array<double, capacity> values;
+  K_.pivot_values(values.data());
   double largest = 0;
-  for (Index i = 0; i < n_; ++i) largest = std::max(largest, std::abs(K_.value(i)));
+  for (Index i = 0; i < n_; ++i)
+    largest = std::max(largest, std::abs(values[static_cast<std::size_t>(i)]));
   Index count = 0;
   for (Index i = 0; i < n_; ++i) {
-    if (std::abs(K_.value(i)) <= zero_eigenvalue * largest) return std::nullopt;
-    count += K_.value(i) < 0;
+    const double value = values[static_cast<std::size_t>(i)];
+    if (std::abs(value) <= zero_eigenvalue * largest) return std::nullopt;
+    count += value < 0;
   }
   return count;
 }

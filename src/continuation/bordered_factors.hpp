@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "small_lu.hpp"
 #include "springfold/continuation/newton.hpp"
@@ -32,23 +33,25 @@ class BorderedFactors {
   /// @returns false when a structured matrix turns out singular
   bool solve(double* x);
 
-  /// The inverse of the bordered matrix, of a dF/dx with entries. @pre set_border() returned true
-  void invert(Matrix& inverse);
+  /// The solution for (0, 1), which is a multiple of the tangent, into the n + 1 numbers x. @pre and return value as above
+  bool solve_for_tangent(double* x);
+
+  /// Columns of the inverse of the bordered matrix that belong to some of its rows; of a dF/dx with entries.
+  /// @pre set_border() returned true
+  void invert(std::span<const Index> rows, Matrix& columns);
 
   /// Negative eigenvalues of a symmetric dF/dx; nothing where one of them is zero.
   std::optional<Index> negative();
 
  private:
   static constexpr std::size_t capacity = static_cast<std::size_t>(SmallSymmetric::largest);
-  template <int width>
-  using Columns = std::array<double, width*(capacity + 1)>;
   enum class Way { symmetric, small, large, structured };
 
   bool factorise_symmetric();
   bool border_symmetric();
   bool border_general();
   template <int width>
-  void solve_symmetric(double* x) const;
+  void solve_symmetric(double* x, bool only_last) const;
 
   const Linearisation* at_ = nullptr;
   Index n_ = 0;
@@ -59,8 +62,8 @@ class BorderedFactors {
   double corner_ = 0;
 
   SmallSymmetric K_;
-  std::array<double, capacity> b_;       ///< L^-1 of dF/dlambda, its first part divided by D_1
-  std::array<double, capacity> z_;       ///< L^-1 of the row
+  std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
+  std::array<double, capacity> z_;  ///< L^-1 of the row
   double last_ = 0;                      ///< what is left of the corner where no pivot was put off
   std::optional<SmallLu> front_{};       ///< R with its borders; or all of it
   Eigen::PartialPivLU<Matrix> large_{};  ///< all of it

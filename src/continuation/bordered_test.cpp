@@ -28,34 +28,56 @@ bool is_small(Vector& d, Vector& Xd, const Times& times) {
   return false;
 }
 
-/// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
-/// is enough. The last rows are the same: nothing moves there.
-bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place* const> others) {
+/// Sizes of the largest changes from one place to others, and the rows in which there are any.
+void measure_motion(WorkingMemory& memory, const Place& middle,
+                    std::span<const Place* const> others) {
   const Index n = middle.x.size();
-  Matrix &inverse = memory.inverse, &motion = memory.motion;
-  Vector &d = memory.sizes, &Xd = memory.step, &moved = memory.F;
-  middle.factors.invert(inverse);
-  if (!all_finite(inverse)) return false;
+  Matrix& motion = memory.motion;
   motion.setZero(n, n + 1);
   for (const Place* other : others) {
-    motion.leftCols(n) =
-        motion.leftCols(n).cwiseMax((other->at.dF_dx - middle.at.dF_dx).cwiseAbs());
+    for (Index j = 0; j < n; ++j)
+      motion.col(j) =
+          motion.col(j).cwiseMax((other->at.dF_dx.col(j) - middle.at.dF_dx.col(j)).cwiseAbs());
     motion.col(n) =
         motion.col(n).cwiseMax((other->at.dF_dlambda - middle.at.dF_dlambda).cwiseAbs());
   }
+  Vector& sizes = memory.sizes;
+  sizes = motion.col(n);
+  for (Index j = 0; j < n; ++j) sizes = sizes.cwiseMax(motion.col(j));
+  memory.moving_rows.clear();
+  for (Index i = 0; i < n; ++i)
+    if (!(sizes[i] == 0)) memory.moving_rows.push_back(i);
+}
+
+/// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
+/// is enough. Rows that do not move, the last one among them, count for nothing.
+bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place* const> others) {
+  const Index n = middle.x.size();
+  Matrix &inverse = memory.inverse, &motion = memory.motion;
+  measure_motion(memory, middle, others);
+  const std::vector<Index>& rows = memory.moving_rows;
+  const auto count = static_cast<Index>(rows.size());
+  middle.factors.invert(rows, inverse);
+  if (!all_finite(inverse)) return false;
+  Vector &d = memory.bound, &Xd = memory.step, &moved = memory.F;
   d.resize(n + 1);
   Xd.resize(n + 1);
-  moved.resize(n);
   const auto bound = [&] {
-    moved.noalias() = motion * d;
+    moved.setZero(n);
+    for (Index j = 0; j <= n; ++j) moved += d[j] * motion.col(j);
     Xd.setZero();
-    for (Index j = 0; j < n; ++j) Xd.array() += moved[j] * inverse.col(j).array().abs();
+    for (Index k = 0; k < count; ++k)
+      Xd.array() += moved[rows[static_cast<std::size_t>(k)]] * inverse.col(k).array().abs();
   };
   if (is_small(d, Xd, bound)) return true;
-  Matrix difference(n, n + 1), X(n + 1, n + 1);
+  Matrix difference(count, n + 1), X(n + 1, n + 1);
   for (const Place* other : others) {
-    difference << other->at.dF_dx - middle.at.dF_dx, other->at.dF_dlambda - middle.at.dF_dlambda;
-    X = (inverse.leftCols(n) * difference).cwiseAbs();
+    for (Index k = 0; k < count; ++k) {
+      const Index row = rows[static_cast<std::size_t>(k)];
+      difference.row(k) << other->at.dF_dx.row(row) - middle.at.dF_dx.row(row),
+          other->at.dF_dlambda[row] - middle.at.dF_dlambda[row];
+    }
+    X = (inverse * difference).cwiseAbs();
     if (!X.allFinite() || !is_small(d, Xd, [&] { Xd.noalias() = X * d; })) return false;
   }
   return true;

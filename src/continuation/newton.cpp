@@ -129,9 +129,8 @@ bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
   if (!place.factors.set_border(weights, reference)) return false;
   const Index n = place.x.size();
   Vector& u = memory.step;
-  u.setZero(n + 1);
-  u[n] = 1;
-  if (!place.factors.solve(u.data())) return false;
+  u.resize(n + 1);
+  if (!place.factors.solve_for_tangent(u.data())) return false;
   const auto dx = u.head(n).array();
   const double length = std::sqrt((weights.array() * dx * dx).sum() + u[n] * u[n]);
   if (!(length > 0) || !std::isfinite(length)) return false;
@@ -154,15 +153,21 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
   NewtonResult& result = memory.newton;
   Vector &F = memory.F, &step = memory.step;
   const Index n = result.x.size();
-  const Place* place = nullptr;
+  const Place* place = nullptr;  // of the last correction
+  const bool structured = problem.structured();
   double before = 0;
   result.iterations = 0;
   result.residual_norm = result.contraction = 0;
   result.corrections.clear();
   const auto ends = [&result](NewtonStatus status) { result.status = status; };
   for (;; ++result.iterations) {
-    const bool inside = problem.residual(result.x, result.lambda, piece, F) && F.allFinite();
-    if (!inside) return ends(NewtonStatus::outside_domain);
+    // Together with its derivatives, which are needed here or, at the end, for the tangent.
+    Place* here = structured ? nullptr
+                             : place_with_residual(problem, memory, result.x, result.lambda, piece);
+    if (here)
+      F = here->F;
+    else if (!problem.residual(result.x, result.lambda, piece, F) || !F.allFinite())
+      return ends(NewtonStatus::outside_domain);
     result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
     const double scale =
         std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
@@ -184,7 +189,7 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
         small && (result.corrections.empty() || result.corrections.back() < noise_step);
     if (result.iterations == options.maximum_iterations)
       return ends(settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
-    Place* const here = place_at(problem, memory, result.x, result.lambda, piece);
+    if (!here) here = place_at(problem, memory, result.x, result.lambda, piece);
     if (!here) return ends(NewtonStatus::outside_domain);
     place = here;
     step.resize(n + 1);

@@ -71,9 +71,28 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
                              Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
   if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
-  for (Index j = 0; j < dG_dy.cols(); ++j) dG_dy.col(j).array() *= force_.array() * unit_[j];
-  dG_dlambda.array() *= force_.array();
+  scale(dG_dy, dG_dlambda);
   return true;
+}
+
+bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, Vector& G,
+                           Matrix& dG_dy, Vector& dG_dlambda) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
+  G.array() *= force_.array();
+  scale(dG_dy, dG_dlambda);
+  return true;
+}
+
+void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
+  const Index n = unit_.size();
+  const double* __restrict const force = force_.data();
+  for (Index j = 0; j < n; ++j) {
+    double* __restrict const column = dG_dy.col(j).data();
+    const double unit = unit_[j];
+    for (Index i = 0; i < n; ++i) column[i] *= force[i] * unit;
+  }
+  dG_dlambda.array() *= force_.array();
 }
 
 bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,

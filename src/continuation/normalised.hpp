@@ -31,6 +31,8 @@ class Normalised {
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
   bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                    Vector& dG_dlambda) const;
+  bool equations(const Vector& y, double lambda, const Piece& piece, Vector& G, Matrix& dG_dy,
+                 Vector& dG_dlambda) const;
   bool structured() const { return problem_.structured(); }
   bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                               StructuredMatrix& dG_dy, Vector& dG_dlambda) const;
@@ -57,6 +59,7 @@ class Normalised {
   Diagram outside(Diagram diagram) const;
 
  private:
+  void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
   void scale_equations(const Vector& x, double lambda, const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 

@@ -17,18 +17,21 @@ struct Place {
   Piece piece{};
   Linearisation at{};
   BorderedFactors factors;
+  Vector F{};  ///< where it is known
+  bool knows_F = false;
 };
 
 struct WorkingMemory {
   WorkingMemory() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
 
-  std::array<Place, 6> places;  // of a step and its middle: begin, two guesses, two points
+  std::array<Place, 12> places;  // of two steps and their middles: a guess or two and the point itself
   std::size_t oldest = 0;
   NewtonResult newton{};
-  Vector F{}, step{}, sizes{}, x{};
+  Vector F{}, step{}, sizes{}, x{}, bound{};
   Direction direction{};
   Matrix inverse{}, motion{};
   Arnoldi arnoldi{};
+  std::vector<Index> moving_rows{};
   CurvePoint next{}, middle{};  ///< of the step that is being taken
   CurvePoint trial{};           ///< between them
   struct Switches {
@@ -44,10 +47,14 @@ struct WorkingMemory {
 };
 
 /// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until
-/// five other places have been asked for.
+/// eleven other places have been asked for.
 /// @returns nullptr outside the domain
 Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
                 const Piece& piece);
+
+/// The same with F, which is evaluated together with them. Also nullptr where F is defined and its derivatives are not.
+Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vector& x,
+                           double lambda, const Piece& piece);
 
 /// correct() from memory.newton.x and .lambda on, with the result there.
 void correct(ProblemView problem, const Vector& weights, const Piece& piece,

@@ -3,9 +3,11 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "equal_sizes.hpp"
 #include "springfold/core/equilibration.hpp"
@@ -71,14 +73,11 @@ std::vector<double> pivot_eigenvalues(const Factorisation& f) {
   return values;
 }
 
-/// @param value  of pivot i
-template <class Value>
-Inertia counted(Index size, const Value& value, double zero_tolerance) {
+Inertia counted(std::span<const double> values, double zero_tolerance) {
   double largest = 0;
-  for (Index i = 0; i < size; ++i) largest = std::max(largest, std::abs(value(i)));
+  for (const double v : values) largest = std::max(largest, std::abs(v));
   Inertia inertia;
-  for (Index i = 0; i < size; ++i) {
-    const double v = value(i);
+  for (const double v : values) {
     if (std::abs(v) <= zero_tolerance * largest)
       ++inertia.zero;
     else
@@ -87,20 +86,23 @@ Inertia counted(Index size, const Value& value, double zero_tolerance) {
   return inertia;
 }
 
+Inertia counted(const SmallSymmetric& factors, double zero_tolerance) {
+  std::array<double, static_cast<std::size_t>(SmallSymmetric::largest)> values;
+  factors.pivot_values(values.data());
+  return counted(std::span(values).first(static_cast<std::size_t>(factors.size())), zero_tolerance);
+}
+
 }  // namespace
 
 std::optional<Inertia> inertia_of(const Eigen::Ref<const Matrix>& A, double zero_tolerance) {
   if (A.rows() <= SmallSymmetric::largest) {
     SmallSymmetric small;
     if (!small.factorise(A)) return std::nullopt;
-    return counted(
-        A.rows(), [&](Index i) { return small.value(i); }, zero_tolerance);
+    return counted(small, zero_tolerance);
   }
   const auto f = factorise(A);
   if (!f) return std::nullopt;
-  const auto values = pivot_eigenvalues(*f);
-  return counted(
-      A.rows(), [&](Index i) { return values[static_cast<std::size_t>(i)]; }, zero_tolerance);
+  return counted(pivot_eigenvalues(*f), zero_tolerance);
 }
 
 std::optional<SymmetricSolution> solve_and_count(const Eigen::Ref<const Matrix>& A,
@@ -112,17 +114,14 @@ std::optional<SymmetricSolution> solve_and_count(const Eigen::Ref<const Matrix>&
   if (A.rows() <= SmallSymmetric::largest) {
     SmallSymmetric small;
     if (!small.factorise(A)) return std::nullopt;
-    result.inertia = counted(
-        A.rows(), [&](Index i) { return small.value(i); }, singular);
+    result.inertia = counted(small, singular);
     if (result.inertia.zero > 0) return std::nullopt;
     small.solve(result.X);
     return result;
   }
   const auto f = factorise(A);
   if (!f) return std::nullopt;
-  const auto values = pivot_eigenvalues(*f);
-  result.inertia = counted(
-      A.rows(), [&](Index i) { return values[static_cast<std::size_t>(i)]; }, singular);
+  result.inertia = counted(pivot_eigenvalues(*f), singular);
   if (result.inertia.zero > 0) return std::nullopt;
   result.X.array().colwise() *= f->S.array();
   const auto n = static_cast<lapack_int>(A.rows());

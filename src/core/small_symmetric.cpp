@@ -13,32 +13,43 @@ namespace {
 
 /// Columns are worked on in parts of four rows, also where one or the other row is above the diagonal.
 constexpr Index part = 4;
-using Part = Eigen::Map<Eigen::Array<double, part, 1>, Eigen::Aligned16>;
-using GivenPart = Eigen::Map<const Eigen::Array<double, part, 1>, Eigen::Aligned16>;
+using Four = Eigen::Array<double, part, 1>;
+using Part = Eigen::Map<Four, Eigen::Aligned16>;
+using GivenPart = Eigen::Map<const Four, Eigen::Aligned16>;
 
 /// The inverse of the power of two next to sqrt(value).
 double inverse_root(double value) { return std::ldexp(1.0, -((std::ilogb(value) + 1) >> 1)); }
 
 }  // namespace
 
-/// Largest entry of every row of the matrix, into `sizes`.
-void SmallSymmetric::measure(Column& sizes) const {
-  std::fill_n(sizes.begin(), n_, 0.0);
-  for (Index j = 0; j < n_; ++j)
-    for (Index i = j; i < n_; ++i) {
-      const double size = std::abs(at(i, j));
-      sizes[to(i)] = std::max(sizes[to(i)], size);
-      sizes[to(j)] = std::max(sizes[to(j)], size);
+/// Largest entry of every row of the matrix. Above its diagonal the first part of a column holds zeros.
+void SmallSymmetric::measure() {
+  std::fill_n(sizes_.begin(), length_, 0.0);
+  for (Index j = 0; j < n_; ++j) {
+    const double* const c = column(j);
+    Four most = Four::Zero();
+    for (Index i = j / part * part; i < n_; i += part) {
+      const Four size = GivenPart(c + i).abs();
+      Part rows(sizes_.data() + i);
+      rows = rows.max(size);
+      most = most.max(size);
     }
+    sizes_[to(j)] = std::max(sizes_[to(j)], most.maxCoeff());
+  }
 }
 
 /// What equilibrate() in equilibration.hpp does, for a symmetric matrix; in place, the factors in scale_.
 void SmallSymmetric::equilibrate() {
-  Column sizes, sorted;
-  measure(sizes);
+  Column sorted;
+  const Column& sizes = sizes_;
+  measure();
   const auto end = static_cast<std::ptrdiff_t>(n_);
-  const auto [least, most] = std::minmax_element(sizes.begin(), sizes.begin() + end);
-  scaled_ = !(*least * equal_sizes::alike >= *most && *least > 0);
+  double least = sizes[0], most = 0;
+  for (Index i = 0; i < n_; ++i) {
+    least = std::min(least, sizes[to(i)]);
+    most = std::max(most, sizes[to(i)]);
+  }
+  scaled_ = !(least * equal_sizes::alike >= most && least > 0);
   if (!scaled_) return;
   std::fill_n(scale_.begin(), n_, 1.0);
   sorted = sizes;
@@ -57,7 +68,7 @@ void SmallSymmetric::equilibrate() {
     if (done) return;
     for (Index j = 0; j < n_; ++j)
       for (Index i = j; i < n_; ++i) at(i, j) *= factors[to(i)] * factors[to(j)];
-    measure(sizes);
+    measure();
   }
 }
 
@@ -80,14 +91,15 @@ SmallSymmetric::Pivot SmallSymmetric::pivot_at(Index k) const {
   return {p, std::abs(at(p, p)) < alpha * row};
 }
 
-/// Are the eigenvalues of a pivot of this size at least? @param least  0: any will do
-bool SmallSymmetric::is_large(Index k, const Pivot& pivot, double least) const {
-  if (least == 0) return true;
+/// Are the eigenvalues of a pivot large enough for its rows?
+bool SmallSymmetric::is_large(Index k, const Pivot& pivot) const {
   const Index p = pivot.row;
+  const double least = least_[to(order_[to(p)])];
   if (!pivot.two) return std::abs(at(p, p)) >= least;
   const double a = at(k, k), b = at(p, k), c = at(p, p);
-  const double radius = std::hypot(a / 2 - c / 2, b), large = std::abs(a / 2 + c / 2) + radius;
-  return std::abs(a * c - b * b) >= least * large;
+  // |determinant| over the larger eigenvalue is the smaller one, over a bound of it no more than that.
+  const double large = std::max(std::abs(a), std::abs(c)) + std::abs(b);
+  return std::abs(a * c - b * b) >= std::min(least, least_[to(order_[to(k)])]) * large;
 }
 
 /// Rows and columns `next` and p, of what is left and of L; `k` is the first one of a pivot of two rows.
@@ -102,7 +114,6 @@ void SmallSymmetric::exchange(Index k, Index next, Index p) {
 }
 
 void SmallSymmetric::eliminate_one(Index k) {
-  values_[to(k)] = at(k, k);
   if (at(k, k) == 0) return;
   const double inverse = 1 / at(k, k);
   const double* const l = column(k);
@@ -117,10 +128,6 @@ void SmallSymmetric::eliminate_one(Index k) {
 
 void SmallSymmetric::eliminate_two(Index k) {
   const double a = at(k, k), b = at(k + 1, k), c = at(k + 1, k + 1);
-  const double mean = a / 2 + c / 2, radius = std::hypot(a / 2 - c / 2, b);
-  const double large = mean >= 0 ? mean + radius : mean - radius;
-  values_[to(k)] = large;  // the smaller one from the determinant, without cancellation
-  values_[to(k + 1)] = large == 0 ? 0 : (a / large) * c - (b / large) * b;
   const double d11 = c / b, d22 = a / b, factor = 1 / (d11 * d22 - 1) / b;
   const double *const l = column(k), *const m = column(k + 1);
   for (Index j = k + 2; j < n_; ++j) {
@@ -134,25 +141,22 @@ void SmallSymmetric::eliminate_two(Index k) {
   }
 }
 
-/// The smallest pivot that is not put off; greater than zero.
-double SmallSymmetric::least_of(const PutOff& put_off) const {
-  double entry = 0, border = 0;
-  for (Index j = 0; j < n_; ++j) {
-    for (Index i = j; i < n_; ++i) entry = std::max(entry, std::abs(at(i, j)));
-    if (put_off.border)
-      border = std::max(border, (scaled_ ? scale_[to(j)] : 1) * std::abs(put_off.border[j]));
+void SmallSymmetric::set_least(const PutOff& put_off) {
+  for (Index i = 0; i < n_; ++i) {
+    const double border = put_off.border ? std::abs(put_off.border[i]) : 0;
+    least_[to(i)] = std::max({put_off.share * sizes_[to(i)],
+                              put_off.share_of_border * (scaled_ ? scale_[to(i)] : 1) * border,
+                              std::numeric_limits<double>::min()});
   }
-  return std::max({put_off.share * entry, put_off.share_of_border * border,
-                   std::numeric_limits<double>::min()});
 }
 
 /// A pivot that is too small goes to the end, where those are that were too small before.
-void SmallSymmetric::eliminate(double least) {
+void SmallSymmetric::eliminate(bool may_put_off) {
   Index end = n_;
   for (done_ = 0; done_ < end;) {
     const Index k = done_;
     const Pivot pivot = pivot_at(k);
-    if (!is_large(k, pivot, least)) {
+    if (may_put_off && !is_large(k, pivot)) {
       exchange(k, k, --end);
       continue;
     }
@@ -164,110 +168,151 @@ void SmallSymmetric::eliminate(double least) {
   }
 }
 
-/// Values of R, which stays as it is.
-void SmallSymmetric::count_rest() {
+void SmallSymmetric::pivot_values(double* values) const {
+  for (Index k = 0; k < done_; ++k) {
+    if (!is_two_[to(k)]) {
+      values[k] = at(k, k);
+      continue;
+    }
+    const double a = at(k, k), b = at(k + 1, k), c = at(k + 1, k + 1);
+    const double mean = a / 2 + c / 2, radius = std::hypot(a / 2 - c / 2, b);
+    const double large = mean >= 0 ? mean + radius : mean - radius;
+    values[k] = large;  // the smaller one from the determinant, without cancellation
+    values[++k] = large == 0 ? 0 : (a / large) * c - (b / large) * b;
+  }
   const Index rows = n_ - done_;
   if (rows == 0) return;
   if (rows == 1) {
-    values_[to(done_)] = at(done_, done_);
+    values[done_] = at(done_, done_);
     return;
   }
   SmallSymmetric rest;
-  rest.n_ = rows;
-  rest.length_ = (rows + part - 1) / part * part;
+  rest.begin(rows);
   for (Index j = 0; j < rows; ++j) {
     std::fill_n(rest.column(j), rest.length_, 0.0);
-    for (Index i = j; i < rows; ++i) rest.at(i, j) = at(done_ + i, done_ + j);
+    std::copy_n(column(done_ + j) + done_ + j, rows - j, rest.column(j) + j);
   }
-  std::fill_n(rest.order_.begin(), rows, Index{0});
-  rest.eliminate(0);
-  std::copy_n(rest.values_.data(), rows, values_.data() + done_);
+  rest.eliminate(false);
+  rest.pivot_values(values + done_);
+}
+
+void SmallSymmetric::begin(Index n) {
+  n_ = n;
+  length_ = (n + part - 1) / part * part;
+  for (Index i = 0; i < n; ++i) order_[to(i)] = i;
 }
 
 bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A, const PutOff* put_off) {
   assert(A.rows() == A.cols() && A.rows() <= largest);
-  n_ = A.rows();
-  length_ = (n_ + part - 1) / part * part;
-  done_ = n_;
-  double zero = 0;  // NaN where an entry is not finite
+  begin(A.rows());
+  Four zero = Four::Zero();  // NaN where an entry is not finite
   for (Index j = 0; j < n_; ++j) {
-    std::fill_n(column(j), length_, 0.0);
-    for (Index i = j; i < n_; ++i) {
-      at(i, j) = A(i, j);
-      zero += 0 * A(i, j);
+    double* const c = column(j);
+    const double* const given = A.col(j).data();
+    for (Index i = j / part * part; i < n_; i += part) {
+      Four four = Four::Zero();
+      if (i >= j && i + part <= n_)
+        four = Eigen::Map<const Four>(given + i);
+      else
+        for (Index k = std::max(i, j); k < std::min(i + part, n_); ++k) four[k - i] = given[k];
+      Part(c + i) = four;
+      zero += 0 * four;
     }
-    order_[to(j)] = j;
   }
-  if (zero != 0) return false;
+  if (zero.sum() != 0) return false;
   if (n_ > 0) equilibrate();
-  eliminate(put_off ? least_of(*put_off) : 0);
-  count_rest();
+  if (put_off) set_least(*put_off);
+  eliminate(put_off != nullptr);
   return true;
 }
 
+namespace {
+
+template <int width>
+using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
+template <int width>
+using GivenRow = Eigen::Map<const Eigen::Array<double, 1, width>>;
+
+/// Rows begin...n of y less those of l times a row.
+template <int width>
+void subtract(const double* l, const Eigen::Array<double, 1, width>& row, Index begin, Index n,
+              double* y) {
+  if constexpr (width == 1) {
+    const Index whole = std::min((begin + part - 1) / part * part, n);
+    for (Index i = begin; i < whole; ++i) y[i] -= l[i] * row[0];
+    for (Index i = whole; i < n; i += part) Part(y + i) -= GivenPart(l + i) * row[0];
+  } else {
+    for (Index i = begin; i < n; ++i) Row<width>(y + i * width) -= l[i] * row;
+  }
+}
+
+/// Sum of the rows begin...n of y times those of l.
+template <int width>
+Eigen::Array<double, 1, width> sum(const double* l, const double* y, Index begin, Index n) {
+  Eigen::Array<double, 1, width> result = Eigen::Array<double, 1, width>::Zero();
+  if constexpr (width == 1) {
+    const Index whole = std::min((begin + part - 1) / part * part, n);
+    Eigen::Array<double, part, 1> parts = Eigen::Array<double, part, 1>::Zero();
+    for (Index i = whole; i < n; i += part) parts += GivenPart(l + i) * GivenPart(y + i);
+    result[0] = parts.sum();
+    for (Index i = begin; i < whole; ++i) result[0] += l[i] * y[i];
+  } else {
+    for (Index i = begin; i < n; ++i) result += l[i] * GivenRow<width>(y + i * width);
+  }
+  return result;
+}
+
+}  // namespace
+
 template <int width>
 void SmallSymmetric::forward(const double* x, double* y) const {
-  using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
-  using GivenRow = Eigen::Map<const Eigen::Array<double, 1, width>>;
-  for (Index i = 0; i < n_; ++i) {
-    const Index from = order_[to(i)];
-    Row(y + i * width) = (scaled_ ? scale_[to(from)] : 1.0) * GivenRow(x + from * width);
-  }
+  for (Index i = 0; i < n_; ++i)
+    Row<width>(y + i * width) = GivenRow<width>(x + order_[to(i)] * width);
+  if (scaled_)
+    for (Index i = 0; i < n_; ++i) Row<width>(y + i * width) *= scale_[to(order_[to(i)])];
+  if constexpr (width == 1) Eigen::Map<Four>(y + n_).setZero();  // columns of L go on like that
   for (Index k = 0; k < done_;) {
-    const bool two = is_two_[to(k)];
-    const Row first(y + k * width);
-    const double* const l = column(k);
-    const Index begin = two ? k + 2 : k + 1;
-    for (Index i = begin; i < n_; ++i) Row(y + i * width) -= l[i] * first;
-    if (two) {
-      const Row second(y + (k + 1) * width);
-      const double* const m = column(k + 1);
-      for (Index i = begin; i < n_; ++i) Row(y + i * width) -= m[i] * second;
+    const Index begin = is_two_[to(k)] ? k + 2 : k + 1;
+    for (; k < begin; ++k) {
+      const Eigen::Array<double, 1, width> row = Row<width>(y + k * width);
+      subtract<width>(column(k), row, begin, n_, y);
     }
-    k = begin;
   }
 }
 
 template <int width>
 void SmallSymmetric::divide(double* y) const {
-  using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
   for (Index k = 0; k < done_; ++k) {
     if (!is_two_[to(k)]) {
-      Row(y + k * width) /= at(k, k);
+      Row<width>(y + k * width) /= at(k, k);
       continue;
     }
     const double b = at(k + 1, k), a = at(k, k) / b, c = at(k + 1, k + 1) / b;
     const double determinant = a * c - 1;
-    const Eigen::Array<double, 1, width> first = Row(y + k * width) / b,
-                                         second = Row(y + (k + 1) * width) / b;
-    Row(y + k * width) = (c * first - second) / determinant;
-    Row(y + (k + 1) * width) = (a * second - first) / determinant;
+    const Eigen::Array<double, 1, width> first = Row<width>(y + k * width) / b,
+                                         second = Row<width>(y + (k + 1) * width) / b;
+    Row<width>(y + k * width) = (c * first - second) / determinant;
+    Row<width>(y + (k + 1) * width) = (a * second - first) / determinant;
     ++k;
   }
 }
 
 template <int width>
 void SmallSymmetric::backward(double* y, double* x) const {
-  using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
   for (Index k = done_; k-- > 0;) {
-    const bool two = k > 0 && is_two_[to(k - 1)];
-    Eigen::Array<double, 1, width> last = Row(y + k * width);
-    const double* const l = column(k);
-    for (Index i = k + 1; i < n_; ++i) last -= l[i] * Row(y + i * width);
-    Row(y + k * width) = last;
-    if (!two) continue;
-    Eigen::Array<double, 1, width> first = Row(y + (k - 1) * width);
-    const double* const m = column(k - 1);
-    for (Index i = k + 1; i < n_; ++i) first -= m[i] * Row(y + i * width);
-    Row(y + (k - 1) * width) = first;
+    const Index begin = k + 1;
+    Row<width>(y + k * width) -= sum<width>(column(k), y, begin, n_);
+    if (k == 0 || !is_two_[to(k - 1)]) continue;
     --k;
+    Row<width>(y + k * width) -= sum<width>(column(k), y, begin, n_);
   }
-  for (Index i = 0; i < n_; ++i) {
-    const Index to_row = order_[to(i)];
-    Row(x + to_row * width) = (scaled_ ? scale_[to(to_row)] : 1.0) * Row(y + i * width);
-  }
+  for (Index i = 0; i < n_; ++i)
+    Row<width>(x + order_[to(i)] * width) = GivenRow<width>(y + i * width);
+  if (scaled_)
+    for (Index i = 0; i < n_; ++i) Row<width>(x + i * width) *= scale_[to(i)];
 }
 
+template void SmallSymmetric::forward<2>(const double*, double*) const;
 template void SmallSymmetric::forward<1>(const double*, double*) const;
 template void SmallSymmetric::forward<4>(const double*, double*) const;
 template void SmallSymmetric::divide<1>(double*) const;
@@ -278,7 +323,7 @@ template void SmallSymmetric::backward<4>(double*, double*) const;
 void SmallSymmetric::solve(Matrix& X) const {
   assert(X.rows() == n_ && done_ == n_);
   constexpr int width = 4;
-  std::array<double, width * capacity> x, y;
+  alignas(64) std::array<double, static_cast<std::size_t>(width* padded)> x, y;
   for (Index first = 0; first < X.cols(); first += width) {
     const Index count = std::min<Index>(width, X.cols() - first);
     for (Index i = 0; i < n_; ++i)

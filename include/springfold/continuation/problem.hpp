@@ -47,6 +47,17 @@ concept StructuredProblem = requires(const P& problem, const Vector& x, double l
   problem.structured_derivatives(x, lambda, piece, J, v);
 };
 
+/// A problem that gives F and its derivatives in one evaluation, see ProblemView.
+template <class P>
+concept ProblemWithEquations = requires(const P& problem, const Vector& x, double lambda,
+                                        const Piece& piece, Vector& F, Matrix& J, Vector& v) {
+  problem.equations(x, lambda, F, J, v);
+}
+|| requires(const P& problem, const Vector& x, double lambda, const Piece& piece, Vector& F,
+            Matrix& J, Vector& v) {
+  problem.equations(x, lambda, piece, F, J, v);
+};
+
 /// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
 /// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
 Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near);
@@ -61,6 +72,9 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 ///                                     first of four unknowns that are the same point with all their
 ///                                     signs changed, for every such group: rotations as quaternions
 ///     std::string switch_name(Index) const
+///     bool equations(x, lambda, [piece,] Vector& F, Matrix& dF_dx, Vector& dF_dlambda) const
+///                                     `residual` and `derivatives` at once, with the same numbers, where
+///                                     that costs less than both
 ///     bool structured_derivatives(x, lambda, [piece,] StructuredMatrix&, Vector& dF_dlambda) const
 ///                                     the same as `derivatives`, for large systems of which more is
 ///                                     known than entries. Points, special points and their places
@@ -81,6 +95,10 @@ class ProblemView {
   bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
                    Vector& dF_dlambda) const {
     return calls_->derivatives(problem_, x, lambda, piece, dF_dx, dF_dlambda);
+  }
+  bool equations(const Vector& x, double lambda, const Piece& piece, Vector& F, Matrix& dF_dx,
+                 Vector& dF_dlambda) const {
+    return calls_->equations(problem_, x, lambda, piece, F, dF_dx, dF_dlambda);
   }
   bool structured() const { return calls_->structured(problem_); }
   bool structured_derivatives(const Vector& x, double lambda, const Piece& piece,
@@ -105,6 +123,7 @@ class ProblemView {
     Index (*size)(const void*);
     bool (*residual)(const void*, const Vector&, double, const Piece&, Vector&);
     bool (*derivatives)(const void*, const Vector&, double, const Piece&, Matrix&, Vector&);
+    bool (*equations)(const void*, const Vector&, double, const Piece&, Vector&, Matrix&, Vector&);
     bool (*structured)(const void*);
     bool (*structured_derivatives)(const void*, const Vector&, double, const Piece&,
                                    StructuredMatrix&, Vector&);
@@ -138,6 +157,18 @@ class ProblemView {
           return as<P>(p).derivatives(x, lambda, piece, dF_dx, dF_dlambda);
         else
           return as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
+      },
+      [](const void* p, const Vector& x, double lambda, const Piece& piece, Vector& F,
+         Matrix& dF_dx, Vector& dF_dlambda) {
+        if constexpr (ProblemWithEquations<P> && PiecewiseSmoothProblem<P>)
+          return as<P>(p).equations(x, lambda, piece, F, dF_dx, dF_dlambda);
+        else if constexpr (ProblemWithEquations<P>)
+          return as<P>(p).equations(x, lambda, F, dF_dx, dF_dlambda);
+        else if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).residual(x, lambda, piece, F) &&
+                 as<P>(p).derivatives(x, lambda, piece, dF_dx, dF_dlambda);
+        else
+          return as<P>(p).residual(x, lambda, F) && as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
       },
       [](const void* p) {
         if constexpr (requires { as<P>(p).structured(); })

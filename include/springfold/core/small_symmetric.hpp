@@ -21,7 +21,8 @@ class SmallSymmetric {
  public:
   static constexpr Index largest = 64;
 
-  /// Which pivots are put off: those below a share of the largest entry of S A S, or of S border.
+  /// Which pivots are put off: those below a share of the largest entry that their row of S A S had, or of that of
+  /// S border.
   struct PutOff {
     double share = 0.1, share_of_border = 1e-3;
     const double* border = nullptr;  ///< as many numbers as A has rows
@@ -33,8 +34,8 @@ class SmallSymmetric {
   bool factorise(const Eigen::Ref<const Matrix>& A, const PutOff* put_off = nullptr);
 
   Index size() const { return n_; }
-  /// Eigenvalue i of the diagonal blocks of D, with L D L^T of R in place of R.
-  double value(Index i) const { return values_[to(i)]; }
+  /// The size() eigenvalues of the diagonal blocks of D, with L D L^T of R in place of R, into `values`.
+  void pivot_values(double* values) const;
   /// Rows of R, and its entries.
   Index put_off() const { return n_ - done_; }
   double rest(Index i, Index j) const {
@@ -45,7 +46,9 @@ class SmallSymmetric {
   void solve(Matrix& X) const;
 
   // Solutions with borders, for `width` columns side by side: row i of them are the width numbers from
-  // x + i * width on, or from y + i * width in the order of the pivots. Width is 1 or 4.
+  // x + i * width on, or from y + i * width in the order of the pivots. Width is 1, 2 or 4; y is
+  // aligned to 16 bytes and has room for `padded` rows.
+  static constexpr Index padded = largest + 4;
   template <int width>
   void forward(const double* x, double* y) const;  ///< y = L^-1 P S x; the last rows go with R
   template <int width>
@@ -66,22 +69,23 @@ class SmallSymmetric {
   double* column(Index j) { return entries_.data() + j * length_; }
   double& at(Index i, Index j) { return column(j)[i]; }
   double at(Index i, Index j) const { return column(j)[i]; }
-  void measure(Column& sizes) const;
+  void begin(Index n);
+  void measure();
   void equilibrate();
-  void eliminate(double least);
-  double least_of(const PutOff& put_off) const;
+  void set_least(const PutOff& put_off);
+  void eliminate(bool may_put_off);
   Pivot pivot_at(Index k) const;
-  bool is_large(Index k, const Pivot& pivot, double least) const;
+  bool is_large(Index k, const Pivot& pivot) const;
   void exchange(Index k, Index next, Index p);
   void eliminate_one(Index k);
   void eliminate_two(Index k);
-  void count_rest();
 
   Index n_ = 0, length_ = 0;  ///< of columns, a multiple of four
   Index done_ = 0;            ///< rows of L_11
   bool scaled_ = false;
   alignas(64) std::array<double, capacity * capacity> entries_;
-  Column scale_, values_;
+  alignas(64) Column sizes_, least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not put off
+  Column scale_;
   std::array<Index, capacity> order_;  ///< row i of the factors belongs to this one of A
   std::array<bool, capacity> is_two_;
 };
