@@ -12,7 +12,6 @@
 #include "normalised.hpp"
 #include "samples.hpp"
 #include "springfold/continuation/evidence.hpp"
-#include "words.hpp"
 #include "working_memory.hpp"
 
 namespace springfold::continuation {
@@ -266,6 +265,18 @@ std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>&
   return std::nullopt;
 }
 
+/// Where a curve ends among special points that could not be resolved, the last points were reached on steps shorter
+/// than anything that can be told there: they may lie on any of the branches.
+void forget_last_crawl(const Anchor& anchor, Curve& curve) {
+  constexpr double crawl = 10 * unresolved_length;
+  const auto length_of_last = [&] {
+    return curve.points.back().s - curve.points[curve.points.size() - 2].s;
+  };
+  while (anchor.set && curve.points.size() > std::max<std::size_t>(anchor.points, 1) &&
+         length_of_last() < crawl)
+    curve.points.pop_back();
+}
+
 /// The main loop: steps until something ends the curve.
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
@@ -300,6 +311,7 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
     if (outcome == Outcome::shorten) {
       curve.stop = StopReason::step_too_small;
       curve.stop_detail = refused.reason;
+      forget_last_crawl(anchor, curve);
       return;
     }
     if (observer && !observer(progress.here)) {
@@ -310,47 +322,6 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
 }
 
 }  // namespace
-
-std::string_view to_string(StopReason reason) {
-  switch (reason) {
-    case StopReason::event:
-      return "end of the range";
-    case StopReason::closed:
-      return "closed curve, back at its start";
-    case StopReason::joined:
-      return "goes on along a branch traced before";
-    case StopReason::max_points:
-      return "largest number of points reached";
-    case StopReason::step_too_small:
-      return "unresolved: a smaller step than allowed would be needed";
-    case StopReason::no_way_out:
-      return "unresolved: no piece continues the curve";
-    case StopReason::several_ways:
-      return "unresolved: several pieces continue the curve";
-    case StopReason::bad_start:
-      return "the start is not a regular point of a curve";
-    case StopReason::observer:
-      return "stopped on request";
-  }
-  return "unknown";
-}
-
-std::vector<std::string> problems_in(const TraceOptions& options) {
-  std::vector<std::string> problems;
-  const StepOptions& step = options.step;
-  if (!(0 < step.minimum && step.minimum <= step.initial && step.initial <= step.maximum))
-    problems.push_back("step: need 0 < minimum <= initial <= maximum");
-  if (!(step.contraction > 0 && step.turn > 0 && step.deviation > 0 && step.aim > 0))
-    problems.push_back("step: contraction, turn, deviation and aim must be positive");
-  if (!(step.growth > 1)) problems.push_back("step.growth: must be greater than 1");
-  if (!(options.newton.residual_tolerance > 0))
-    problems.push_back("newton.residual_tolerance: must be positive");
-  if (options.newton.maximum_iterations < 1)
-    problems.push_back("newton.maximum_iterations: must be at least 1");
-  if (options.maximum_points < 2)
-    problems.push_back("maximum_points: a curve needs at least 2 points");
-  return problems;
-}
 
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                const TraceOptions& options) {

@@ -1,0 +1,29 @@
+#include "springfold/continuation/curve.hpp"
+
+namespace springfold::continuation {
+
+std::string_view to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::event:
+      return "end of the range";
+    case StopReason::closed:
+      return "closed curve, back at its start";
+    case StopReason::joined:
+      return "goes on along a branch traced before";
+    case StopReason::max_points:
+      return "largest number of points reached";
+    case StopReason::step_too_small:
+      return "unresolved: a smaller step than allowed would be needed";
+    case StopReason::no_way_out:
+      return "unresolved: no piece continues the curve";
+    case StopReason::several_ways:
+      return "unresolved: several pieces continue the curve";
+    case StopReason::bad_start:
+      return "the start is not a regular point of a curve";
+    case StopReason::observer:
+      return "stopped on request";
+  }
+  return "unknown";
+}
+
+}  // namespace springfold::continuation
