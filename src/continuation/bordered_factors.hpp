@@ -62,8 +62,8 @@ class BorderedFactors {
   double corner_ = 0;
 
   SmallSymmetric K_;
-  std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
-  std::array<double, capacity> z_;  ///< L^-1 of the row
+  std::array<double, capacity> b_;       ///< L^-1 of dF/dlambda, its first part divided by D_1
+  std::array<double, capacity> z_;       ///< L^-1 of the row
   double last_ = 0;                      ///< what is left of the corner where no pivot was put off
   std::optional<SmallLu> front_{};       ///< R with its borders; or all of it
   Eigen::PartialPivLU<Matrix> large_{};  ///< all of it

@@ -162,8 +162,8 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
   const auto ends = [&result](NewtonStatus status) { result.status = status; };
   for (;; ++result.iterations) {
     // Together with its derivatives, which are needed here or, at the end, for the tangent.
-    Place* here = structured ? nullptr
-                             : place_with_residual(problem, memory, result.x, result.lambda, piece);
+    Place* here =
+        structured ? nullptr : place_with_residual(problem, memory, result.x, result.lambda, piece);
     if (here)
       F = here->F;
     else if (!problem.residual(result.x, result.lambda, piece, F) || !F.allFinite())

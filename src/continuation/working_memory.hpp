@@ -24,7 +24,8 @@ struct Place {
 struct WorkingMemory {
   WorkingMemory() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
 
-  std::array<Place, 12> places;  // of two steps and their middles: a guess or two and the point itself
+  std::array<Place, 12>
+      places;  // of two steps and their middles: a guess or two and the point itself
   std::size_t oldest = 0;
   NewtonResult newton{};
   Vector F{}, step{}, sizes{}, x{}, bound{};

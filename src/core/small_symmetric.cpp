@@ -323,7 +323,7 @@ template void SmallSymmetric::backward<4>(double*, double*) const;
 void SmallSymmetric::solve(Matrix& X) const {
   assert(X.rows() == n_ && done_ == n_);
   constexpr int width = 4;
-  alignas(64) std::array<double, static_cast<std::size_t>(width* padded)> x, y;
+  alignas(64) std::array<double, static_cast<std::size_t>(width * padded)> x, y;
   for (Index first = 0; first < X.cols(); first += width) {
     const Index count = std::min<Index>(width, X.cols() - first);
     for (Index i = 0; i < n_; ++i)

@@ -127,6 +127,21 @@ TEST(FreeRotations, HaveExactSymmetricDerivativesAtAnyRotation) {
   }
 }
 
+TEST(FreeRotations, GiveTheSameNumbersTogetherAndApart) {
+  std::mt19937 random(66);
+  const statics::System system = statics::prepare(two_bodies(random));
+  const PathProblem problem(system, load_rule(system, 2));
+  Vector y = random_vector(random, problem.size(), 0.6), F, F_apart, b, b_apart;
+  for (const Index q : problem.double_covers()) y.segment<4>(q) = random_quaternion(random);
+  Matrix A, A_apart;
+  ASSERT_TRUE(problem.equations(y, 0.4, {}, F, A, b));
+  ASSERT_TRUE(problem.residual(y, 0.4, {}, F_apart));
+  ASSERT_TRUE(problem.derivatives(y, 0.4, {}, A_apart, b_apart));
+  EXPECT_EQ(F, F_apart);
+  EXPECT_EQ(A, A_apart);
+  EXPECT_EQ(b, b_apart);
+}
+
 #ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
 TEST(FreeRotations, AreEvaluatedWithoutMemoryFromTheHeap) {
   std::mt19937 random(65);

@@ -168,7 +168,8 @@ class ProblemView {
           return as<P>(p).residual(x, lambda, piece, F) &&
                  as<P>(p).derivatives(x, lambda, piece, dF_dx, dF_dlambda);
         else
-          return as<P>(p).residual(x, lambda, F) && as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
+          return as<P>(p).residual(x, lambda, F) &&
+                 as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
       },
       [](const void* p) {
         if constexpr (requires { as<P>(p).structured(); })

@@ -84,7 +84,8 @@ class SmallSymmetric {
   Index done_ = 0;            ///< rows of L_11
   bool scaled_ = false;
   alignas(64) std::array<double, capacity * capacity> entries_;
-  alignas(64) Column sizes_, least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not put off
+  alignas(64) Column sizes_,
+      least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not put off
   Column scale_;
   std::array<Index, capacity> order_;  ///< row i of the factors belongs to this one of A
   std::array<bool, capacity> is_two_;

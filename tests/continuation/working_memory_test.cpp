@@ -1,0 +1,68 @@
+// A walk evaluates and factorises nothing twice.
+#include <map>
+#include <utility>
+
+#include "tracing.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Another problem whose evaluations are counted place by place.
+template <class P>
+struct Counted {
+  P problem{};
+  using Places = std::map<std::pair<std::vector<double>, double>, int>;
+  mutable Places linearised{};
+  mutable int together = 0;
+
+  Index size() const { return problem.size(); }
+  bool symmetric() const { return problem.symmetric(); }
+  bool residual(const Vector& x, double lambda, Vector& F) const {
+    return problem.residual(x, lambda, F);
+  }
+  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    ++linearised[{{x.begin(), x.end()}, lambda}];
+    return problem.derivatives(x, lambda, dF_dx, dF_dlambda);
+  }
+  bool equations(const Vector& x, double lambda, Vector& F, Matrix& dF_dx,
+                 Vector& dF_dlambda) const {
+    ++together;
+    return residual(x, lambda, F) && derivatives(x, lambda, dF_dx, dF_dlambda);
+  }
+};
+
+TEST(AWalk, LinearisesNoPlaceTwice) {
+  Counted<ScalarProblem> counted{graph([](double x) { return x + 0.1 * std::sin(x); },
+                                       [](double x) { return 1 + 0.1 * std::cos(x); })};
+  TraceOptions options;
+  options.maximum_points = 60;
+  const Vector start = Vector::Constant(1, 0.3);
+  const double lambda = 0.3 + 0.1 * std::sin(0.3);
+  const Ray ray = ray_of(counted, {start, lambda, {}, {start, 1}}, options);
+  counted.linearised.clear();
+  counted.together = 0;
+  const Curve curve = trace(counted, start, lambda, ray, {}, options);
+  ASSERT_TRUE(curve.hits.empty() && curve.log.empty());
+  int most = 0;
+  for (const auto& [place, times] : counted.linearised)
+    if (place.second > lambda + 1e-9) most = std::max(most, times);
+  EXPECT_EQ(most, 1);
+  // A guess or two and the point itself, of every step and of its middle.
+  const auto steps = static_cast<int>(curve.points.size()) - 1;
+  EXPECT_LE(counted.together, 2 * 3 * steps);
+  EXPECT_GE(counted.together, 2 * 2 * steps);
+}
+
+TEST(AWalk, IsTheSameWhetherEquationsAreEvaluatedTogetherOrApart) {
+  const Counted<TwoModes> together{{1, 1.4}};
+  const TwoModes apart{1, 1.4};
+  const StartPoint start{Vector{{0, 0}}, 0.5, {}, {Vector{{0, 0}}, 1}};
+  const Curve a = follow(together, start, {lambda_reaches(2)}),
+              b = follow(apart, start, {lambda_reaches(2)});
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_EQ(a.points[i].x, b.points[i].x);
+  expect_same_hits(a.hits, b.hits, 1e-300);
+}
+
+}  // namespace
+}  // namespace springfold::continuation

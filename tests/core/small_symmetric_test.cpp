@@ -1,0 +1,86 @@
+#include "springfold/core/small_symmetric.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <array>
+#include <random>
+
+namespace springfold {
+namespace {
+
+Matrix random_symmetric(std::mt19937& random, Index n) {
+  std::normal_distribution<double> normal;
+  const Matrix A = Matrix::NullaryExpr(n, n, [&] { return normal(random); });
+  return A + A.transpose();
+}
+
+/// Numbers of negative and of positive values.
+std::pair<Index, Index> signs(const Vector& values) {
+  return {(values.array() < 0).count(), (values.array() > 0).count()};
+}
+
+TEST(SmallSymmetric, PivotsHaveTheSignsOfTheEigenvaluesWhetherSomeArePutOffOrNot) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index n = 1 + trial % 30;
+    Matrix A = random_symmetric(random, n);
+    if (trial % 2 == 0) A.bottomRightCorner(n / 2, n / 2) *= 1e-5;  // small pivots
+    const Vector border = Vector::Constant(n, trial % 4 < 2 ? 1 : 300);
+    const SmallSymmetric::PutOff put_off{.border = border.data()};
+    SmallSymmetric all, some;
+    ASSERT_TRUE(all.factorise(A) && some.factorise(A, &put_off));
+    EXPECT_EQ(all.put_off(), 0);
+    const auto expected = signs(Eigen::SelfAdjointEigenSolver<Matrix>(A).eigenvalues());
+    Vector values(n);
+    all.pivot_values(values.data());
+    EXPECT_EQ(signs(values), expected) << "trial " << trial;
+    some.pivot_values(values.data());
+    EXPECT_EQ(signs(values), expected) << "trial " << trial;
+  }
+}
+
+TEST(SmallSymmetric, PutsOffNoPivotOfAWellConditionedMatrixAndAllOfAZeroOne) {
+  SmallSymmetric factors;
+  const SmallSymmetric::PutOff put_off{};
+  ASSERT_TRUE(factors.factorise(Matrix{{2, 1, 0}, {1, -2, 1}, {0, 1, 3}}, &put_off));
+  EXPECT_EQ(factors.put_off(), 0);
+  ASSERT_TRUE(factors.factorise(Matrix::Zero(5, 5), &put_off));
+  EXPECT_EQ(factors.put_off(), 5);
+}
+
+/// A vector through all of L and D, by hand where pivots were put off.
+TEST(SmallSymmetric, FactorsMultiplyToTheMatrix) {
+  std::mt19937 random(6);
+  constexpr Index padded = SmallSymmetric::padded;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index n = 1 + trial % 23;
+    Matrix A = random_symmetric(random, n);
+    if (trial % 3 == 0) A.row(n / 2) *= 1e-7, A.col(n / 2) *= 1e-7;
+    if (trial % 3 == 1 && n > 1) A.diagonal().setZero();
+    const SmallSymmetric::PutOff put_off{};
+    SmallSymmetric factors;
+    ASSERT_TRUE(factors.factorise(A, &put_off));
+    const Index rest = factors.put_off(), done = n - rest;
+    Vector x = random_symmetric(random, n).col(0), b = A * x;
+    alignas(16) std::array<double, static_cast<std::size_t>(padded)> y{};
+    factors.forward<1>(b.data(), y.data());
+    factors.divide<1>(y.data());
+    if (rest > 0) {
+      Matrix R(rest, rest);
+      for (Index i = 0; i < rest; ++i)
+        for (Index j = 0; j < rest; ++j) R(i, j) = factors.rest(i, j);
+      Eigen::Map<Vector> last(y.data() + done, rest);
+      last = R.fullPivLu().solve(Vector(last)).eval();
+    }
+    Vector solution(n);
+    factors.backward<1>(y.data(), solution.data());
+    const double condition = A.norm() * A.inverse().norm();
+    EXPECT_LT((solution - x).norm(), 1e-14 * condition * x.norm() * static_cast<double>(n))
+        << "trial " << trial << ", " << rest << " put off";
+  }
+}
+
+}  // namespace
+}  // namespace springfold
