@@ -52,9 +52,9 @@ bool PathProblem::structured_derivatives(const Vector& y, double lambda, const P
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
   put_basis(y);
+  if (!stages_->begin_matrix(present, piece, z_, inputs_, r_)) return false;
   if (!rotations_.empty()) {
     const Index first = system_.first_pose;
-    if (!stages_->residual(present, piece, z_, inputs_, r_)) return false;
     added_.setZero(size_ - first, size_ - first);
     for (const FreeRotation& r : rotations_) {
       const Quaternion q = y.segment<4>(r.y);
@@ -63,7 +63,7 @@ bool PathProblem::structured_derivatives(const Vector& y, double lambda, const P
           (q.squaredNorm() - 1) * Eigen::Matrix4d::Identity() + 2 * q * q.transpose();
     }
   }
-  if (!stages_->matrix(present, piece, z_, inputs_, basis_, added_, r_, dF_dy)) return false;
+  if (!stages_->end_matrix(present, basis_, added_, dF_dy)) return false;
   if (!put_rate(y, lambda, piece, present, nullptr, rate_)) return false;
   reduce_rows(rate_, v_);
   put_quaternions(y, v_, dF_dlambda);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "places.hpp"
 #include "springfold/core/scaling.hpp"
 #include "stage_chain.hpp"
 
@@ -218,44 +217,6 @@ class StageFiller {
 
 void fill_chain(const StagePlan& plan, const System& system, std::size_t i, StageMatrix& matrix) {
   StageFiller(plan, system, i, matrix).fill();
-}
-
-void add_chain_product(const System& system, std::size_t i, const ChainSums& sums, const Vector& dz,
-                       const Vector& drho, StageScratch& scratch, Vector& product) {
-  const ChainSlice& slice = system.chain_slices[i];
-  const CompiledChain& chain = system.chains[i];
-  const Index from = chain.first_joint(), to = chain.to_count(), n = chain.first_to();
-  const auto place = [&](Index k) { return place_of(slice, k); };
-  auto v = first_of(scratch.motion, n), Hv = first_of(scratch.turned, n);
-  for (Index k = 0; k < n; ++k) {
-    const Place p = place(k);
-    v[k] = (p.z >= 0 ? dz[p.z] : 0.0) + (p.rho >= 0 && drho.size() > 0 ? drho[p.rho] : 0.0);
-  }
-  const auto v_to = dz.segment(to > 0 ? slice.to : 0, to);
-  const auto dF = dz.segment(slice.F, slice.F_count);
-  auto closure = first_of(scratch.closure, slice.F_count);
-  closure.noalias() = sums.J * v;
-  closure.noalias() += sums.J_to * v_to;
-  product.segment(slice.F, slice.F_count) -= closure;
-  Vec3<double> moment = Vec3<double>::Zero(), turn = Vec3<double>::Zero();
-  if (to > 0) moment = sums.to_moment * v_to;
-  for (Index k = n; k-- > 0;) {  // the later ones; within the front body's pose see H_from
-    if (k >= from) moment += sums.moment.col(k) * v[k];
-    Hv[k] = sums.turn.col(k).dot(moment);
-  }
-  for (Index k = 0; k < n; ++k) {  // the earlier ones
-    if (k >= from) Hv[k] += sums.moment.col(k).dot(turn);
-    turn += sums.turn.col(k) * v[k];
-  }
-  if (from > 0) Hv.head(from).noalias() += sums.H_from * v.head(from);
-  for (Index k = 0; k < n; ++k)
-    if (const Index row = place(k).z; row >= 0) product[row] -= Hv[k] + sums.J.col(k).dot(dF);
-  if (to == 0) return;
-  auto wrench = first_of(scratch.wrench, to);
-  wrench.noalias() = sums.H_to * v_to;
-  wrench.noalias() += sums.to_moment.transpose() * turn;
-  wrench.noalias() += sums.J_to.transpose() * dF;
-  product.segment(slice.to, to) -= wrench;
 }
 
 }  // namespace springfold::statics

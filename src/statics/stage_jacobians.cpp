@@ -153,13 +153,28 @@ bool StageJacobians::residual(const System& system, const Piece& piece, const Ve
 bool StageJacobians::matrix(const System& system, const Piece& piece, const Vector& z,
                             const Inputs& inputs, const Matrix& basis, const Matrix& added,
                             Vector& r, StructuredMatrix& A_y) {
-  const std::shared_ptr<Slot> owner = free_slot();
-  Slot* const slot = owner.get();
+  return begin_matrix(system, piece, z, inputs, r) && end_matrix(system, basis, added, A_y);
+}
+
+bool StageJacobians::begin_matrix(const System& system, const Piece& piece, const Vector& z,
+                                  const Inputs& inputs, Vector& r) {
+  const std::shared_ptr<Slot> slot = free_slot();
   slot->factorised = slot->sized = false;
-  slot->added = added;
-  if (!equilibrium_stages(layout_->plan, system, piece, z, inputs, basis, added, r, slot->matrix))
+  if (!evaluate_stages(layout_->plan, system, piece, z, inputs, r, slot->matrix, true))
     return false;
-  last_ = owner;
+  last_ = slot;
+  return true;
+}
+
+bool StageJacobians::end_matrix(const System& system, const Matrix& basis, const Matrix& added,
+                                StructuredMatrix& A_y) {
+  assert(last_ != nullptr);
+  Slot* const slot = last_.get();
+  slot->added = added;
+  if (!put_stage_matrix(layout_->plan, system, basis, added, slot->matrix)) {
+    last_.reset();
+    return false;
+  }
   A_y.largest = largest_entry(slot->matrix);
   A_y.product = [slot](const Vector& v, Vector& result) { slot->product(v, result); };
   A_y.magnitudes = [slot](const Vector& v, Vector& result) { slot->magnitudes(v, result); };
@@ -167,7 +182,7 @@ bool StageJacobians::matrix(const System& system, const Piece& piece, const Vect
     return slot->solve(borders, X, transposed);
   };
   A_y.inertia = [slot] { return slot->inertia(); };
-  A_y.owner = owner;
+  A_y.owner = last_;
   return true;
 }
 

@@ -188,10 +188,9 @@ void fill_root(const StagePlan& plan, const System& system, const Matrix& added,
 
 }  // namespace
 
-bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece& piece,
-                        const Vector& z, const Inputs& inputs, const Matrix& basis,
-                        const Matrix& added, Vector& residual, StageMatrix& matrix,
-                        bool with_matrix) {
+bool evaluate_stages(const StagePlan& plan, const System& system, const Piece& piece,
+                     const Vector& z, const Inputs& inputs, Vector& residual, StageMatrix& matrix,
+                     bool for_matrix) {
   assert(z.size() == system.size && inputs.W.size() == system.load_size);
   assert(piece.size() == system.switches.size());
   const std::size_t chains = plan.chains.size();
@@ -204,16 +203,19 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   bool finite = true;
   for (std::size_t i = 0; i < chains; ++i) {
     if (!plan.chains[i].staged) {
-      finite &= add_part(plan, i, system, piece, z, inputs, residual, matrix, with_matrix);
+      finite &= add_part(plan, i, system, piece, z, inputs, residual, matrix, for_matrix);
       continue;
     }
     evaluate_chain(plan.chains[i], system, i, z, inputs, matrix.sums[i]);
     add_chain_residual(system, i, z, matrix.sums[i], residual);
   }
-  finite &= add_part(plan, chains, system, piece, z, inputs, residual, matrix, with_matrix);
-  finite &= residual.allFinite();
-  if (!with_matrix || !finite) return finite;
+  finite &= add_part(plan, chains, system, piece, z, inputs, residual, matrix, for_matrix);
+  return finite && residual.allFinite();
+}
 
+bool put_stage_matrix(const StagePlan& plan, const System& system, const Matrix& basis,
+                      const Matrix& added, StageMatrix& matrix) {
+  const std::size_t chains = plan.chains.size();
   matrix.groups.resize(system.coupled.size());
   for (std::size_t k = 0; k < system.coupled.size(); ++k)
     matrix.groups[k] = system.coupled[k].stiffness;
@@ -236,84 +238,12 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
   return matrix.root.allFinite();
 }
 
-namespace {
-
-/// product += block v, in the rows at these places.
-template <class Given>
-void add_product(const Matrix& block, const Given& v, const std::vector<Index>& places,
-                 StageScratch& scratch, Vector& product) {
-  auto out = first_of(scratch.out, block.rows());
-  out.noalias() = block * v;
-  for (std::size_t k = 0; k < places.size(); ++k) product[places[k]] += out[static_cast<Index>(k)];
-}
-
-/// product += block dz, for the unknowns at these places.
-void add_block(const Matrix& block, const std::vector<Index>& places, const Vector& dz,
-               StageScratch& scratch, Vector& product) {
-  const auto n = static_cast<Index>(places.size());
-  auto in = first_of(scratch.in, n);
-  for (Index k = 0; k < n; ++k) in[k] = dz[places[static_cast<std::size_t>(k)]];
-  add_product(block, in, places, scratch, product);
-}
-
-}  // namespace
-
-void stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-                   const Vector& dz, const Vector& drho, StageScratch& scratch, Vector& product) {
-  product.setZero(system.size);
-  product.head(plan.chain_unknowns) = matrix.stiffness.cwiseProduct(dz.head(plan.chain_unknowns));
-  for (std::size_t i = 0; i < plan.chains.size(); ++i) {
-    if (!plan.chains[i].staged) continue;
-    add_chain_product(system, i, matrix.sums[i], dz, drho, scratch, product);
-    for (const StageGroup& entry : plan.chains[i].groups)
-      add_block(matrix.groups[entry.group], system.coupled[entry.group].coordinates, dz, scratch,
-                product);
-  }
-  for (std::size_t p = 0; p < matrix.blocks.size(); ++p) {
-    const bool bodies = p == plan.chains.size();
-    if (!bodies && plan.chains[p].staged) continue;
-    const std::vector<Index>& places = plan.dense[p].places;
-    add_block(matrix.blocks[p], places, dz, scratch, product);
-    if (drho.size() > 0) add_product(matrix.block_rates[p], drho, places, scratch, product);
-  }
-}
-
-Vector stage_product(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-                     const Vector& dz, const Vector& drho) {
-  StageScratch scratch;
-  Vector product;
-  stage_product(plan, system, matrix, dz, drho, scratch, product);
-  return product;
-}
-
-/// All signs such that the terms of the product add up.
-void put_sizes(const StageMatrix& matrix, StageMatrix& sizes) {
-  sizes.stiffness = -matrix.stiffness.cwiseAbs();
-  sizes.groups.resize(matrix.groups.size());
-  for (std::size_t k = 0; k < matrix.groups.size(); ++k)
-    sizes.groups[k] = -matrix.groups[k].cwiseAbs();
-  sizes.sums.resize(matrix.sums.size());
-  for (std::size_t i = 0; i < matrix.sums.size(); ++i) {
-    const ChainSums& sums = matrix.sums[i];
-    ChainSums& size = sizes.sums[i];
-    size.turn = sums.turn.cwiseAbs();
-    size.moment = sums.moment.cwiseAbs();
-    size.J = sums.J.cwiseAbs();
-    size.to_moment = sums.to_moment.cwiseAbs();
-    size.J_to = sums.J_to.cwiseAbs();
-    size.H_from = sums.H_from.cwiseAbs();
-    size.H_to = sums.H_to.cwiseAbs();
-  }
-  sizes.blocks.resize(matrix.blocks.size());
-  for (std::size_t p = 0; p < matrix.blocks.size(); ++p)
-    sizes.blocks[p] = -matrix.blocks[p].cwiseAbs();
-}
-
-Vector stage_magnitudes(const StagePlan& plan, const System& system, const StageMatrix& matrix,
-                        const Vector& dz) {
-  StageMatrix sizes;
-  put_sizes(matrix, sizes);
-  return -stage_product(plan, system, sizes, dz.cwiseAbs(), {});
+bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece& piece,
+                        const Vector& z, const Inputs& inputs, const Matrix& basis,
+                        const Matrix& added, Vector& residual, StageMatrix& matrix,
+                        bool with_matrix) {
+  return evaluate_stages(plan, system, piece, z, inputs, residual, matrix, with_matrix) &&
+         (!with_matrix || put_stage_matrix(plan, system, basis, added, matrix));
 }
 
 StageSolver::StageSolver(const StagePlan& plan, FrontalOptions options)

@@ -32,6 +32,11 @@ class StageJacobians {
   /// unknowns).
   bool matrix(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
               const Matrix& basis, const Matrix& added, Vector& r, StructuredMatrix& A_y);
+  /// The same in two calls, for an `added` that depends on r.
+  bool begin_matrix(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
+                    Vector& r);
+  bool end_matrix(const System& system, const Matrix& basis, const Matrix& added,
+                  StructuredMatrix& A_y);
 
   /// A dz + (d residual/d rho) drho at the place of the last matrix(); see stage_product().
   void product(const Vector& dz, const Vector& drho, Vector& result) const;
