@@ -73,7 +73,7 @@ TEST(BorderedFactors, SolveWithEveryLastRowAlsoWhereTheMatrixIsNearlySingular) {
   std::mt19937 random(31);
   for (const bool symmetric : {true, false})
     for (const double least : {1.0, 1e-3, 1e-9, 1e-15, 0.0})
-      for (const Index n : {1, 2, 3, 7, 10, 24, 39, 40, 64, 70}) {
+      for (const Index n : {1, 2, 3, 7, 10, 24, 39, 40, 64, 70, 201}) {
         Bordered of = bordered(random, symmetric_with(random, n, least));
         BorderedFactors factors;
         factors.begin(of.at, symmetric);

@@ -1,5 +1,5 @@
-// L D L^T of small symmetric matrices on the stack: chains of a mechanism have a few unknowns each, and
-// a library made for large matrices takes longer to begin than these take to end.
+// L D L^T of small symmetric matrices on the stack: those of mechanisms have ten to a hundred rows, and a library made
+// for large ones is no faster and cannot put off pivots.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace springfold {
 /// together with R make a small matrix that is regular wherever the bordered one is.
 class SmallSymmetric {
  public:
-  static constexpr Index largest = 64;
+  static constexpr Index largest = 200;
 
   /// Which pivots are put off: those below a share of the largest entry that their row of S A S had, or of that of
   /// S border.
