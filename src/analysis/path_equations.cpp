@@ -206,14 +206,17 @@ bool PathProblem::put_rate(const Vector& y, double lambda, const Piece& piece,
   }
   rate.setZero(system_.size);
   if (A == nullptr && (moves_pose_ || moves_commands_)) {
-    Vector dz = Vector::Zero(system_.size);
-    dz.segment(t_, d_) = rule_.t_rate;
-    rate = stages_->product(dz, moves_commands_ ? rule_.rho_rate : Vector());
+    dz_.setZero(system_.size);
+    dz_.segment(t_, d_) = rule_.t_rate;
+    stages_->product(dz_, moves_commands_ ? rule_.rho_rate : none_, rate);
   }
   if (A != nullptr && moves_pose_) rate.noalias() += A->middleCols(t_, d_) * rule_.t_rate;
   if (A != nullptr && moves_commands_) rate.noalias() += dR_drho_ * rule_.rho_rate;
   if (moves_wrench_) add_wrench_rate(present, z_, rule_.W_rate, rate);
-  if (moves_loads_) rate += statics::load_rate(present, z_, inputs_.rho, rule_.load_rate);
+  if (moves_loads_) {
+    statics::put_load_rate(present, z_, inputs_.rho, rule_.load_rate, load_work_, dz_);
+    rate += dz_;
+  }
   return true;
 }
 

@@ -138,9 +138,10 @@ class PathProblem {
   std::vector<FreeRotation> rotations_{};
   std::vector<Index> place_{};  ///< of the entries of v in y; -1 for free rotations
   mutable statics::System turned_{};
-  mutable statics::Workspace work_{};
+  mutable statics::Workspace work_{}, load_work_{};
   mutable statics::Inputs inputs_{};
-  mutable Vector z_{}, v_{}, r_{}, rate_{}, F_{};
+  mutable Vector z_{}, v_{}, r_{}, rate_{}, F_{}, dz_{};
+  Vector none_{};  ///< where commands do not move
   mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
   mutable std::vector<model::Mat3<double>> frames_{};
   mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains

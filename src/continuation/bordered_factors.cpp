@@ -30,7 +30,7 @@ void BorderedFactors::begin(const Linearisation& at, bool symmetric) {
   at_ = &at;
   n_ = at.dF_dlambda.size();
   symmetric_ = symmetric;
-  factorised_ = finite_ = false;
+  factorised_ = finite_ = bordered_ = regular_ = false;
   way_ = at.structured                                ? Way::structured
          : symmetric && n_ <= SmallSymmetric::largest ? Way::symmetric
          : SmallLu::fits(n_ + 1)                      ? Way::small
@@ -45,7 +45,6 @@ bool BorderedFactors::factorise_symmetric() {
   if (!finite_) return false;
   if (K_.put_off() >= SmallLu::largest) {  // hardly any of them can be used
     way_ = Way::large;
-    factorised_ = false;
     return true;
   }
   return true;
@@ -103,20 +102,20 @@ bool BorderedFactors::border_general() {
 
 bool BorderedFactors::set_border(const Vector& weights, const Direction& border) {
   if (way_ == Way::symmetric && !factorise_symmetric()) return false;
-  const bool same = factorised_ && way_ != Way::symmetric && corner_ == border.dlambda &&
-                    row_.size() == n_ && row_ == weights.cwiseProduct(border.dx);
-  if (same) return finite_;
+  const bool same =
+      bordered_ && corner_ == border.dlambda && row_ == weights.cwiseProduct(border.dx);
+  if (same) return regular_;
   row_ = weights.cwiseProduct(border.dx);
   corner_ = border.dlambda;
-  if (way_ == Way::symmetric) return border_symmetric();
-  factorised_ = true;
+  bordered_ = true;
+  if (way_ == Way::symmetric) return regular_ = border_symmetric();
   if (way_ == Way::structured) {
     borders_.B = at_->dF_dlambda;
     borders_.C = row_;
     borders_.D.setConstant(1, 1, corner_);
-    return finite_ = true;
+    return regular_ = true;
   }
-  return finite_ = border_general();
+  return regular_ = border_general();
 }
 
 /// @param only_last  x is zero but for its last row

@@ -57,7 +57,8 @@ class BorderedFactors {
   Index n_ = 0;
   Way way_ = Way::large;
   bool symmetric_ = false;
-  bool factorised_ = false, finite_ = false;  ///< dF/dx as L D L^T, or the whole with the last row
+  bool factorised_ = false, finite_ = false;  ///< dF/dx as L D L^T
+  bool bordered_ = false, regular_ = false;   ///< the whole, with the last row
   Vector row_{};
   double corner_ = 0;
 

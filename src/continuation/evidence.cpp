@@ -78,6 +78,36 @@ double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoi
   return across(walker, d, middle.tangent);
 }
 
+/// The curve's point at the way `ahead` along the tangent at `from`, predicted by the cubic through `from` and the point
+/// before it, with their tangents: by nothing that lies ahead. Nearly always one correction is enough then.
+/// @returns false where the two points do not lie evenly on one smooth piece, or none is found
+bool find_ahead(const Walker& walker, const CurvePoint& before, const CurvePoint& from,
+                double ahead, CurvePoint& point) {
+  constexpr double same_direction = 0.9, near = 0.1;
+  if (before.piece != from.piece) return false;
+  const double along = metric_product(walker.weights, before.tangent, from.tangent);
+  Direction& d = walker.memory->direction;
+  d.dx = from.x - before.x;
+  d.dlambda = from.lambda - before.lambda;
+  const double h = metric_product(walker.weights, d, from.tangent);
+  if (!(along > same_direction) || !(h > 0.5 * ahead) || !(h < 8 * ahead)) return false;
+  // u(h + a) = u_0 + a tau_0 + a^2 (q + (a + h) c), u_0 and tau_0 at `from`; at -h it is u_b, with the rate tau_b / along.
+  const double a = ahead, q = a * a / (h * h), c = q * (a + h) / h;
+  const auto bend = [&](double chord, double rate, double rate_before) {
+    return q * (h * rate - chord) + c * (h * rate + h * rate_before - 2 * chord);
+  };
+  for (Index i = 0; i < d.dx.size(); ++i)
+    d.dx[i] = bend(d.dx[i], from.tangent.dx[i], before.tangent.dx[i] / along);
+  d.dlambda = bend(d.dlambda, from.tangent.dlambda, before.tangent.dlambda / along);
+  if (!(length_of(walker, d) <= near * ahead)) return false;
+  point.x = from.x + ahead * from.tangent.dx + d.dx;
+  point.lambda = from.lambda + ahead * from.tangent.dlambda + d.dlambda;
+  point.s = from.s + ahead;
+  StepMeasures measures;
+  std::string refusal;
+  return find_point(walker, from.piece, from.tangent, point, measures, refusal);
+}
+
 /// Errors that residuals at rounding level leave where dF/dx is nearly singular.
 double corrector_noise(const Walker& walker, const CurvePoint& point) {
   if (!walker.problem.symmetric()) return 0;
@@ -87,12 +117,14 @@ double corrector_noise(const Walker& walker, const CurvePoint& point) {
 
 }  // namespace
 
-std::string examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                    CurvePoint& middle) {
+std::string examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+                    const CurvePoint& to, CurvePoint& middle) {
   const double ds = to.s - from.s;
   std::string doubt = residual_doubt(walker, from, ds);
   if (!doubt.empty()) return doubt;
-  if (!find_point_at(walker, from, 0.5 * ds, middle)) return "no point of the curve found half-way";
+  const bool found = (before && find_ahead(walker, *before, from, 0.5 * ds, middle)) ||
+                     find_point_at(walker, from, 0.5 * ds, middle);
+  if (!found) return "no point of the curve found half-way";
   Direction& d = walker.memory->direction;
   const auto bend = [&](const CurvePoint& p) {
     const double along = p.s - from.s;
@@ -121,7 +153,7 @@ std::string examine(const Walker& walker, const CurvePoint& from, const CurvePoi
 Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
   Evidence evidence;
   CurvePoint middle;
-  evidence.doubt = examine(walker, from, to, middle);
+  evidence.doubt = examine(walker, nullptr, from, to, middle);
   if (middle.tangent.dx.size() > 0) evidence.middle = std::move(middle);
   return evidence;
 }

@@ -162,7 +162,10 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     return Outcome::shorten;
   const CurvePoint* middle = nullptr;
   if (walker.options.verify) {
-    refusal = examine(walker, progress.here, next, half_way);
+    const std::size_t kept = curve.points.size();
+    const bool goes_on = kept > 1 && curve.points.back().s == progress.here.s;
+    refusal =
+        examine(walker, goes_on ? &curve.points[kept - 2] : nullptr, progress.here, next, half_way);
     if (!refusal.empty()) return Outcome::shorten;
     middle = &half_way;
   }

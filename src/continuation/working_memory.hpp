@@ -73,7 +73,8 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
               StepMeasures& measures, std::string& refusal);
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
-std::string examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                    CurvePoint& middle);
+/// @param before  the point before `from` on the curve, which then helps to predict the middle; or nullptr
+std::string examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+                    const CurvePoint& to, CurvePoint& middle);
 
 }  // namespace springfold::continuation

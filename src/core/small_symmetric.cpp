@@ -17,23 +17,33 @@ using Four = Eigen::Array<double, part, 1>;
 using Part = Eigen::Map<Four, Eigen::Aligned16>;
 using GivenPart = Eigen::Map<const Four, Eigen::Aligned16>;
 
+/// Zeros from one place up to another, which is less than a part away.
+inline void clear(double* c, Index from, Index end) {
+  if (from < end) c[from] = 0;
+  if (from + 1 < end) c[from + 1] = 0;
+  if (from + 2 < end) c[from + 2] = 0;
+}
+
+/// Four numbers of a column: their sizes for their rows, and for the column's own.
+inline void note_sizes(const Four& four, double* rows, Four& most) {
+  const Four size = four.abs();
+  Part largest(rows);
+  largest = largest.max(size);
+  most = most.max(size);
+}
+
 /// The inverse of the power of two next to sqrt(value).
 double inverse_root(double value) { return std::ldexp(1.0, -((std::ilogb(value) + 1) >> 1)); }
 
 }  // namespace
 
-/// Largest entry of every row of the matrix. Above its diagonal the first part of a column holds zeros.
+/// Largest entry of every row of the matrix.
 void SmallSymmetric::measure() {
   std::fill_n(sizes_.begin(), length_, 0.0);
   for (Index j = 0; j < n_; ++j) {
-    const double* const c = column(j);
     Four most = Four::Zero();
-    for (Index i = j / part * part; i < n_; i += part) {
-      const Four size = GivenPart(c + i).abs();
-      Part rows(sizes_.data() + i);
-      rows = rows.max(size);
-      most = most.max(size);
-    }
+    for (Index i = j / part * part; i < n_; i += part)
+      note_sizes(GivenPart(column(j) + i), sizes_.data() + i, most);
     sizes_[to(j)] = std::max(sizes_[to(j)], most.maxCoeff());
   }
 }
@@ -42,7 +52,6 @@ void SmallSymmetric::measure() {
 void SmallSymmetric::equilibrate() {
   Column sorted;
   const Column& sizes = sizes_;
-  measure();
   const auto end = static_cast<std::ptrdiff_t>(n_);
   double least = sizes[0], most = 0;
   for (Index i = 0; i < n_; ++i) {
@@ -206,18 +215,20 @@ bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A, const PutOff* 
   assert(A.rows() == A.cols() && A.rows() <= largest);
   begin(A.rows());
   Four zero = Four::Zero();  // NaN where an entry is not finite
+  std::fill_n(sizes_.begin(), length_, 0.0);
   for (Index j = 0; j < n_; ++j) {
     double* const c = column(j);
-    const double* const given = A.col(j).data();
-    for (Index i = j / part * part; i < n_; i += part) {
-      Four four = Four::Zero();
-      if (i >= j && i + part <= n_)
-        four = Eigen::Map<const Four>(given + i);
-      else
-        for (Index k = std::max(i, j); k < std::min(i + part, n_); ++k) four[k - i] = given[k];
-      Part(c + i) = four;
+    const Index first = j / part * part;
+    std::copy_n(A.col(j).data(), n_, c);  // further above the diagonal nothing is looked at
+    clear(c, first, j);
+    clear(c, n_, length_);
+    Four most = Four::Zero();
+    for (Index i = first; i < n_; i += part) {
+      const Four four = GivenPart(c + i);
       zero += 0 * four;
+      note_sizes(four, sizes_.data() + i, most);
     }
+    sizes_[to(j)] = std::max(sizes_[to(j)], most.maxCoeff());
   }
   if (zero.sum() != 0) return false;
   if (n_ > 0) equilibrate();
@@ -248,7 +259,8 @@ void subtract(const double* l, const Eigen::Array<double, 1, width>& row, Index 
 
 /// Sum of the rows begin...n of y times those of l.
 template <int width>
-Eigen::Array<double, 1, width> sum(const double* l, const double* y, Index begin, Index n) {
+[[gnu::always_inline]] inline Eigen::Array<double, 1, width> sum(const double* l, const double* y,
+                                                                 Index begin, Index n) {
   Eigen::Array<double, 1, width> result = Eigen::Array<double, 1, width>::Zero();
   if constexpr (width == 1) {
     const Index whole = std::min((begin + part - 1) / part * part, n);

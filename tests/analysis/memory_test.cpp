@@ -78,9 +78,11 @@ TEST(AStep, AsksForNoMoreWhereAChainIsEvaluatedInStages) {
     EXPECT_LE(per_step(problem), point + list)
         << links << " links, " << model::dimension(space) << " coordinates of the tip";
   }
-  const PathProblem closed = bows(60, 5);
-  ASSERT_TRUE(closed.structured());
-  EXPECT_LE(per_step(closed), point + list);
+  for (const bool held : {false, true}) {
+    const PathProblem closed = bows(60, 5, held);
+    ASSERT_TRUE(closed.structured());
+    EXPECT_LE(per_step(closed), point + list) << (held ? "held" : "free");
+  }
 }
 
 TEST(AStep, AsksForNoneWhereEventsAreWatchedEither) {

@@ -77,8 +77,8 @@ inline model::Chain bow(int links, double bend) {
   return chain;
 }
 
-/// Bows that meet in a planar body, pushed together.
-inline PathProblem bows(int links, int fewer) {
+/// Bows that meet in a planar body, which is pushed against one of them, or moved across it where `held`.
+inline PathProblem bows(int links, int fewer, bool held) {
   model::Mechanism m;
   m.bodies.push_back({"joint", model::TaskSpace::planar, Vector{{1, 0, 0}}});
   m.chains = {bow(links, 1), bow(fewer, -1), bow(links, 2)};
@@ -87,8 +87,13 @@ inline PathProblem bows(int links, int fewer) {
   const Vector none = Vector::Zero(3);
   PathRule rule{.t_start = none, .t_rate = none, .N = Matrix::Identity(3, 3)};
   rule.rho_start = rule.rho_rate = system.commands;
-  rule.W_start = none;
-  rule.W_rate = Vector{{-1, -0.1, 0}};
+  rule.W_start = rule.W_rate = none;
+  if (held) {
+    rule.t_rate[1] = 1;
+    rule.N = Matrix{{1, 0}, {0, 0}, {0, 1}};
+  } else {
+    rule.W_rate = Vector{{-1, -0.1, 0}};
+  }
   return {system, rule};
 }
 

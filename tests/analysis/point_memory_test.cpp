@@ -27,7 +27,7 @@ PathProblem with_points() {
   rule.rho_start = system.commands;
   rule.rho_rate = rule.W_start = none;
   rule.W_rate = Vector{{1, -0.3}};
-  rule.load_start = Vector::Ones(1);
+  rule.load_start = rule.load_rate = Vector::Ones(1);
   return {system, rule};
 }
 
