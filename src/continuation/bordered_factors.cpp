@@ -43,10 +43,8 @@ bool BorderedFactors::factorise_symmetric() {
   const SmallSymmetric::PutOff put_off{.border = at_->dF_dlambda.data()};
   finite_ = K_.factorise(at_->dF_dx, &put_off);
   if (!finite_) return false;
-  if (K_.put_off() >= SmallLu::largest) {  // hardly any of them can be used
+  if (K_.put_off() >= SmallLu::largest)  // hardly any of its pivots can be used
     way_ = Way::large;
-    return true;
-  }
   return true;
 }
 
@@ -168,8 +166,8 @@ bool BorderedFactors::solve(double* x) {
       return true;
     case Way::large: {
       Eigen::Map<Vector> solution(x, n_ + 1);
-      storage_ = solution;
-      solution = large_.solve(storage_.col(0));
+      right_ = solution;
+      solution = large_.solve(right_);
       return true;
     }
     case Way::structured:

@@ -23,10 +23,15 @@ namespace springfold::continuation {
 /// Other matrices are factorised as L U with their last row, again only where that is another one.
 class BorderedFactors {
  public:
+  BorderedFactors() {}  // most of the storage is never touched
+  BorderedFactors(const BorderedFactors&) = delete;
+  BorderedFactors& operator=(const BorderedFactors&) = delete;
+
   /// Begins with another place; nothing is computed yet. `at` must outlive this.
   void begin(const Linearisation& at, bool symmetric);
 
-  /// Sets the last row, row = w border.dx, corner = border.dl. @returns false when the matrix is singular to working precision
+  /// Sets the last row, row = w border.dx, corner = border.dl. @returns false when the matrix is singular to working
+  /// precision; of a structured one solve() says so
   bool set_border(const Vector& weights, const Direction& border);
 
   /// Replaces the n + 1 numbers x by the solution for them. @pre set_border() returned true
@@ -44,7 +49,7 @@ class BorderedFactors {
   std::optional<Index> negative();
 
  private:
-  static constexpr std::size_t capacity = static_cast<std::size_t>(SmallSymmetric::largest);
+  static constexpr std::size_t capacity = static_cast<std::size_t>(SmallSymmetric::padded);
   enum class Way { symmetric, small, large, structured };
 
   bool factorise_symmetric();
@@ -63,12 +68,14 @@ class BorderedFactors {
   double corner_ = 0;
 
   SmallSymmetric K_;
-  std::array<double, capacity> b_;       ///< L^-1 of dF/dlambda, its first part divided by D_1
-  std::array<double, capacity> z_;       ///< L^-1 of the row
+  alignas(
+      16) std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
+  alignas(16) std::array<double, capacity> z_;  ///< L^-1 of the row
   double last_ = 0;                      ///< what is left of the corner where no pivot was put off
   std::optional<SmallLu> front_{};       ///< R with its borders; or all of it
   Eigen::PartialPivLU<Matrix> large_{};  ///< all of it
   Matrix storage_{};
+  Vector right_{};
   FrontalBorders borders_{};
 };
 

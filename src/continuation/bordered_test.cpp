@@ -14,7 +14,7 @@ namespace {
 
 constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
-/// Is the spectral radius of a matrix X >= 0 of n rows below 1/2? times(d, Xd) puts X d into Xd.
+/// Is the spectral radius of a matrix X >= 0 of n rows below 1/2? times() puts X d into Xd.
 template <class Times>
 bool is_small(Vector& d, Vector& Xd, const Times& times) {
   d.setOnes();
@@ -114,6 +114,7 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
     places[i] = place_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
     if (!places[i]) return false;
   }
+  assert(places[0] != places[1] && places[count - 1] != places[0]);
   if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
   if (places[middle]->at.structured) {
     constexpr double safely = 1.0 / 3;

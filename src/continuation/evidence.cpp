@@ -117,14 +117,17 @@ double corrector_noise(const Walker& walker, const CurvePoint& point) {
 
 }  // namespace
 
-std::string examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
-                    const CurvePoint& to, CurvePoint& middle) {
+bool examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+             const CurvePoint& to, CurvePoint& middle, std::string& doubt) {
   const double ds = to.s - from.s;
-  std::string doubt = residual_doubt(walker, from, ds);
-  if (!doubt.empty()) return doubt;
+  doubt = residual_doubt(walker, from, ds);
+  if (!doubt.empty()) return false;
   const bool found = (before && find_ahead(walker, *before, from, 0.5 * ds, middle)) ||
                      find_point_at(walker, from, 0.5 * ds, middle);
-  if (!found) return "no point of the curve found half-way";
+  if (!found) {
+    doubt = "no point of the curve found half-way";
+    return false;
+  }
   Direction& d = walker.memory->direction;
   const auto bend = [&](const CurvePoint& p) {
     const double along = p.s - from.s;
@@ -140,21 +143,23 @@ std::string examine(const Walker& walker, const CurvePoint* before, const CurveP
   };
   const double size = std::max(bend(middle), 0.25 * bend(to));
   const double off = off_cubic(walker, from, to, middle, d);
-  if (exceeds(off, share * size))
-    return "the point half-way is " + rounded(off / ds) +
-           " steps off the cubic through both ends: another branch may be near";
+  if (exceeds(off, share * size)) {
+    doubt = "the point half-way is " + rounded(off / ds) +
+            " steps off the cubic through both ends: another branch may be near";
+    return true;
+  }
   const double left = off_integral(walker, from, to, middle, d);
   if (exceeds(left, smaller_share * size))
-    return "the end is " + rounded(left / ds) +
-           " steps from where the tangents lead: another branch may be near";
-  return {};
+    doubt = "the end is " + rounded(left / ds) +
+            " steps from where the tangents lead: another branch may be near";
+  return true;
 }
 
 Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
   Evidence evidence;
   CurvePoint middle;
-  evidence.doubt = examine(walker, nullptr, from, to, middle);
-  if (middle.tangent.dx.size() > 0) evidence.middle = std::move(middle);
+  if (examine(walker, nullptr, from, to, middle, evidence.doubt))
+    evidence.middle = std::move(middle);
   return evidence;
 }
 

@@ -16,7 +16,7 @@ constexpr double one_point = 1e-8;  // arc length within which zeros of differen
 constexpr double located = 1e-7;    // ratio of singular values at a located branch point
 
 /// An eigenvalue of some piece is zero here.
-struct Place {
+struct ZeroBeside {
   Hit hit{};
   bool own = false;      ///< in the step's own piece
   bool crosses = false;  ///< of some piece it changes sign
@@ -24,9 +24,9 @@ struct Place {
 
 bool singular_kind(HitKind kind) { return kind == HitKind::branch_point || kind == HitKind::touch; }
 
-void add_place(Hit hit, bool own, std::vector<Place>& places) {
+void add_place(Hit hit, bool own, std::vector<ZeroBeside>& places) {
   const bool crosses = hit.kind == HitKind::branch_point;
-  for (Place& place : places)
+  for (ZeroBeside& place : places)
     if (std::abs(place.hit.point.s - hit.point.s) <= one_point) {
       place.crosses = place.crosses || crosses;
       return;
@@ -35,7 +35,7 @@ void add_place(Hit hit, bool own, std::vector<Place>& places) {
 }
 
 /// Those of the step's own piece are taken out of `found`.
-void take_own(StepEvents& found, std::vector<Place>& places) {
+void take_own(StepEvents& found, std::vector<ZeroBeside>& places) {
   StepEvents rest = found;
   rest.hits.clear();
   rest.stops.clear();
@@ -51,7 +51,7 @@ void take_own(StepEvents& found, std::vector<Place>& places) {
 }
 
 void find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
-                 StepEvents& found, std::vector<Place>& places) {
+                 StepEvents& found, std::vector<ZeroBeside>& places) {
   const Piece own = samples.front()->piece;
   for (unsigned pattern = 1; pattern < (1u << resting.size()); ++pattern) {
     Piece piece = own;
@@ -93,7 +93,7 @@ CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) 
 }
 
 /// Turns a place into what it is; false: nothing leaves here and nothing of this piece changes.
-bool explain(const Walker& walker, const std::vector<Index>& resting, Place& place) {
+bool explain(const Walker& walker, const std::vector<Index>& resting, ZeroBeside& place) {
   Hit& hit = place.hit;
   const std::string names = names_of(walker.problem, resting);
   const Rays rays = rays_around(walker, hit.point, resting, located);
@@ -160,10 +160,10 @@ void add_half_branches(const Walker& walker, Samples samples, const std::vector<
   if (!walker.problem.symmetric() || !walker.options.branch_points) return;
   if (resting.size() > most_resting)
     return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
-  std::vector<Place> places;
+  std::vector<ZeroBeside> places;
   take_own(found, places);
   find_places(walker, samples, resting, found, places);
-  for (Place& place : places) {
+  for (ZeroBeside& place : places) {
     const double s = place.hit.point.s;
     if (explain(walker, resting, place)) {
       found.hits.push_back(std::move(place.hit));

@@ -1,7 +1,6 @@
 #include "kink_passage.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

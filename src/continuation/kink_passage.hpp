@@ -10,7 +10,8 @@
 
 namespace springfold::continuation {
 
-/// The tracer's whole memory between two steps.
+/// Where the tracer is between two steps; all else that it goes by stands in the curve. (What a walker remembers of
+/// places changes no number.)
 struct Progress {
   CurvePoint here{};
   std::vector<Index> left{};  ///< switches that are zero at `here` and being left

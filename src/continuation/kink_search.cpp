@@ -228,10 +228,6 @@ double largest(const CurvePoint& p) {
   return std::max({1.0, p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda)});
 }
 
-}  // namespace
-
-namespace {
-
 bool read_switches(const Walker& walker, const CurvePoint& p, WorkingMemory::Switches& at) {
   return walker.problem.switches(p.x, p.lambda, at.g) &&
          walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);

@@ -164,8 +164,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   if (walker.options.verify) {
     const std::size_t kept = curve.points.size();
     const bool goes_on = kept > 1 && curve.points.back().s == progress.here.s;
-    refusal =
-        examine(walker, goes_on ? &curve.points[kept - 2] : nullptr, progress.here, next, half_way);
+    examine(walker, goes_on ? &curve.points[kept - 2] : nullptr, progress.here, next, half_way,
+            refusal);
     if (!refusal.empty()) return Outcome::shorten;
     middle = &half_way;
   }
@@ -233,6 +233,7 @@ std::optional<Outcome> step_over_from(const Walker& walker, const std::vector<Ev
   Progress longer = anchor.before;
   longer.here = curve.points[points - 1];
   longer.ds *= times;
+  if (longer.ds > walker.options.step.maximum) return std::nullopt;
   const double begin = longer.here.s;
   Curve trial = curve;
   trial.points.resize(points);
@@ -278,6 +279,8 @@ void forget_last_crawl(const Anchor& anchor, Curve& curve) {
   while (anchor.set && curve.points.size() > std::max<std::size_t>(anchor.points, 1) &&
          length_of_last() < crawl)
     curve.points.pop_back();
+  for (Hit& hit : curve.hits)
+    if (hit.kind == HitKind::family) hit.s_after = std::min(hit.s_after, curve.points.back().s);
 }
 
 /// The main loop: steps until something ends the curve.

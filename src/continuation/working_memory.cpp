@@ -1,5 +1,6 @@
 #include "working_memory.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "springfold/core/finite.hpp"
@@ -11,26 +12,36 @@ std::shared_ptr<WorkingMemory> working_memory() { return std::make_shared<Workin
 namespace {
 
 Place* known_place(WorkingMemory& memory, const Vector& x, double lambda, const Piece& piece) {
-  for (Place& p : memory.places)
-    if (p.lambda == lambda && p.x == x && p.piece == piece) return &p;
+  for (const auto& p : memory.places)
+    if (p->lambda == lambda && p->x == x && p->piece == piece) {
+      p->request = ++memory.requests;
+      return p.get();
+    }
   return nullptr;
 }
 
-/// The oldest place, for another one; it is known as that only once take() is called.
+/// The place that has not been asked for the longest, for another one; it is known as that only once take() is called.
 Place& place_to_use(WorkingMemory& memory) {
-  Place& place = memory.places[memory.oldest];
+  auto& places = memory.places;
+  if (places.size() < WorkingMemory::most_places) {
+    places.push_back(std::make_unique<Place>());
+    return *places.back();
+  }
+  const auto oldest = std::min_element(
+      places.begin(), places.end(),
+      [](const auto& one, const auto& other) { return one->request < other->request; });
+  Place& place = **oldest;
   place.lambda = std::numeric_limits<double>::quiet_NaN();
   place.knows_F = false;
   return place;
 }
 
-Place* take(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
-            const Piece& piece) {
-  Place& place = memory.places[memory.oldest];
-  memory.oldest = (memory.oldest + 1) % memory.places.size();
+Place* take(ProblemView problem, WorkingMemory& memory, Place& place, const Vector& x,
+            double lambda, const Piece& piece) {
   place.x = x;
   place.lambda = lambda;
   place.piece = piece;
+  place.request = ++memory.requests;
   place.factors.begin(place.at, problem.symmetric());
   return &place;
 }
@@ -42,7 +53,7 @@ Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, dou
   if (Place* known = known_place(memory, x, lambda, piece)) return known;
   Place& place = place_to_use(memory);
   if (!linearise(problem, x, lambda, piece, place.at)) return nullptr;
-  return take(problem, memory, x, lambda, piece);
+  return take(problem, memory, place, x, lambda, piece);
 }
 
 Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vector& x,
@@ -58,7 +69,7 @@ Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vec
       !all_finite(place.F) || !all_finite(place.at.dF_dx) || !all_finite(place.at.dF_dlambda))
     return nullptr;
   place.knows_F = true;
-  return take(problem, memory, x, lambda, piece);
+  return take(problem, memory, place, x, lambda, piece);
 }
 
 }  // namespace springfold::continuation

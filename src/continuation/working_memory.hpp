@@ -1,8 +1,9 @@
 // What a walk keeps from step to step. Private to the engine.
 #pragma once
 
-#include <array>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "arnoldi.hpp"
 #include "bordered_factors.hpp"
@@ -10,8 +11,12 @@
 
 namespace springfold::continuation {
 
-/// What is known at one place.
+/// What is known at one place. Its factors look at its derivatives: it stays where it is.
 struct Place {
+  Place() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
   Vector x{};
   double lambda = std::numeric_limits<double>::quiet_NaN();
   Piece piece{};
@@ -19,14 +24,14 @@ struct Place {
   BorderedFactors factors;
   Vector F{};  ///< where it is known
   bool knows_F = false;
+  long request = 0;  ///< the last one that asked for it
 };
 
 struct WorkingMemory {
-  WorkingMemory() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
-
-  std::array<Place, 12>
-      places;  // of two steps and their middles: a guess or two and the point itself
-  std::size_t oldest = 0;
+  /// Of two steps and their middles there are about this many: a guess or two and the point itself.
+  static constexpr std::size_t most_places = 12;
+  std::vector<std::unique_ptr<Place>> places{};
+  long requests = 0;  ///< for places, so far
   NewtonResult newton{};
   Vector F{}, step{}, sizes{}, x{}, bound{};
   Direction direction{};
@@ -48,7 +53,7 @@ struct WorkingMemory {
 };
 
 /// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until
-/// eleven other places have been asked for.
+/// eleven others have been asked for.
 /// @returns nullptr outside the domain
 Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
                 const Piece& piece);
@@ -73,8 +78,10 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
               StepMeasures& measures, std::string& refusal);
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
+/// @param doubt   why the step is not to be trusted; empty: it is
+/// @returns whether the middle was found
 /// @param before  the point before `from` on the curve, which then helps to predict the middle; or nullptr
-std::string examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
-                    const CurvePoint& to, CurvePoint& middle);
+bool examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+             const CurvePoint& to, CurvePoint& middle, std::string& doubt);
 
 }  // namespace springfold::continuation

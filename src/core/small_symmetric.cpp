@@ -123,7 +123,7 @@ void SmallSymmetric::exchange(Index k, Index next, Index p) {
 }
 
 void SmallSymmetric::eliminate_one(Index k) {
-  if (at(k, k) == 0) return;
+  if (std::abs(at(k, k)) < std::numeric_limits<double>::min()) return;  // its inverse overflows
   const double inverse = 1 / at(k, k);
   const double* const l = column(k);
   for (Index j = k + 1; j < n_; ++j) {
@@ -189,12 +189,13 @@ void SmallSymmetric::pivot_values(double* values) const {
     values[k] = large;  // the smaller one from the determinant, without cancellation
     values[++k] = large == 0 ? 0 : (a / large) * c - (b / large) * b;
   }
+  if (n_ - done_ == 1) values[done_] = at(done_, done_);
+  if (n_ - done_ > 1) rest_values(values + done_);
+}
+
+/// Values of R, which stays as it is; apart, so that only this needs the storage of a second one.
+[[gnu::noinline]] void SmallSymmetric::rest_values(double* values) const {
   const Index rows = n_ - done_;
-  if (rows == 0) return;
-  if (rows == 1) {
-    values[done_] = at(done_, done_);
-    return;
-  }
   SmallSymmetric rest;
   rest.begin(rows);
   for (Index j = 0; j < rows; ++j) {
@@ -202,7 +203,7 @@ void SmallSymmetric::pivot_values(double* values) const {
     std::copy_n(column(done_ + j) + done_ + j, rows - j, rest.column(j) + j);
   }
   rest.eliminate(false);
-  rest.pivot_values(values + done_);
+  rest.pivot_values(values);
 }
 
 void SmallSymmetric::begin(Index n) {

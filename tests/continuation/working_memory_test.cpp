@@ -1,4 +1,6 @@
 // A walk evaluates and factorises nothing twice.
+#include "continuation/working_memory.hpp"
+
 #include <map>
 #include <utility>
 
@@ -59,9 +61,22 @@ TEST(AWalk, IsTheSameWhetherEquationsAreEvaluatedTogetherOrApart) {
   const StartPoint start{Vector{{0, 0}}, 0.5, {}, {Vector{{0, 0}}, 1}};
   const Curve a = follow(together, start, {lambda_reaches(2)}),
               b = follow(apart, start, {lambda_reaches(2)});
+  EXPECT_GT(together.together, 0);
   ASSERT_EQ(a.points.size(), b.points.size());
   for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_EQ(a.points[i].x, b.points[i].x);
   expect_same_hits(a.hits, b.hits, 1e-300);
+}
+
+TEST(AWalk, OverwritesThePlaceThatHasNotBeenAskedForTheLongest) {
+  const ScalarProblem line = graph([](double x) { return x; }, [](double) { return 1.0; });
+  const auto memory = working_memory();
+  const auto ask = [&](double x) { return place_at(line, *memory, Vector::Constant(1, x), x, {}); };
+  Place* const first = ask(0);
+  for (int k = 1; k < 12; ++k) ask(k);
+  EXPECT_EQ(ask(0), first);  // the first that came, and the last that was asked for
+  for (int k = 20; k < 31; ++k) EXPECT_NE(ask(k), first) << k;
+  EXPECT_EQ(first->x[0], 0);
+  EXPECT_EQ(ask(0), first);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Evidence {
 ///
 ///  - the residual along the straight predictor must grow like the square of the distance. If
 ///    another branch was crossed on the way, it goes up and down instead;
-///  - the point half-way, corrected on its own, must lie on the cubic that the two ends and their
+///  - the point half-way, corrected from a guess that knows nothing of `to`, must lie on the cubic that the two ends and their
 ///    tangents define, and the three tangents, integrated, must lead from one end to the other. A
 ///    step that landed on a neighbour has the wrong chord for its tangents.
 ///

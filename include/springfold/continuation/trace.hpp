@@ -11,7 +11,8 @@
 
 namespace springfold::continuation {
 
-/// Called after every accepted step; returning false stops the trace there.
+/// Called after every accepted step; returning false stops the trace there. Points among special points that could not
+/// be resolved may be taken back afterwards: the curve that is returned says which ones stand.
 using StepObserver = std::function<bool(const CurvePoint&)>;
 
 /// Called for every special point before the curve goes on; returning false ends it there (joined).

@@ -1,5 +1,5 @@
 // L D L^T of small symmetric matrices on the stack: those of mechanisms have ten to a hundred rows, and a library made
-// for large ones is no faster and cannot put off pivots.
+// for large ones is slower and cannot put off pivots.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace springfold {
 /// together with R make a small matrix that is regular wherever the bordered one is.
 class SmallSymmetric {
  public:
-  static constexpr Index largest = 200;
+  static constexpr Index largest = 128;
 
   /// Which pivots are put off: those below a share of the largest entry that their row of S A S had, or of that of
   /// S border.
@@ -46,8 +46,9 @@ class SmallSymmetric {
   void solve(Matrix& X) const;
 
   // Solutions with borders, for `width` columns side by side: row i of them are the width numbers from
-  // x + i * width on, or from y + i * width in the order of the pivots. Width is 1, 2 or 4; y is
-  // aligned to 16 bytes and has room for `padded` rows.
+  // x + i * width on, or from y + i * width in the order of the pivots. y is aligned to 16 bytes and has room for `padded`
+  // rows; with width 1 the four numbers behind its last row must be zero, as forward() leaves them. Widths: 1 and 4,
+  // forward() also 2.
   static constexpr Index padded = largest + 4;
   template <int width>
   void forward(const double* x, double* y) const;  ///< y = L^-1 P S x; the last rows go with R
@@ -70,6 +71,7 @@ class SmallSymmetric {
   double& at(Index i, Index j) { return column(j)[i]; }
   double at(Index i, Index j) const { return column(j)[i]; }
   void begin(Index n);
+  void rest_values(double* values) const;
   void measure();
   void equilibrate();
   void set_least(const PutOff& put_off);

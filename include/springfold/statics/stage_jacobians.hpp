@@ -32,7 +32,8 @@ class StageJacobians {
   /// unknowns).
   bool matrix(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
               const Matrix& basis, const Matrix& added, Vector& r, StructuredMatrix& A_y);
-  /// The same in two calls, for an `added` that depends on r.
+  /// The same in two calls, for an `added` that depends on r, both with the same system. What stands below may be asked
+  /// after the second one.
   bool begin_matrix(const System& system, const Piece& piece, const Vector& z, const Inputs& inputs,
                     Vector& r);
   bool end_matrix(const System& system, const Matrix& basis, const Matrix& added,

@@ -198,6 +198,7 @@ LineSpringState line_spring_state(const System& system, std::size_t spring, cons
 /// d residual/d(factors) times `rates`: minus the generalised forces of the mechanism's loads, each
 /// times its rate. @returns size entries
 Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates);
+/// The same into `rate`; `work` is storage, its contents are lost.
 void put_load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates,
                    Workspace& work, Vector& rate);
 
