@@ -114,7 +114,6 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
     places[i] = place_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
     if (!places[i]) return false;
   }
-  assert(places[0] != places[1] && places[count - 1] != places[0]);
   if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
   if (places[middle]->at.structured) {
     constexpr double safely = 1.0 / 3;
