@@ -12,7 +12,7 @@ PARTS = (  # in words, function, depth in the table
     ("tracing and rows", "analysis::run_study(", 0),
     ("steps of the engine", "continuation::trace_in_own_units(", 1),
     ("step: predict, correct, tangent, count", "continuation::try_step(", 2),
-    ("examination of the step", "continuation::examine[", 2),
+    ("examination of the step", "continuation::examine(", 2),
     ("special points and events", "::passage_events(", 2),
     ("rows of named quantities", "analysis::Evaluator::values(", 1),
     ("result files", "io::write_results(", 0),

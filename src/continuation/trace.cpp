@@ -272,7 +272,7 @@ std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>&
 /// Where a curve ends among special points that could not be resolved, the last points were reached on steps shorter
 /// than anything that can be told there: they may lie on any of the branches.
 void forget_last_crawl(const Anchor& anchor, Curve& curve) {
-  constexpr double crawl = 10 * unresolved_length;
+  constexpr double crawl = 100 * unresolved_length;
   const auto length_of_last = [&] {
     return curve.points.back().s - curve.points[curve.points.size() - 2].s;
   };
