@@ -1,10 +1,10 @@
-#!/usr/bin/env bash
+#!/bin/bash
 # springfold beside AUTO-07p: scripts/bench-peers.sh [--quick]. Installs AUTO-07p and gfortran if they
 # are missing (Debian packages, root or sudo), compiles our equation files, runs both programs on the
 # same curves in alternation and prints medians, ratios and which of the wanted ones hold. Exit code 0
 # only if all hold. A few minutes; --quick one or two, with fewer repetitions and columns. docs/performance.md says what is measured.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "$*" in
   "" | --quick) ;;
@@ -34,7 +34,7 @@ if ((${#missing[@]})); then
   "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-cmake --preset release --log-level=NOTICE
+configure_release
 targets=(springfold springfold_trace)
 cmake --build --preset release --target help | grep -q '^springfold_bench:' && targets+=(springfold_bench)
 cmake --build --preset release --target "${targets[@]}"

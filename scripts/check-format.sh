@@ -1,7 +1,7 @@
-#!/usr/bin/env bash
+#!/bin/bash
 # Fails if clang-format would change a C++ file. To mend: scripts/check-format.sh -i
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 mode=(--dry-run -Werror)
 if [[ ${1:-} == -i ]]; then

@@ -1,11 +1,11 @@
-#!/usr/bin/env bash
+#!/bin/bash
 # From a bare Debian 12 to the force-deflection curves of the planar Orthoglide: installs what is
 # missing, builds the program, runs the case.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scripts/setup.sh
-cmake --preset release --log-level=NOTICE
+configure_release
 cmake --build --preset release --target springfold_program
 
 case=cases/orthoglide-planar/case.toml

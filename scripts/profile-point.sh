@@ -1,15 +1,15 @@
-#!/usr/bin/env bash
+#!/bin/bash
 # What an accepted point costs, and where: scripts/profile-point.sh [points]. Runs `springfold run` on
 # the planar Orthoglide of docs/performance.md under callgrind (Debian package valgrind) and prints
 # instructions, shares and calls per point. 10,000 points, about half a minute, if nothing is said.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 if ! command -v valgrind >/dev/null || ! command -v python3 >/dev/null; then
   echo "profile-point.sh: needs valgrind and python3: apt-get install valgrind python3" >&2
   exit 2
 fi
 
-cmake --preset release --log-level=NOTICE
+configure_release
 cmake --build --preset release --target springfold
 
 points=${1:-10000}

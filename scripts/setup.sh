@@ -1,8 +1,13 @@
-#!/usr/bin/env bash
-# Installs the packages of packages.txt that are missing. Needs root or sudo, and the network, only
-# if something is missing.
+#!/bin/bash
+# Installs the packages of packages.txt that are missing: scripts/setup.sh [--ci]. Needs root or sudo, and the network,
+# only if something is missing. --ci: those of packages-ci.txt too, which only the checks of .ci/run need.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+lists=(scripts/packages.txt)
+if [[ ${1:-} == --ci ]]; then
+  lists+=(scripts/packages-ci.txt)
+fi
 
 installed=" $(dpkg-query -W -f='${binary:Package} ${db:Status-Status}\n' |
   sed -n 's/^\([^: ]*\)[^ ]* installed$/\1/p' | tr '\n' ' ') "
@@ -15,7 +20,7 @@ while read -r entry _; do
     [[ $installed == *" $package "* ]] && continue 2
   done
   missing+=("${choices[0]}")
-done <"$here/packages.txt"
+done < <(cat "${lists[@]}")
 
 if ((${#missing[@]} == 0)); then
   exit 0

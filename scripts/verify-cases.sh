@@ -1,11 +1,11 @@
-#!/usr/bin/env bash
+#!/bin/bash
 # All cases of cases/ against their expected values: scripts/verify-cases.sh [--csv | --json] [--jobs N].
 # One table: case, quantity, ours, reference, difference, tolerance, source. Exit code 0 only if all hold.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 if [ ! -x build/release/springfold ]; then
-  cmake --preset release --log-level=NOTICE >&2
+  configure_release
   cmake --build --preset release --target springfold_program >&2
 fi
 build/release/springfold verify cases "$@"

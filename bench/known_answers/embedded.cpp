@@ -15,7 +15,7 @@ Matrix random_orthogonal(Index n, double determinant, Random& random) {
   return Q;
 }
 
-Embedded::Embedded(const Base& base, Index n, Random& random)
+Embedded::Embedded(const Base& base, Index n, bool wide, Random& random)
     : base_{base}, n_{std::max(n, base.size)}, k_{base.size} {
   const Matrix Q = random_orthogonal(n_, sign(random), random);
   Vector S(n_);
@@ -27,7 +27,8 @@ Embedded::Embedded(const Base& base, Index n, Random& random)
   amplitude_.resize(extra);
   frequency_.resize(extra);
   for (Index i = 0; i < extra; ++i) {
-    stiffness_[i] = log_uniform(random, 0.3, 3) * (uniform(random, 0, 1) < 0.2 ? -1 : 1);
+    stiffness_[i] = log_uniform(random, wide ? 1e-2 : 0.3, wide ? 1e2 : 3) *
+                    (uniform(random, 0, 1) < 0.2 ? -1 : 1);
     if (stiffness_[i] < 0) ++negative_extra_;
     amplitude_[i] = uniform(random, -0.5, 0.5);
     frequency_[i] = uniform(random, 0.3, 1.5);

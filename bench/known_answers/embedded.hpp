@@ -10,10 +10,10 @@ namespace springfold::known_answers {
 
 /// V_n = V(z) + 1/2 sum k_i (w_i - g_i(z))^2 in q = Q S (z, w), Q orthogonal, S diagonal: events
 /// stay where they are, every negative k_i adds one negative eigenvalue. A piecewise-smooth problem
-/// for the engine, without switches where the base has none.
+/// for the engine, without switches where the base has none. |k_i| is 0.3 to 3, or, wide, 1e-2 to 1e2.
 class Embedded {
  public:
-  Embedded(const Base& base, Index n, Random& random);
+  Embedded(const Base& base, Index n, bool wide, Random& random);
 
   Index size() const { return n_; }
   bool residual(const Vector& q, double lambda, const Piece& piece, Vector& F) const;

@@ -15,5 +15,7 @@ Draw von_mises_sway(Random& random);
 Draw link_column(Random& random);
 Draw trammel(Random& random);
 Draw one_sided(Random& random);
+Draw crossing(Random& random);
+Draw opposite(Random& random);
 
 }  // namespace springfold::known_answers

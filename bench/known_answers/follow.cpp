@@ -28,6 +28,8 @@ const char* name_of(HitKind kind) {
       return "family";
     case HitKind::unresolved:
       return "unresolved";
+    case HitKind::inexact:
+      return "inexact";
   }
   return "?";
 }

@@ -23,7 +23,7 @@ using Events = std::vector<Found>;
 
 void append(const Embedded& problem, const Draw& draw, const Curve& curve, Events& events) {
   for (const Hit& hit : curve.hits) {
-    if (hit.kind == HitKind::user) continue;
+    if (hit.kind == HitKind::user || hit.kind == HitKind::inexact) continue;
     const Vector z = problem.base_point(hit.point.x);
     const int count =
         hit.switches.empty() ? hit.multiplicity : static_cast<int>(hit.switches.size());

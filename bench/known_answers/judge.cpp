@@ -165,7 +165,8 @@ void excuse(const Embedded& problem, const Draw& draw, const Followed& followed,
   };
   for (const Curve& curve : followed.curves) {
     for (const Hit& hit : curve.hits) {
-      if (hit.kind != HitKind::unresolved) continue;
+      if (hit.kind != HitKind::unresolved || hit.multiplicity == 0)
+        continue;  // 0: a note on a place
       const auto list = within(curve, hit.s_before, hit.s_after);
       int total = 0, touches = 0;
       bool close = !list.empty();
@@ -214,7 +215,9 @@ Verdict judge(const Embedded& problem, const Draw& draw, const Followed& followe
   for (const Curve& curve : followed.curves) {
     check_points(problem, draw, curve, verdict);
     for (const Hit& hit : curve.hits)
-      if (hit.kind != HitKind::user && hit.kind != HitKind::unresolved) matching.add(hit, curve);
+      if (hit.kind != HitKind::user && hit.kind != HitKind::unresolved &&
+          hit.kind != HitKind::inexact)
+        matching.add(hit, curve);
   }
   matching.answered.resize(draw.answers.size());
   matching.explained.resize(matching.hits.size());

@@ -2,7 +2,7 @@
 // the engine at its default options.
 //
 //     known_answers [N] [seed] [--check] [--threads n] [--family name] [--draw i] [--steps f]
-//         [--verbose]
+//         [--verbose] [--named file] [--failures file]
 //
 // Draw i of a seed is always the same problem, whatever N and the number of threads are. Problems
 // in few unknowns are embedded in up to 30 (embedded.hpp). The families:
@@ -18,6 +18,11 @@
 //   link column          n buckling loads on the straight branch
 //   trammel              two folds between two asymptotes
 //   one-sided            springs that act on one side of a threshold: kinks, corners, several at once
+//
+// With --wide the embedding has 1 to 12 unknowns and stiffnesses of 1e-2 to 1e2, and there are two families more:
+//
+//   crossing             two branches that cross under 1e-4 to 1e-1, or pass each other there
+//   opposite             two eigenvalues that pass zero in opposite senses, together or near each other
 //
 // Two tables of the same columns: by the gap to the nearest other branch or arm and by the
 // separation of an event to the next one on its curve, both relative to the size of the curve; a
@@ -45,14 +50,17 @@
 // between the stored points around); among others closer than 1e-4, by a tenth of their separation.
 //
 // With --check the exit code is 1 if a requirement is not met; known gaps are printed as such, but
-// do not count: exact places and counts within such clusters.
+// do not count: exact places and counts within such clusters. With --named the draws of that file are
+// followed too and judged apart: none may break a requirement. --failures keeps what fails as such a file.
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <thread>
 
 #include "families.hpp"
+#include "named.hpp"
 #include "report.hpp"
 
 namespace springfold::known_answers {
@@ -65,12 +73,15 @@ struct Settings {
   long draw = -1;  ///< only this one
   std::string family{};
   double steps = 1;  ///< factor of the step limits
-  bool verbose = false, check = false;
+  bool verbose = false, check = false, wide = false;
+  std::string named{}, failures{};
 };
 
 using Family = Draw (*)(Random&);
-constexpr Family families[] = {fold_ladder,    strands,     pitchfork, two_mode, n_pod_dome,
-                               von_mises_sway, link_column, trammel,   one_sided};
+constexpr Family families[] = {fold_ladder, strands,        pitchfork,   two_mode,
+                               n_pod_dome,  von_mises_sway, link_column, trammel,
+                               one_sided,   crossing,       opposite};
+constexpr std::size_t wide_only = 2;  // the last ones
 
 struct Result {
   Verdict verdict{};
@@ -91,9 +102,11 @@ double slope_error(const Embedded& problem, const Draw& draw) {
 
 std::optional<Result> run(const Settings& settings, long number) {
   Random random(settings.seed * 1000003ull + static_cast<unsigned long long>(number));
-  Draw draw = families[static_cast<std::size_t>(number) % std::size(families)](random);
+  const std::size_t count = std::size(families) - (settings.wide ? 0 : wide_only);
+  Draw draw = families[static_cast<std::size_t>(number) % count](random);
   if (!settings.family.empty() && draw.family != settings.family) return std::nullopt;
-  const Embedded problem(draw.base, 1 + choice(random, 30), random);
+  const int most = settings.wide ? 12 : 30;
+  const Embedded problem(draw.base, 1 + choice(random, most), settings.wide, random);
   if (draw.blurs && draw.blurs(slope_error(problem, draw))) {
     draw.blurred = true;
     draw.family += ", blurred";
@@ -139,6 +152,27 @@ Campaign run_all(const Settings& settings) {
   return campaign;
 }
 
+/// The draws that are kept, all of them judged as one campaign.
+bool named_draws_hold(const Settings& settings) {
+  Campaign campaign;
+  bool same_problems = true;
+  for (const NamedDraw& named : read_named(settings.named)) {
+    Settings own = settings;
+    own.seed = named.seed;
+    own.family.clear();
+    const auto result = run(own, named.number);
+    if (result->verdict.family != named.family) {
+      std::printf("%s: draw %ld of seed %llu is another problem now: %s\n", settings.named.c_str(),
+                  named.number, named.seed, result->verdict.family.c_str());
+      same_problems = false;
+    }
+    campaign.verdicts.push_back(result->verdict);
+    if (result->invariance) campaign.invariance.push_back(*result->invariance);
+  }
+  std::printf("\nNamed draws: %zu\n\n", campaign.verdicts.size());
+  return report(campaign).met && same_problems;
+}
+
 }  // namespace
 }  // namespace springfold::known_answers
 
@@ -154,9 +188,20 @@ int main(int argc, char** argv) {
   app.add_option("--family", settings.family, "only this family");
   app.add_option("--steps", settings.steps, "factor of the default step limits")
       ->check(CLI::PositiveNumber);
+  app.add_flag("--wide", settings.wide, "stiffness ratios of 1e-2 to 1e2, and two families more");
   app.add_flag("--verbose", settings.verbose, "with --draw: the whole step log");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
+  app.add_option("--named", settings.named, "file of draws that are followed and judged too");
+  app.add_option("--failures", settings.failures, "file for the draws that fail, if any does");
   CLI11_PARSE(app, argc, argv);
-  const bool met = report(run_all(settings));
-  return settings.check && !met ? 1 : 0;
+  try {
+    const Outcomes outcomes = report(run_all(settings));
+    if (!settings.failures.empty())
+      write_failures(settings.failures, settings.seed, outcomes.failures);
+    const bool named_hold = settings.named.empty() || named_draws_hold(settings);
+    return settings.check && !(outcomes.met && named_hold) ? 1 : 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "known_answers: %s\n", e.what());
+    return 2;
+  }
 }

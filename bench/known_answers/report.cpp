@@ -70,7 +70,7 @@ void print(const char* title, const Table& table) {
 
 void print_invariance(const std::vector<Invariance>& list) {
   std::printf("%-30s %9s %11s | %9s %11s\n", "same events", "compared", "violations", "close",
-              "violations");
+              "known gaps");
   for (std::size_t i = 0; i < change_count; ++i) {
     long compared[2] = {0, 0}, violated[2] = {0, 0};
     Examples examples;
@@ -94,14 +94,19 @@ class Requirement {
   void broken_by(long number) {
     ++count_;
     examples_.add(number);
+    if (numbers_.empty() || numbers_.back() != number) numbers_.push_back(number);
   }
   void allow(long count) { allowed_ = count; }
   bool met() const { return count_ <= allowed_; }
   bool fails() const { return !met() && !gap_; }
   void print() const {
     if (!met())
-      std::printf("not met%s: %s: %ld (draws%s ...)\n", gap_ ? ", a known gap" : "", text_, count_,
-                  examples_.text().c_str());
+      std::printf("%s: %s: but for %ld (draws%s ...)\n", gap_ ? "known gap" : "NOT MET", text_,
+                  count_, examples_.text().c_str());
+  }
+  void add_failures(std::map<long, Failure>& failures) const {
+    if (!fails()) return;
+    for (const long number : numbers_) failures.emplace(number, Failure{.requirement = text_});
   }
 
  private:
@@ -109,6 +114,7 @@ class Requirement {
   bool gap_ = false;
   long allowed_ = 0, count_ = 0;
   Examples examples_{};
+  std::vector<long> numbers_{};
 };
 
 struct Requirements {
@@ -154,21 +160,21 @@ struct Requirements {
       if (std::count(v.same.begin(), v.same.end(), Same::no) > 0) same.broken_by(v.number);
     }
   }
-  bool met() const {
-    bool all = true, enough = true;
+  Outcomes outcomes() const {
+    Outcomes outcomes;
     for (const Requirement* r : {&jumps, &far, &close, &index, &places, &refusals, &same}) {
       r->print();
-      all = all && r->met();
-      enough = enough && !r->fails();
+      outcomes.met = outcomes.met && !r->fails();
+      r->add_failures(outcomes.failures);
     }
-    if (all) std::printf("all requirements are met\n");
-    return enough;
+    if (outcomes.met) std::printf("all requirements are met\n");
+    return outcomes;
   }
 };
 
 }  // namespace
 
-bool report(const Campaign& campaign) {
+Outcomes report(const Campaign& campaign) {
   Table by_gap, by_separation;
   for (const Verdict& v : campaign.verdicts) {
     Row& row = by_gap[{v.family, bin_of(v.gap)}];
@@ -191,7 +197,11 @@ bool report(const Campaign& campaign) {
   Requirements requirements;
   requirements.draws(campaign.verdicts);
   requirements.repeated(campaign.invariance);
-  return requirements.met();
+  Outcomes outcomes = requirements.outcomes();
+  for (const Verdict& v : campaign.verdicts)
+    if (const auto failure = outcomes.failures.find(v.number); failure != outcomes.failures.end())
+      failure->second.family = v.family;
+  return outcomes;
 }
 
 }  // namespace springfold::known_answers

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "closure_rank.hpp"
+#include "force_events.hpp"
+#include "merged_hits.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -58,28 +60,24 @@ std::vector<Entry> entries_of(const Curve& curve, std::vector<CurvePoint>&& betw
   return entries;
 }
 
-/// Where a curve crosses another one at its tip, force and lambda turn back at the branch point
-/// itself: it says so, and the extremum of the force is no point of its own.
-Curve with_merged_force_limits(Curve curve) {
-  constexpr double same_place = 1e-6;
-  for (Hit& hit : curve.hits) {
-    if (hit.kind != HitKind::branch_point) continue;
-    const auto doubles = [&hit](const Hit& other) {
-      return other.kind == HitKind::user && other.name == force_limit &&
-             std::abs(other.point.s - hit.point.s) <= same_place;
-    };
-    if (std::any_of(curve.hits.begin(), curve.hits.end(), doubles))
-      hit.name += ", the force turns back";
-  }
-  const std::vector<Hit> all = curve.hits;
-  std::erase_if(curve.hits, [&all](const Hit& hit) {
-    return hit.kind == HitKind::user && hit.name == force_limit &&
-           std::any_of(all.begin(), all.end(), [&hit](const Hit& other) {
-             return other.kind == HitKind::branch_point &&
-                    std::abs(other.point.s - hit.point.s) <= same_place;
-           });
-  });
-  return curve;
+/// Rows at which springs rest, neighbours with the same answer together.
+void note_resting(const CurvePoint& point, std::size_t row, const Evaluator& evaluator,
+                  std::vector<RestingRows>& list) {
+  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point);
+  if (!found) return;
+  using Stable = RestingRows::Stable;
+  const RestingRows next{row, row,
+                         found->verdict == Definiteness::positive       ? Stable::yes
+                         : found->verdict == Definiteness::not_positive ? Stable::no
+                                                                        : Stable::undecided,
+                         static_cast<int>(found->fewest), static_cast<int>(found->most)};
+  const bool goes_on = !list.empty() && list.back().last + 1 == row &&
+                       list.back().stable == next.stable && list.back().fewest == next.fewest &&
+                       list.back().most == next.most;
+  if (goes_on)
+    list.back().last = row;
+  else
+    list.push_back(next);
 }
 
 /// The same curve walked the other way: s and tangents change sign, kinks swap their sides.
@@ -142,9 +140,19 @@ void mark_rows(Branch& branch) {
   }
 }
 
-/// At a critical point an eigenvalue is zero and the count undefined: there the smaller count of
-/// the two sides is the number of negative eigenvalues.
+/// Rows at which an eigenvalue passes zero, so that every count of a matrix there is one of rounding.
+std::vector<bool> critical_rows(const Branch& branch) {
+  std::vector<bool> critical(branch.samples.size(), false);
+  for (const Event& event : branch.events)
+    critical[event.row] = event.kind == EventKind::limit_point ||
+                          event.kind == EventKind::branch_point || event.kind == EventKind::touch;
+  return critical;
+}
+
+/// At a critical point the count is undefined: there the smaller count of the two sides is the number of negative
+/// eigenvalues. Between two of them the engine gives a point of the curve: what stands beside them is the index there.
 void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantities) {
+  const std::vector<bool> critical = critical_rows(branch);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const auto kind = quantities[q].kind;
     if (kind != QuantityDefinition::Kind::index && kind != QuantityDefinition::Kind::index_force &&
@@ -152,8 +160,9 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
       continue;
     for (std::size_t i = 0; i < branch.samples.size(); ++i) {
       double& value = branch.samples[i].values[q];
-      if (!std::isnan(value) || branch.samples[i].event.empty()) continue;
-      if (i > 0) value = branch.samples[i - 1].values[q];
+      const bool unknown = std::isnan(value) && !branch.samples[i].event.empty();
+      if (!unknown && !critical[i]) continue;
+      value = i > 0 ? branch.samples[i - 1].values[q] : std::nan("");
       for (std::size_t k = i + 1; k < branch.samples.size(); ++k) {
         const double next = branch.samples[k].values[q];
         if (std::isnan(next)) continue;
@@ -189,6 +198,8 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   event.rates_after = event.rates_before;
   if (next == nullptr || next->hit != entry.hit) return event;
   event.rates_after = evaluator.rates(quantities, next->point, &next->turns);
+  event.stiffness_after = evaluator.platform_stiffness(next->point);
+  event.compliance_after = evaluator.rigid_compliance(next->point);
   event.detail = switching_detail(problem.system(entry.point.lambda), hit, entry.point.piece,
                                   next->point.piece);
   if (turns_back(event, quantities)) {
@@ -217,6 +228,8 @@ Stop explained(Stop stop, const Entry& end, const Entry& other, const PathProble
   if (stop.complete) return stop;
   if (const auto why = nears_kinematic_singularity(problem, end.point, other.point))
     stop.reason += "; " + *why;
+  else if (const auto legs = stretched_chains(problem, end.point, other.point))
+    stop.reason += "; " + *legs;
   return stop;
 }
 
@@ -243,28 +256,10 @@ std::string piece_text(const statics::System& system, const Piece& piece) {
   return text;
 }
 
-Branch single_point(const CurvePoint& start, const Evaluator& evaluator,
-                    const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
-  Branch branch;
-  branch.samples.push_back({evaluator.values(quantities, start),
-                            piece_text(problem.system(start.lambda), start.piece), ""});
-  return branch;
-}
-
-Curve nothing_behind(const Curve& curve) {
-  Curve behind;
-  behind.points = {curve.points.front()};
-  behind.points.front().tangent.dx *= -1;
-  behind.points.front().tangent.dlambda *= -1;
-  behind.stop = curve.stop;
-  behind.stop_detail = curve.stop_detail;
-  return behind;
-}
-
 BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
-  const Curve backward = with_merged_force_limits(std::move(source.backward));
-  const Curve forward = with_merged_force_limits(std::move(source.forward));
+  const Curve backward = with_hits_merged(std::move(source.backward));
+  const Curve forward = with_hits_merged(std::move(source.forward));
   std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
   BranchRows rows;
   Branch& branch = rows.branch;
@@ -280,9 +275,6 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     rows.branch.events.push_back(std::move(event));
     rows.junctions.push_back(junction);
   };
-  const auto junction_of = [&](const Hit& hit) {
-    return source.junction_of ? source.junction_of(hit) : -1;
-  };
 
   // A stopping event of the caller is the end of the range itself, not a marked value.
   const auto is_end = [](const Curve& curve, const Hit* hit) {
@@ -290,7 +282,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
   };
   // At a junction that ends the branch no second event is needed to say so.
   const auto ends_at_junction = [&](const Entry& e, const Stop& stop) {
-    return e.hit != nullptr && stop.complete && junction_of(*e.hit) >= 0;
+    return e.hit != nullptr && stop.complete && e.hit->junction >= 0;
   };
   if (source.origin) {
     Event event = end_event(entries.front(), 0, branch.backward, evaluator, quantities);
@@ -304,6 +296,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     const Entry& e = entries[i];
     branch.samples.push_back({evaluator.values(quantities, e.point, &e.turns),
                               piece_text(problem.system(e.point.lambda), e.point.piece), ""});
+    note_resting(e.point, i, evaluator, branch.resting);
     if (e.hit == nullptr || e.leaving || is_end(backward, e.hit) || is_end(forward, e.hit))
       continue;
     const Entry* next = i + 1 < entries.size() ? &entries[i + 1] : nullptr;
@@ -323,7 +316,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     if ((first || last) && ends_at_junction(e, first ? branch.backward : branch.forward))
       event.detail += (event.detail.empty() ? "" : ", ") +
                       (first ? branch.backward.reason : branch.forward.reason);
-    add(std::move(event), junction_of(*e.hit));
+    add(std::move(event), e.hit->junction);
   }
   const std::size_t end = entries.size() - 1;
   if (end > 0 && !ends_at_junction(entries.back(), branch.forward)) {
@@ -380,15 +373,18 @@ EventKind kind_of(const Hit& hit) {
     case HitKind::family:
       return EventKind::family;
     case HitKind::user:
-      return hit.name == force_limit ? EventKind::limit_point : EventKind::user_value;
+      return hit.tag == force_limit        ? EventKind::limit_point
+             : hit.tag == dead_load_change ? EventKind::stability_change
+                                           : EventKind::user_value;
     case HitKind::unresolved:
+    case HitKind::inexact:  // joined to the point before it, see merged_hits.hpp
       return EventKind::unresolved;
   }
   return EventKind::unresolved;
 }
 
 Stop stop_of(const Curve& curve) {
-  if (curve.stop == StopReason::event && curve.stop_detail.starts_with(whole_turn))
+  if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));

@@ -1,7 +1,6 @@
 // From the engine's curves to the branch table. Private to analysis.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "quantities.hpp"
@@ -9,14 +8,17 @@
 
 namespace springfold::analysis {
 
-/// How the events begin that end a branch because a rotation comes near a whole turn.
-inline constexpr const char* whole_turn = "not followed further: body ";
+/// What the events are that a study watches for: their tags.
+enum EventTag : int {
+  plain_event,       ///< a limit or a mark
+  force_limit,       ///< an extremum of the force under displacement control
+  whole_turn,        ///< a rotation comes near a whole turn: the branch ends there, incomplete
+  dead_load_change,  ///< the count of modes that dead loads would make unstable changes
+};
 
-/// Name of the engine's event for an extremum of the force under displacement control.
-inline constexpr const char* force_limit = "limit point of the force";
-
-/// Gives the number of the junction at which a special point is, or -1.
-using JunctionOf = std::function<int(const continuation::Hit&)>;
+/// How the names of places begin at which only that count changes (stability_changes.hpp).
+inline constexpr const char* stability_mark =
+    "the stiffness is singular here: unstable modes under dead load ";
 
 /// What becomes one branch: one or two curves that leave the same point.
 struct BranchSource {
@@ -24,7 +26,6 @@ struct BranchSource {
   Stop backward_stop{}, forward_stop{};
   /// Further points of the curves, for rows between those of the steps.
   std::vector<continuation::CurvePoint> backward_between{}, forward_between{};
-  JunctionOf junction_of{};     ///< empty: no special point is a junction
   std::optional<int> origin{};  ///< the junction at which the branch begins
   EventKind origin_kind = EventKind::branch_point;
 };

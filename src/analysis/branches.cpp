@@ -1,12 +1,12 @@
 #include "branches.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "number_text.hpp"
+#include "stability_changes.hpp"
+#include "start_marks.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -19,48 +19,23 @@ using continuation::Hit;
 using continuation::HitKind;
 using continuation::StopReason;
 
-double distance(const PathProblem& problem, const CurvePoint& a, const CurvePoint& b) {
-  Vector d = b.x.cwiseProduct(continuation::nearest_signs(problem.double_covers(), b.x, a.x)) - a.x;
-  const Vector periods = problem.periods(), weights = problem.metric();
-  for (Index i = 0; i < d.size(); ++i)
-    if (periods[i] > 0) d[i] = std::remainder(d[i], periods[i]);
-  return std::sqrt(d.cwiseProduct(weights).dot(d) + std::pow(b.lambda - a.lambda, 2));
-}
-
-/// Cosine of the angle between two directions.
-double cosine(const PathProblem& problem, const CurvePoint& a, CurvePoint b) {
-  b.tangent.dx =
-      b.tangent.dx.cwiseProduct(continuation::nearest_signs(problem.double_covers(), b.x, a.x));
-  const auto product = [&](const CurvePoint& p, const CurvePoint& q) {
-    return p.tangent.dx.cwiseProduct(problem.metric()).dot(q.tangent.dx) +
-           p.tangent.dlambda * q.tangent.dlambda;
-  };
-  return product(a, b) / std::sqrt(product(a, a) * product(b, b));
-}
-
 EventKind kind_of_junction(HitKind kind) {
   Hit hit;
   hit.kind = kind;
   return kind_of(hit);
 }
 
-/// The engine's sentence "... at lambda = 0.25" with lambda in the units of the case.
-std::string in_units(const std::string& sentence, double lambda_scale) {
-  const std::string words = " at lambda = ";
-  const std::size_t at = sentence.rfind(words);
-  if (at == std::string::npos) return sentence;
-  double lambda = 0;
-  const char* begin = sentence.data() + at + words.size();
-  const char* end = sentence.data() + sentence.size();
-  if (std::from_chars(begin, end, lambda).ptr != end) return sentence;
-  return sentence.substr(0, at) + words + rounded(lambda_scale * lambda);
+/// A doubt in words, with lambda in the units of the case.
+std::string text_of(const continuation::Doubt& doubt, double lambda_scale) {
+  if (!doubt.place) return doubt.text;
+  return doubt.text + " at lambda = " + rounded(lambda_scale * doubt.place->lambda);
 }
 
 /// Translates a diagram into a result.
 class Writer {
  public:
   Writer(const Tracing& tracing, const Grown& grown, StudyResult& result)
-      : t_{tracing}, diagram_{grown.diagram}, start_{grown.starts.front()}, result_{result} {}
+      : t_{tracing}, diagram_{grown.diagram}, result_{result} {}
 
   void write() {
     number_branches();
@@ -71,10 +46,15 @@ class Writer {
     write_junctions(labels);
     write_start();
     for (std::size_t i = 0; i < result_.branches.size(); ++i) describe(i, labels);
-    result_.doubts = diagram_.doubts;
-    // The last one: what the bounds leave out. It is counted by the junctions and no doubt.
-    if (diagram_.not_followed > 0) result_.doubts.pop_back();
-    for (std::string& doubt : result_.doubts) doubt = in_units(doubt, t_.lambda_scale);
+    // An ordinary kink at the start is one curve.
+    std::erase_if(result_.junctions,
+                  [](const Junction& junction) { return junction.kind == EventKind::switching; });
+    for (const continuation::Doubt& doubt : diagram_.doubts) {
+      // What the bounds leave out is counted by the junctions; branches say themselves why they end.
+      const bool said = doubt.kind == continuation::DoubtKind::bounds ||
+                        doubt.kind == continuation::DoubtKind::stopped_early;
+      if (!said) result_.doubts.push_back(text_of(doubt, t_.lambda_scale));
+    }
   }
 
  private:
@@ -105,36 +85,15 @@ class Writer {
     return branch < 0 ? 0 : number_[static_cast<std::size_t>(branch)];
   }
 
-  int junction_of(const Hit& hit) const {
-    if (hit.kind != HitKind::branch_point && hit.kind != HitKind::touch &&
-        hit.kind != HitKind::branching_kink)
-      return -1;
-    const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
-    for (std::size_t i = 0; i < diagram_.junctions.size(); ++i)
-      if (distance(t_.problem, diagram_.junctions[i].point, hit.point) <=
-          continuation::DiagramOptions{}.same_place * scale)
-        return static_cast<int>(i);
-    return -1;
-  }
-
   /// Why a curve of a branch ended; joined and branching ends name the branches that go on.
   Stop end_of(const Curve& curve, int own) const {
     Stop stop = stop_of(curve);
     if (curve.hits.empty()) return stop;
     const Hit& last = curve.hits.back();
-    const int number = junction_of(last);
-    if (number < 0) return stop;
-    const continuation::Junction& junction = diagram_.junctions[static_cast<std::size_t>(number)];
-    if (curve.stop == StopReason::joined) {
-      int on = 0;
-      double best = 0;
-      for (const continuation::Way& way : junction.ways) {
-        const double c = cosine(t_.problem, way.point, last.point);
-        if (c > best && way.branch >= 0) {
-          best = c;
-          on = number_of(way.branch);
-        }
-      }
+    if (last.junction < 0) return stop;
+    const auto& junction = diagram_.junctions[static_cast<std::size_t>(last.junction)];
+    if (curve.stop == StopReason::joined && last.way_on >= 0) {
+      const int on = number_of(junction.ways[static_cast<std::size_t>(last.way_on)].branch);
       if (on == own) return {"closed: back at the point where it begins", true};
       if (on > 0) return {"goes on along branch " + std::to_string(on), true};
     }
@@ -153,7 +112,6 @@ class Writer {
     const int own = number_of(group[0]);
     source.forward_stop = end_of(source.forward, own);
     source.backward_stop = group.size() > 1 ? end_of(source.backward, own) : source.forward_stop;
-    source.junction_of = [this](const Hit& hit) { return junction_of(hit); };
     const int origin = traced(group[0]).junction;
     if (origin >= 0) {
       source.origin = origin;
@@ -163,8 +121,13 @@ class Writer {
     } else if (group.size() == 1 && source.forward.stop != StopReason::closed) {
       source.backward_stop = {"the start, which several curves leave", true};
     }
+    add_stability_changes(t_, source);
     add_between(t_, source);
-    return join(std::move(source), t_.evaluator, t_.quantities, t_.problem);
+    const bool has_start = origin < 0 && traced(group[0]).start == 0;
+    const CurvePoint first = source.forward.points.front();
+    BranchRows rows = join(std::move(source), t_.evaluator, t_.quantities, t_.problem);
+    if (has_start) add_marks_at_start(t_.study, t_.evaluator, t_.quantities, first, rows);
+    return rows;
   }
 
   /// Number of the branch on which a junction was met first; 0: it is a start itself.
@@ -172,7 +135,7 @@ class Writer {
     if (diagram_.junctions[junction].depth < 0) return 0;
     for (std::size_t i = 0; i < diagram_.branches.size(); ++i)
       for (const Hit& hit : diagram_.branches[i].curve.hits)
-        if (junction_of(hit) == static_cast<int>(junction)) return number_[i];
+        if (hit.junction == static_cast<int>(junction)) return number_[i];
     return 0;
   }
 
@@ -197,9 +160,9 @@ class Writer {
       result_.start.ways.push_back({t_.evaluator.rates(t_.quantities, along), number_of(branch)});
     };
     for (const continuation::Junction& junction : diagram_.junctions) {
-      const CurvePoint start{.x = start_.x, .lambda = start_.lambda};
-      if (junction.depth >= 0 || distance(t_.problem, junction.point, start) > 1e-9) continue;
-      result_.start.situation = "a branch point";
+      if (junction.start != 0) continue;
+      result_.start.situation =
+          junction.kind == HitKind::branching_kink ? "a branching kink" : "a branch point";
       for (const continuation::Way& way : junction.ways) add(way.point, way.branch);
       return;
     }
@@ -233,7 +196,6 @@ class Writer {
 
   const Tracing& t_;
   const Diagram& diagram_;
-  const DiagramStart& start_;  ///< the study's own
   StudyResult& result_;
   std::vector<int> number_{};               ///< per curve of the diagram: its branch, from 1
   std::vector<std::vector<int>> groups_{};  ///< per branch: its one or two curves
@@ -241,8 +203,9 @@ class Writer {
 
 }  // namespace
 
-void trace_branches(const Tracing& tracing, const CurvePoint& start, StudyResult& result) {
-  const Grown grown = grow_diagram(tracing, start);
+void trace_branches(const Tracing& tracing, const CurvePoint& start, StudyResult& result,
+                    const std::vector<DiagramStart>& landings) {
+  const Grown grown = grow_diagram(tracing, start, landings);
   result.searches = grown.searches;
   Writer(tracing, grown, result).write();
 }

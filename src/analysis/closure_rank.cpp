@@ -1,10 +1,10 @@
 #include "closure_rank.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <vector>
 
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -45,12 +45,12 @@ std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, 
     const Matrix N = work.gauge(Eigen::all, rank.rows).transpose();
     J -= N * (N.transpose() * J);
   }
-  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeFullU);
+  const Svd svd = jacobi_svd(J, SingularVectors::full);
   const Index last = m - 1 - layout.redundant;
   if (last < 0) return std::nullopt;
-  rank.largest = svd.singularValues()[0];
-  rank.smallest = last < svd.singularValues().size() ? svd.singularValues()[last] : 0;
-  rank.null = svd.matrixU().col(last);
+  rank.largest = svd.values[0];
+  rank.smallest = last < svd.values.size() ? svd.values[last] : 0;
+  rank.null = svd.U.col(last);
   return rank;
 }
 
@@ -72,6 +72,11 @@ std::string words_for(const statics::System& system, const Vector& null) {
 
 }  // namespace
 
+Index rank_of(const Matrix& J, double share) {
+  if (J.size() == 0) return 0;
+  return (jacobi_svd(J).values.array() > share * std::max(1.0, J.norm())).count();
+}
+
 std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
                                                        const continuation::CurvePoint& end,
                                                        const continuation::CurvePoint& other) {
@@ -81,6 +86,48 @@ std::optional<std::string> nears_kinematic_singularity(const PathProblem& proble
   if (!here || !there || here->smallest > share * there->smallest) return std::nullopt;
   return "the closures of " + words_for(problem.layout(), here->null) +
          " are about to lose rank together here, a kinematic singularity";
+}
+
+namespace {
+
+/// Smallest singular value of every chain's closure in its own coordinates; empty where not defined.
+std::vector<double> smallest_of_chains(const PathProblem& problem,
+                                       const continuation::CurvePoint& point) {
+  Vector z, r;
+  statics::Workspace work;
+  Matrix A;
+  const statics::System& system = problem.turned_to_pose(point.x, point.lambda, z);
+  if (problem.structured() ||
+      !equilibrium_matrix(system, point.piece, z, problem.inputs(point.lambda), work, r, A))
+    return {};
+  std::vector<double> list;
+  for (const statics::ChainSlice& slice : system.chain_slices) {
+    const Matrix J = A.block(slice.F, slice.x, slice.F_count, slice.x_count);
+    list.push_back(J.size() > 0 ? jacobi_svd(J).values.minCoeff() : 0);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::optional<std::string> stretched_chains(const PathProblem& problem,
+                                            const continuation::CurvePoint& end,
+                                            const continuation::CurvePoint& other) {
+  constexpr double share = 1e-2;
+  const std::vector<double> here = smallest_of_chains(problem, end),
+                            there = smallest_of_chains(problem, other);
+  std::string names;
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i) {
+    if (!(here[i] < share * there[i])) continue;
+    names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
+         std::string(
+             " stretched out here: the joints hardly move the end any further, and the force along "
+             "it grows without bound");
 }
 
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,

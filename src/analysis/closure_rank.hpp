@@ -9,6 +9,13 @@
 
 namespace springfold::analysis {
 
+/// Share below which singular values of a chain's closure count as zero, at points that are solved.
+inline constexpr double same_rank = 1e-7;
+
+/// Number of singular values above `share` times the larger of 1 and |J|. A chain without joints has a
+/// closure without columns: its rank is 0.
+Index rank_of(const Matrix& J, double share);
+
 /// The closures as equations for everything that moves on the path, lambda included, have a lower rank
 /// here than on both sides along the tangent (without one: beside it): a kinematic singularity. A part of the wrenches is then
 /// not determined by statics, and equilibria with all its values form a line that no branch follows.
@@ -22,5 +29,12 @@ std::optional<std::string> kinematic_singularity(const PathProblem& problem,
 std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
                                                        const continuation::CurvePoint& end,
                                                        const continuation::CurvePoint& other);
+
+/// Chains whose joints hardly move their end in some direction at `end`: the smallest singular value of their
+/// own closure has fallen below a hundredth of what it is at `other`. Legs that are stretched out.
+/// @returns so in words; nothing where there is none
+std::optional<std::string> stretched_chains(const PathProblem& problem,
+                                            const continuation::CurvePoint& end,
+                                            const continuation::CurvePoint& other);
 
 }  // namespace springfold::analysis

@@ -1,13 +1,12 @@
 #include "commanded.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "number_text.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
@@ -52,11 +51,9 @@ void add_extremes(const Matrix& M, Index first, Index count, double scale,
     return;
   }
   const Matrix block = M.block(first, first, count, count);
-  const Vector eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix>(
-                                 0.5 * (block + block.transpose()), Eigen::EigenvaluesOnly)
-                                 .eigenvalues();
-  values.push_back(scale * eigenvalues[0]);
-  values.push_back(scale * eigenvalues[count - 1]);
+  const Vector extremes = symmetric_eigenvalues(0.5 * (block + block.transpose()));
+  values.push_back(scale * extremes[0]);
+  values.push_back(scale * extremes[count - 1]);
 }
 
 /// Factors in the units of the case; condition: largest over smallest.
@@ -263,8 +260,8 @@ BodyStiffness body_stiffness(const CommandSetup& setup, const Vector& z, const M
   if (platform.K.size() > 0) {
     const Matrix K = in_world_axes(system, z, platform.K);
     if (system.load_size == setup.d) at.K = K;
-    const Eigen::FullPivLU<Matrix> lu(K);
-    if (lu.isInvertible()) all = lu.inverse();
+    const FullPivotLu lu(K);
+    if (lu.is_invertible()) all = lu.inverse();
   } else {  // rigid chains
     Matrix unit = Matrix::Zero(system.size, system.load_size);
     unit.middleRows(system.first_pose, system.load_size).setIdentity();
@@ -276,8 +273,8 @@ BodyStiffness body_stiffness(const CommandSetup& setup, const Vector& z, const M
   if (all.size() == 0) return at;
   at.C = all.block(first, first, setup.d, setup.d);
   if (at.K.size() == 0 && platform.K.size() > 0) {
-    const Eigen::FullPivLU<Matrix> lu(at.C);
-    if (lu.isInvertible()) at.K = lu.inverse();
+    const FullPivotLu lu(at.C);
+    if (lu.is_invertible()) at.K = lu.inverse();
   }
   return at;
 }
@@ -336,10 +333,15 @@ statics::KinematicInverse at_own_pose(const CommandSetup& setup) {
                            setup.system.commands);
 }
 
+NodeState state_of(const CommandedValues& at) {
+  if (!at.countable) return NodeState::stable;
+  if (!at.index_force) return NodeState::critical;
+  return *at.index_force > 0 ? NodeState::unstable : NodeState::stable;
+}
+
 std::string status_of(const CommandedValues& at) {
-  if (!at.countable) return "ok";
-  if (!at.index_force) return "critical";
-  return *at.index_force > 0 ? "unstable" : "ok";
+  const NodeState state = state_of(at);
+  return state == NodeState::stable ? "ok" : state == NodeState::unstable ? "unstable" : "critical";
 }
 
 std::string shortage(const CommandSetup& setup, const statics::ControlResult& result) {

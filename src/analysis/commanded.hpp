@@ -55,6 +55,7 @@ struct CommandedValues {
 
 /// "ok", "unstable" (unstable modes under dead load) or "critical" (their number is undefined).
 std::string status_of(const CommandedValues& at);
+NodeState state_of(const CommandedValues& at);
 
 CommandedValues command_values(const CommandSetup& setup, const std::vector<Vector>& directions,
                                const CommandedState& state);

@@ -1,4 +1,5 @@
 // Study kind `control`: commands along a path of targets.
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -7,6 +8,7 @@
 #include "branch_rows.hpp"
 #include "control_leg.hpp"
 #include "grow_diagram.hpp"
+#include "not_held.hpp"
 #include "number_text.hpp"
 #include "run_kinds.hpp"
 
@@ -14,6 +16,9 @@ namespace springfold::analysis {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// How the events end that stand for a target, not for a place on the way.
+constexpr const char* at_target = " is exactly on its threshold at this target";
 
 /// Directions along which stiffness is given: the study's own, if there is one.
 std::vector<Vector> directions_of(const Study& study) {
@@ -159,24 +164,68 @@ class ControlRun {
         if (had_last && study_.command.method == CommandMethod::newton)
           status = "not reached along the path";
       } else {
-        status = shortage(setup_, fresh);
+        status = why_not_held(setup_, path_.target(k), path_.load(k), fresh);
         ++missing_;
         if (first_missing_.empty()) first_missing_ = "target " + std::to_string(k) + ": " + status;
       }
       if (!result_.start.found) report_start(k, state, fresh, status);
     }
     if (state) state->plain = near_;
+    if (state) add_thresholds(k, *state);
     add_row(k, state ? &*state : nullptr, status);
     const std::string& shown = branch().samples.back().status;
     if (shown == "unstable" || shown == "critical") ++unstable_;
     last_ = std::move(state);
   }
 
+  /// Springs that rest exactly on a threshold at a target: an event there, with the values on both sides.
+  void add_thresholds(int k, const CommandedState& state) {
+    constexpr double same = 1e-9;
+    const statics::System& system = setup_.system;
+    for (std::size_t j = 0; j < system.switches.size(); ++j) {
+      const statics::Switch& s = system.switches[j];
+      const statics::CoordinateSpring& spring = system.springs[s.spring];
+      const std::size_t low = j - static_cast<std::size_t>(spring.first_switch);
+      const auto& segments = spring.law.segments;
+      const bool rests = std::abs(state.z[s.coordinate] - s.breakpoint) <=
+                         same * std::max(1.0, std::abs(s.breakpoint));
+      if (!rests || segments[low].stiffness == segments[low + 1].stiffness || is_reported(k))
+        continue;
+      const bool rises = !last_ || last_->z[s.coordinate] <= s.breakpoint;
+      LegEvent event{.kind = EventKind::switching,
+                     .detail = "spring " + spring.name + " (segment " +
+                               std::to_string(rises ? low : low + 1) + " to " +
+                               std::to_string(rises ? low + 1 : low) + ")" + at_target,
+                     .place = static_cast<double>(k),
+                     .state = state,
+                     .leaving = state};
+      event.state.piece[j] = rises ? std::int8_t{-1} : std::int8_t{1};
+      event.leaving->piece[j] = rises ? std::int8_t{1} : std::int8_t{-1};
+      add_event(std::move(event));
+    }
+  }
+
+  /// Did the way to this target see a switching there?
+  bool is_reported(int k) const {
+    constexpr double same_place = 1e-7;
+    const std::vector<Event>& events = result_.branches.front().events;
+    return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+      const bool switches = event.kind == EventKind::switching ||
+                            event.kind == EventKind::corner_limit_point ||
+                            event.kind == EventKind::branching_kink;
+      const double place = result_.branches.front().samples[event.row].values.front();
+      return switches && std::abs(place - k) <= same_place && !event.detail.ends_with(at_target);
+    });
+  }
+
   void report_start(int k, const std::optional<CommandedState>& state,
                     const statics::ControlResult& fresh, const std::string& status) {
     StartReport& start = result_.start;
     if (!state) {
-      if (start.message.empty()) start.message = "target " + std::to_string(k) + ": " + status;
+      if (start.message.empty()) {
+        start.message = "target " + std::to_string(k) + ": " + status;
+        start.where = "targets";
+      }
       return;
     }
     start = {};

@@ -1,10 +1,10 @@
 #include "control_leg.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "branch_rows.hpp"
+#include "closure_rank.hpp"
 #include "number_text.hpp"
 #include "springfold/continuation/trace.hpp"
 
@@ -43,7 +43,7 @@ std::string singular_chain(const CommandSetup& setup, const CommandedState& star
     Matrix A;
     equilibrium_matrix(setup.system, state.piece, state.z, state.inputs, work, r, A);
     const Matrix J = A.block(s.F, s.x, s.F_count, s.x_count);
-    return (J.jacobiSvd().singularValues().array() > 1e-5 * std::max(1.0, J.norm())).count();
+    return rank_of(J, 1e-5);
   };
   for (std::size_t i = 0; i < setup.system.chain_slices.size(); ++i) {
     const statics::ChainSlice& s = setup.system.chain_slices[i];
@@ -120,7 +120,7 @@ LegEvent locate_change(const CommandSetup& setup, const ControlProblem& problem,
 
 void add_hits(const ControlProblem& problem, const Curve& curve, Leg& leg) {
   for (const Hit& hit : curve.hits) {
-    if (hit.kind == HitKind::user) continue;
+    if (hit.kind == HitKind::user || hit.kind == HitKind::inexact) continue;
     LegEvent event{.kind = kind_of(hit),
                    .detail = detail_of(hit),
                    .place = problem.place(hit.point.lambda),

@@ -42,6 +42,7 @@ bool loses_stability(const PathProblem& problem, const Hit& hit) {
     case HitKind::touch:
     case HitKind::family:
     case HitKind::user:
+    case HitKind::inexact:
       return false;
   }
   return false;

@@ -6,6 +6,7 @@
 
 #include "branch_rows.hpp"
 #include "equilibrium_search.hpp"
+#include "frozen.hpp"
 #include "limits.hpp"
 #include "morse.hpp"
 #include "springfold/model/rotation_vector.hpp"
@@ -15,42 +16,6 @@ namespace springfold::analysis {
 namespace {
 
 using continuation::CurvePoint;
-
-/// Poses with rotation vectors as rotation matrices, so that turns do not count.
-bool same_poses(const statics::System& system, const Vector& a, const Vector& b, double near) {
-  for (std::size_t i = 0; i < system.body_slices.size(); ++i) {
-    const auto& slice = system.body_slices[i];
-    const model::TaskSpace space = system.mechanism.bodies[i].task_space;
-    const Index lengths = translations(space);
-    const Vector p = a.segment(slice.t, slice.count), q = b.segment(slice.t, slice.count);
-    if ((p - q).head(lengths).lpNorm<Eigen::Infinity>() > near) return false;
-    if (space == model::TaskSpace::planar &&
-        std::abs(std::remainder(p[2] - q[2], 2 * std::numbers::pi)) > near)
-      return false;
-    if (space == model::TaskSpace::spatial) {
-      const model::Vec3<double> u = p.tail(3), v = q.tail(3);
-      if ((model::exp_rotation(u) - model::exp_rotation(v)).cwiseAbs().maxCoeff() > near)
-        return false;
-    }
-  }
-  return true;
-}
-
-/// The same bodies, spring deflections and forces: other coordinates of joints without springs,
-/// like those of a universal joint turned over, make no other equilibrium.
-bool same_equilibrium(const statics::System& system, const Vector& a, const Vector& b) {
-  constexpr double near = 1e-7;
-  for (const statics::CoordinateSpring& spring : system.springs)
-    if (std::abs(a[spring.coordinate] - b[spring.coordinate]) > near) return false;
-  for (const statics::CoordinateGroup& group : system.coupled)
-    for (const Index i : group.coordinates)
-      if (std::abs(a[i] - b[i]) > near) return false;
-  for (Index i = 0; i < system.size; ++i)
-    if (system.is_wrench[static_cast<std::size_t>(i)] &&
-        std::abs(a[i] - b[i]) > near * std::max(1.0, std::abs(a[i])))
-      return false;
-  return same_poses(system, a, b, near);
-}
 
 /// Spring energy less the work of the dead load, dimensionless; NaN where it is not defined.
 double potential_of(const PathProblem& problem, const Vector& z) {
@@ -129,10 +94,54 @@ FoundEquilibrium with_short_rotations(const statics::System& system, FoundEquili
   return found;
 }
 
+struct SearchContext {
+  const PathProblem& problem;
+  const Evaluator& evaluator;
+  const std::vector<QuantityDefinition>& quantities;
+  EquilibriumStart start{};
+  InRange in_range{};
+  const Observer& observer;
+};
+
+/// What one search found, each equilibrium once, and what the count says of it.
+struct Candidates {
+  EquilibriumSearch search{};
+  std::vector<Index> full{};  ///< rank of every chain's closure
+  std::vector<FoundEquilibrium> distinct{};
+  MorseCount morse{};
+
+  bool misses_some() const { return morse.applies && morse.found != morse.expected; }
+};
+
+Candidates candidates(const SearchContext& context, const Study& study) {
+  const PathProblem& problem = context.problem;
+  Candidates all;
+  all.search = search_equilibria(problem, study, context.quantities, context.start,
+                                 context.in_range, context.observer);
+  all.full = full_ranks(problem, context.evaluator, all.search.found);
+  std::vector<CountedEquilibrium> raw, once;
+  for (const FoundEquilibrium& f : all.search.found) {
+    raw.push_back(
+        counted(problem, f, !locked_chains(problem, context.evaluator, f, all.full).empty()));
+    const bool is_known =
+        std::any_of(all.distinct.begin(), all.distinct.end(), [&](const FoundEquilibrium& other) {
+          return same_equilibrium(problem.system(0), f.z, other.z);
+        });
+    if (is_known) continue;
+    all.distinct.push_back(with_short_rotations(problem.system(0), f));
+    once.push_back(raw.back());
+  }
+  if (all.search.interrupted)
+    all.morse.why = "the search was interrupted";
+  else
+    all.morse = morse_count(problem, raw, once);
+  return all;
+}
+
 }  // namespace
 
 void find_equilibria(const Setup& setup, const Study& study, const statics::FirstEquilibrium& first,
-                     StudyResult& result) {
+                     const Observer& observer, StudyResult& result) {
   PathRule rule = setup.rule;
   rule.quaternions = false;  // states are drawn and compared as the statics has them
   const PathProblem problem(setup.system, rule);
@@ -146,26 +155,22 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     point.piece = statics::piece_at(problem.system(0), z);
     return !limit_passed(study, evaluator, quantities, point);
   };
-  const EquilibriumSearch search = search_equilibria(
-      problem, study, quantities, {from, first.piece, result.start.found}, in_range);
-
-  EquilibriaReport report;
-  report.starts = search.starts;
-  report.limit_reached = search.limit_reached;
-  const std::vector<Index> full = full_ranks(problem, evaluator, search.found);
-  std::vector<FoundEquilibrium> distinct;
-  std::vector<CountedEquilibrium> raw, once;
-  for (const FoundEquilibrium& f : search.found) {
-    raw.push_back(counted(problem, f, !locked_chains(problem, evaluator, f, full).empty()));
-    const bool is_known =
-        std::any_of(distinct.begin(), distinct.end(), [&](const FoundEquilibrium& other) {
-          return same_equilibrium(problem.system(0), f.z, other.z);
-        });
-    if (is_known) continue;
-    distinct.push_back(with_short_rotations(problem.system(0), f));
-    once.push_back(raw.back());
+  const SearchContext context{
+      problem, evaluator, quantities, {from, first.piece, result.start.found}, in_range, observer};
+  Candidates all = candidates(context, study);
+  // Where the count proves that some are missing, more starts may find them.
+  Study wider = study;
+  constexpr int rounds = 2, more = 4;
+  for (int i = 0; i < rounds && all.misses_some() && !all.search.limit_reached; ++i) {
+    wider.search.starts *= more;
+    all = candidates(context, wider);
   }
-  report.morse = morse_count(problem, raw, once);
+  EquilibriaReport report;
+  report.starts = all.search.starts;
+  report.limit_reached = all.search.limit_reached;
+  report.morse = all.morse;
+  const std::vector<Index>& full = all.full;
+  std::vector<FoundEquilibrium>& distinct = all.distinct;
   sort(distinct, problem);
   for (const FoundEquilibrium& f : distinct) {
     const CurvePoint point = point_at(problem, f);
@@ -179,13 +184,13 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;
     equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
+    // The coordinates of a locked chain do not feel every force: it balances what nothing would.
     if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {
-      if (!equilibrium.is_start) {
-        ++report.locked;
-        continue;
-      }
-      equilibrium.note += (f.note.empty() ? "" : "; ") +
-                          ("the joints of " + locked + " are locked here: they lose rank");
+      ++report.locked;
+      if (equilibrium.is_start)
+        result.start.method +=
+            ", where the joints of " + locked + " are locked (they lose rank): it is not listed";
+      continue;
     }
     report.list.push_back(std::move(equilibrium));
   }
@@ -195,6 +200,9 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
         "none near the guess (" + result.start.message + "); the search found some";
     result.start.message.clear();
   }
+  if (all.search.interrupted)
+    result.doubts.push_back("interrupted: the search ended after " +
+                            std::to_string(all.search.starts) + " starts");
   if (report.morse.applies && report.morse.found != report.morse.expected)
     result.doubts.push_back("the search missed equilibria: the sum of (-1)^index is " +
                             std::to_string(report.morse.found) + ", it must be " +

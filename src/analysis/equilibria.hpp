@@ -3,6 +3,7 @@
 
 #include "setup.hpp"
 #include "springfold/analysis/result.hpp"
+#include "springfold/analysis/run.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::analysis {
@@ -11,8 +12,9 @@ namespace springfold::analysis {
 /// from states beside known equilibria; what is known is deflated (continuation/search.hpp). The
 /// same equilibrium in other joint coordinates counts once. Fills result.equilibria and, if only the
 /// search found something, result.start.
+/// Where the observer wants no more, what was found until then is the result.
 /// @pre study.kind is `equilibria`
 void find_equilibria(const Setup& setup, const Study& study, const statics::FirstEquilibrium& first,
-                     StudyResult& result);
+                     const Observer& observer, StudyResult& result);
 
 }  // namespace springfold::analysis

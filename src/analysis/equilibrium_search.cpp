@@ -1,13 +1,12 @@
 #include "equilibrium_search.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "springfold/continuation/search.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::analysis {
@@ -69,11 +68,15 @@ class Searcher {
         periods_{problem.periods()} {}
 
   /// @param start  the study's start: an equilibrium if `is_solution`, otherwise a first guess
-  EquilibriumSearch run(const Vector& start, const Piece& piece, bool is_solution) {
+  EquilibriumSearch run(const Vector& start, const Piece& piece, bool is_solution,
+                        const Observer& observer) {
     if (is_solution) add({start, piece, ""});
     std::mt19937_64 random(study_.search.seed);
-    for (; result_.starts < study_.search.starts && !result_.limit_reached; ++result_.starts)
+    for (; result_.starts < study_.search.starts && !result_.limit_reached; ++result_.starts) {
+      result_.interrupted = observer && !observer(result_.starts, 0);
+      if (result_.interrupted) break;
       search_from(result_.starts == 0 ? start : next_start(random));
+    }
     return std::move(result_);
   }
 
@@ -194,7 +197,7 @@ class Searcher {
       const Matrix J = A(parts_.wrenches, parts_.coordinates);
       const Vector gap = r(parts_.wrenches);
       if (J.size() == 0 || gap.lpNorm<Eigen::Infinity>() < 1e-6) return;
-      Vector step = -J.completeOrthogonalDecomposition().solve(gap);
+      Vector step = -least_squares(J, gap);
       const double size = step.lpNorm<Eigen::Infinity>();
       if (size > 1) step /= size;
       z(parts_.coordinates) += step;
@@ -208,7 +211,7 @@ class Searcher {
     z(parts_.wrenches).setZero();
     if (parts_.wrenches.empty() || !linearised(z, A, r)) return;
     const Matrix G = A(parts_.moving, parts_.wrenches);
-    z(parts_.wrenches) = -G.completeOrthogonalDecomposition().solve(Vector(r(parts_.moving)));
+    z(parts_.wrenches) = -least_squares(G, r(parts_.moving));
   }
 
   /// Follows the energy downhill, but uphill along the `uphill` lowest modes: to an equilibrium with
@@ -220,28 +223,20 @@ class Searcher {
     Matrix A;
     Vector r;
     for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
-      const Matrix Z = kernel(A(parts_.wrenches, parts_.moving));
+      const Matrix Z = kernel_of(A(parts_.wrenches, parts_.moving));
       if (Z.cols() == 0) break;
       const Matrix H = A(parts_.moving, parts_.moving);
-      const Eigen::SelfAdjointEigenSolver<Matrix> modes(Z.transpose() * H * Z);
-      Vector y = modes.eigenvectors().transpose() * (Z.transpose() * Vector(r(parts_.moving)));
+      const SymmetricEigen modes = symmetric_eigen(Z.transpose() * H * Z);
+      Vector y = modes.vectors.transpose() * (Z.transpose() * Vector(r(parts_.moving)));
       for (Index i = 0; i < y.size(); ++i)
-        y[i] *= (i < uphill ? 1 : -1) / std::max(softest, std::abs(modes.eigenvalues()[i]));
+        y[i] *= (i < uphill ? 1 : -1) / std::max(softest, std::abs(modes.values[i]));
       const double size = y.norm();
       if (size > longest) y *= longest / size;
-      z(parts_.moving) += Z * (modes.eigenvectors() * y);
+      z(parts_.moving) += Z * (modes.vectors * y);
       z = suited(std::move(z));
       if (size < arrived) break;
     }
     return z;
-  }
-
-  /// Orthonormal basis of the directions in which J is zero; all directions where J has no rows.
-  static Matrix kernel(const Matrix& J) {
-    if (J.rows() == 0) return Matrix::Identity(J.cols(), J.cols());
-    const Eigen::ColPivHouseholderQR<Matrix> qr(J.transpose());
-    const Matrix Q = qr.householderQ();
-    return Q.rightCols(J.cols() - qr.rank());
   }
 
   const PathProblem& problem_;
@@ -258,9 +253,10 @@ class Searcher {
 
 EquilibriumSearch search_equilibria(const PathProblem& problem, const Study& study,
                                     const std::vector<QuantityDefinition>& quantities,
-                                    const EquilibriumStart& start, const InRange& in_range) {
+                                    const EquilibriumStart& start, const InRange& in_range,
+                                    const Observer& observer) {
   return Searcher(problem, study, box_of(problem, study, quantities, start.z), in_range)
-      .run(start.z, start.piece, start.is_equilibrium);
+      .run(start.z, start.piece, start.is_equilibrium, observer);
 }
 
 }  // namespace springfold::analysis

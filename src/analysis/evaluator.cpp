@@ -1,11 +1,9 @@
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "closure_rank.hpp"
 #include "quantities.hpp"
-#include "resting.hpp"
-#include "start.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -149,7 +147,7 @@ double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::C
   };
   switch (q.kind) {
     case Kind::stiffness: {
-      if (at.body.size() == 0) return undefined;
+      if (at.body.size() == 0) return q.scale * guided_stiffness(point, at);
       return q.scale * measured_.dot(at.body * measured_);
     }
     case Kind::tangent_eigenvalue:
@@ -179,6 +177,19 @@ double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::C
   }
 }
 
+double Evaluator::guided_stiffness(const continuation::CurvePoint& point,
+                                   const Assembled& at) const {
+  constexpr double rigid = 1e-12;  // of the largest compliance: rounding
+  if (measured_.size() == 0) return undefined;
+  const statics::System& system = problem_.system(point.lambda);
+  const auto C =
+      stages_ ? std::optional<Matrix>(at.staged.compliance)
+              : statics::body_compliance(system, at.A, problem_.rule().body, problem_.symmetric());
+  if (!C || C->size() == 0) return undefined;
+  const double along = measured_.dot(*C * measured_);
+  return std::abs(along) > rigid * C->cwiseAbs().maxCoeff() ? 1 / along : undefined;
+}
+
 std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
                                       const continuation::CurvePoint& point,
                                       const Turns* turns) const {
@@ -188,26 +199,8 @@ std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& qua
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
     values.push_back(at ? from_matrix(q, point, *at, state_) : undefined);
-  raise_indices(quantities, point, values);
+  decide_indices(quantities, point, values);
   return values;
-}
-
-void Evaluator::raise_indices(const std::vector<QuantityDefinition>& quantities,
-                              const continuation::CurvePoint& point,
-                              std::vector<double>& values) const {
-  for (Piece& piece : pieces_around(problem_, point)) {
-    if (piece == point.piece) continue;
-    continuation::CurvePoint beside = point;
-    beside.piece = std::move(piece);
-    beside.negative.reset();
-    count_negative(problem_, beside);
-    const Assembled* at = assemble(beside);
-    for (std::size_t i = 0; at && i < quantities.size(); ++i) {
-      const Kind kind = quantities[i].kind;
-      if (kind == Kind::index || kind == Kind::index_pose || kind == Kind::index_force)
-        values[i] = std::max(values[i], from_matrix(quantities[i], beside, *at, {}));
-    }
-  }
 }
 
 std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quantities,
@@ -323,8 +316,7 @@ std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& poin
   std::vector<Index> ranks;
   for (const statics::ChainSlice& slice : problem_.system(point.lambda).chain_slices) {
     const Matrix J = plain.block(slice.F, slice.x, slice.F_count, slice.x_count);
-    const Vector values = J.jacobiSvd().singularValues();
-    ranks.push_back((values.array() > 1e-7 * std::max(1.0, J.norm())).count());
+    ranks.push_back(rank_of(J, same_rank));
   }
   return ranks;
 }

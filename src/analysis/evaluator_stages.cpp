@@ -1,9 +1,9 @@
 // Quantities of mechanisms with long chains: everything in stages, linear in their length.
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "closure_rank.hpp"
 #include "quantities.hpp"
 
 namespace springfold::analysis {
@@ -58,8 +58,7 @@ std::vector<Index> Evaluator::closure_ranks_in_stages() const {
     for (Index k = 0; k < slice.F_count; ++k)
       J.row(k) = -stages_->product(Vector::Unit(layout.size, slice.F + k), {})
                       .segment(slice.x, slice.x_count);
-    const Vector values = J.jacobiSvd().singularValues();
-    ranks.push_back((values.array() > 1e-7 * std::max(1.0, J.norm())).count());
+    ranks.push_back(rank_of(J, same_rank));
   }
   return ranks;
 }

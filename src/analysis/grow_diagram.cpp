@@ -26,10 +26,19 @@ class Grower {
     options_.left_out = [this](const CurvePoint& point) {
       return kinematic_singularity(t_.problem, point).value_or("");
     };
+    options_.ends_at = [this](const CurvePoint& point) {
+      const auto end = ended_at_start(t_.study, t_.evaluator, t_.quantities, point,
+                                      {point.piece, point.tangent});
+      return end ? end->stop_detail : "";
+    };
+    options_.outside = [this](const CurvePoint& point) {
+      return limit_passed(t_.study, t_.evaluator, t_.quantities, point).has_value();
+    };
   }
 
-  Grown grow(const CurvePoint& start) {
+  Grown grow(const CurvePoint& start, const std::vector<DiagramStart>& further) {
     grown_.starts = {{start.x, start.lambda, start.piece}};
+    grown_.starts.insert(grown_.starts.end(), further.begin(), further.end());
     run();
     for (const double lambda : t_.study.branches.search_at)
       if (!stopped_) search(lambda);
@@ -53,8 +62,11 @@ class Grower {
 
   /// A branch that begins on a limit and leads out of the range ends where it begins.
   void cut_to_range(Curve& curve) const {
-    if (curve.stop != StopReason::observer) return;
+    const bool met_outside = curve.stop == StopReason::joined && !curve.hits.empty();
+    if (curve.stop != StopReason::observer && !met_outside) return;
     std::optional<std::string> passed;
+    if (met_outside)
+      passed = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.hits.back().point);
     while (curve.points.size() > 1) {
       const auto beyond = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.points.back());
       if (!beyond) break;
@@ -62,8 +74,9 @@ class Grower {
       curve.points.pop_back();
     }
     if (!passed) return;
-    const double end = curve.points.back().s;
-    std::erase_if(curve.hits, [end](const Hit& hit) { return hit.point.s > end; });
+    std::erase_if(curve.hits, [this](const Hit& hit) {
+      return limit_passed(t_.study, t_.evaluator, t_.quantities, hit.point).has_value();
+    });
     curve.stop = StopReason::event;
     curve.stop_detail = *passed;
   }
@@ -153,8 +166,9 @@ void add_between(const Tracing& tracing, BranchSource& source) {
   fill(source.forward, source.forward_between);
 }
 
-Grown grow_diagram(const Tracing& tracing, const CurvePoint& start) {
-  return Grower(tracing).grow(start);
+Grown grow_diagram(const Tracing& tracing, const CurvePoint& start,
+                   const std::vector<DiagramStart>& further) {
+  return Grower(tracing).grow(start, further);
 }
 
 }  // namespace springfold::analysis

@@ -34,6 +34,8 @@ struct Grown {
 /// Traces the branches of the start and of all special points to the study's depth. At every lambda
 /// that the study names, further equilibria are searched for, in order; where some are found, all
 /// is traced again with them as further starts.
-Grown grow_diagram(const Tracing& tracing, const continuation::CurvePoint& start);
+/// @param further  other starts beside the study's own
+Grown grow_diagram(const Tracing& tracing, const continuation::CurvePoint& start,
+                   const std::vector<continuation::DiagramStart>& further = {});
 
 }  // namespace springfold::analysis

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "branch_rows.hpp"
+#include "force_events.hpp"
+#include "number_text.hpp"
 
 namespace springfold::analysis {
 
@@ -52,7 +54,7 @@ void add_whole_turns(const Study& study, const Evaluator& evaluator,
     const bool vector = !is_free && !held;
     if (!vector && !is_watched(study, quantities, own, first)) continue;
     events.push_back(
-        {whole_turn + system.mechanism.bodies[b].name +
+        {"not followed further: body " + system.mechanism.bodies[b].name +
              (vector ? ", whose rotation is prescribed in part, comes near a whole turn"
                      : " comes near a whole turn, beyond which limits and marks on its "
                        "rotation have no meaning"),
@@ -60,7 +62,7 @@ void add_whole_turns(const Study& study, const Evaluator& evaluator,
            const Vector z = problem.expand(point.x, point.lambda);
            return z.segment<3>(first).norm() - nearly_whole_turn;
          },
-         continuation::EventAction::stop});
+         continuation::EventAction::stop, whole_turn});
   }
 }
 
@@ -81,11 +83,14 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
                       action});
   };
   if (study.control == ControlMode::pose || study.control == ControlMode::mixed)
-    events.push_back({force_limit,
+    events.push_back({"limit point of the force",
                       [&evaluator](const continuation::CurvePoint& point) {
                         return evaluator.force_rate(point);
                       },
-                      continuation::EventAction::record});
+                      continuation::EventAction::record, force_limit});
+  if (study.control == ControlMode::pose && evaluator.problem().symmetric() &&
+      !evaluator.problem().structured())
+    events.push_back(dead_load_event(evaluator));
   add_whole_turns(study, evaluator, quantities, events);
   for (const Limit& limit : study.until) {
     if (std::isfinite(limit.low))
@@ -98,6 +103,29 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   for (const Mark& mark : study.marks)
     add(mark.quantity, mark.value, continuation::EventAction::record, mark.quantity);
   return events;
+}
+
+namespace {
+
+std::string outside_text(const Limit& limit, double value) {
+  return limit.quantity + " is " + rounded(value) + " at the start, outside of its limits " +
+         rounded(limit.low) + " to " + rounded(limit.high);
+}
+
+}  // namespace
+
+std::optional<OutsideStart> outside_start(const Study& study, const Evaluator& evaluator,
+                                          const std::vector<QuantityDefinition>& quantities,
+                                          const continuation::CurvePoint& start) {
+  for (const Limit& limit : study.until) {
+    Study one = study;
+    one.until = {limit};
+    if (!limit_passed(one, evaluator, quantities, start)) continue;
+    const auto q = std::find_if(quantities.begin(), quantities.end(),
+                                [&](const auto& d) { return d.name == limit.quantity; });
+    return OutsideStart{limit.quantity, outside_text(limit, evaluator.value(*q, start))};
+  }
+  return std::nullopt;
 }
 
 std::optional<continuation::Curve> ended_at_start(const Study& study, const Evaluator& evaluator,
@@ -124,7 +152,7 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
       if (beyond < -rounding || (beyond <= rounding && outwards * change <= 0)) continue;
       curve.stop =
           beyond > rounding ? continuation::StopReason::bad_start : continuation::StopReason::event;
-      curve.stop_detail = beyond > rounding ? "it lies outside the range of " + limit.quantity
+      curve.stop_detail = beyond > rounding ? outside_text(limit, q->scale * here)
                                             : limit.quantity + " reaches its " + name + " limit";
       return curve;
     }

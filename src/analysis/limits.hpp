@@ -27,4 +27,13 @@ std::optional<std::string> limit_passed(const Study& study, const Evaluator& eva
                                         const std::vector<QuantityDefinition>& quantities,
                                         const continuation::CurvePoint& point);
 
+/// A limit that a start violates: "lambda = 0 at the start, outside of its limits 1 to 2"; nothing within
+/// the range. `quantity` names the limit.
+struct OutsideStart {
+  std::string quantity{}, text{};
+};
+std::optional<OutsideStart> outside_start(const Study& study, const Evaluator& evaluator,
+                                          const std::vector<QuantityDefinition>& quantities,
+                                          const continuation::CurvePoint& start);
+
 }  // namespace springfold::analysis

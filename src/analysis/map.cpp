@@ -96,7 +96,7 @@ class NodeMaker {
   }
 
   Sample without_values(const std::vector<double>& at, std::string status) const {
-    Sample sample{.values = at};
+    Sample sample{.values = at, .state = NodeState::outside};
     sample.values.resize(columns_, undefined);
     sample.status = std::move(status);
     return sample;
@@ -106,20 +106,24 @@ class NodeMaker {
             Sample& sample) const {
     CommandedState state;
     sample.status = solve(setup, pose, near, state);
+    sample.state = NodeState::outside;
     if (!sample.status.empty()) return;
     const CommandedValues at = command_values(setup, study_.map.directions, state);
     sample.values.insert(sample.values.end(), at.values.begin(), at.values.end());
     sample.piece = piece_text(setup.system, state.piece);
     sample.status = status_of(at);
+    sample.state = state_of(at);
     if (!study_.map.critical) return;
-    if (sample.status != "ok") {
+    if (sample.state != NodeState::stable) {
       sample.values.push_back(undefined);
       return;
     }
     const CriticalLoad critical =
         critical_load(setup, state, *study_.map.critical, options_of(study_.trace));
     sample.values.push_back(critical.load);
-    if (!critical.why.empty()) sample.status = "critical load not found: " + critical.why;
+    if (critical.why.empty()) return;
+    sample.status = "critical load not found: " + critical.why;
+    sample.state = NodeState::load_not_found;
   }
 
   /// The node's equilibrium; says why there is none.
@@ -296,32 +300,24 @@ void fill_missing(const Study& study, std::size_t columns, PartialRows& all) {
     }
     sample.values.resize(columns, undefined);
     sample.status = "not computed";
+    sample.state = NodeState::not_computed;
   }
 }
 
 /// How many nodes are what: the report of the map.
 std::string census(const std::vector<Sample>& rows) {
-  int ok = 0, unstable = 0, outside = 0, missing = 0, doubtful = 0;
-  for (const Sample& row : rows) {
-    if (row.status == "ok")
-      ++ok;
-    else if (row.status == "not computed")
-      ++missing;
-    else if (row.status == "unstable" || row.status == "critical")
-      ++unstable;
-    else if (row.status.starts_with("critical load"))
-      ++doubtful;
-    else
-      ++outside;
-  }
-  std::string text = std::to_string(ok) + " nodes held and stable";
+  const auto number_of = [&rows](NodeState state) {
+    return static_cast<int>(std::count_if(
+        rows.begin(), rows.end(), [state](const Sample& row) { return row.state == state; }));
+  };
+  std::string text = std::to_string(number_of(NodeState::stable)) + " nodes held and stable";
   const auto add = [&text](int count, const char* what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
-  add(unstable, "held but not stable");
-  add(outside, "outside of the workspace");
-  add(doubtful, "without critical load: not found");
-  add(missing, "not computed");
+  add(number_of(NodeState::unstable) + number_of(NodeState::critical), "held but not stable");
+  add(number_of(NodeState::outside), "outside of the workspace");
+  add(number_of(NodeState::load_not_found), "without critical load: not found");
+  add(number_of(NodeState::not_computed), "not computed");
   return text;
 }
 
@@ -359,9 +355,9 @@ StudyResult run_map(const model::Mechanism& mechanism, const Study& study, const
   branch.backward = {"first node", true};
   branch.forward = {census(branch.samples), missing == 0};
   if (missing > 0) branch.forward.reason = "interrupted: " + branch.forward.reason;
-  const auto doubtful = std::count_if(
-      branch.samples.begin(), branch.samples.end(),
-      [](const Sample& sample) { return sample.status.starts_with("critical load"); });
+  const auto doubtful =
+      std::count_if(branch.samples.begin(), branch.samples.end(),
+                    [](const Sample& sample) { return sample.state == NodeState::load_not_found; });
   if (doubtful > 0)
     result.doubts.push_back("the critical load was not found at " + std::to_string(doubtful) +
                             " nodes: see their status");

@@ -1,7 +1,9 @@
 #include "morse.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace springfold::analysis {
 namespace {
@@ -75,10 +77,15 @@ struct Bar {
   Index coordinate = 0;
   double offset = 0;  ///< length = offset + sign * coordinate
   double sign = 1;
-  const statics::CoordinateSpring* spring = nullptr;
-  double length(const Vector& z) const { return offset + sign * z[coordinate]; }
+  const statics::CoordinateSpring* spring = nullptr;  ///< none: a line spring
+  double stiffness = 0, free = 0;                     ///< of a line spring
+  /// A line spring's is positive everywhere but at its foot.
+  bool has_length(const Vector& z) const {
+    return spring == nullptr || offset + sign * z[coordinate] > 1e-9;
+  }
   /// Pull of the spring at this length.
   double pull(double at) const {
+    if (spring == nullptr) return stiffness * (at - free);
     return sign * spring->law.segments.front().torque +
            spring->law.segments.front().stiffness *
                (at - offset - sign * spring->law.segments.front().anchor);
@@ -137,6 +144,7 @@ MorseCount of_bars(const PathProblem& problem, const std::vector<Bar>& bars,
       if ((bars[i].foot - bars[k].foot).norm() < 1e-9)
         return does_not_apply("two bars have the same foot");
     const double pull = bars[i].pull(0);
+    if (bars[i].spring == nullptr && pull == 0) continue;  // smooth at its foot too
     const double others = force_of_others(bars, i, bars[i].foot, W).norm();
     if (std::abs(std::abs(pull) - others) < 1e-9)
       return does_not_apply("the forces at a foot are balanced");
@@ -148,12 +156,66 @@ MorseCount of_bars(const PathProblem& problem, const std::vector<Bar>& bars,
   std::copy_if(distinct.begin(), distinct.end(), std::back_inserter(positive),
                [&](const CountedEquilibrium& e) {
                  return !e.is_locked && std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
-                   return bar.length(e.z) > 1e-9;
+                   return bar.has_length(e.z);
                  });
                });
   const auto sum = signed_count(positive);
   if (!sum) return does_not_apply("an equilibrium is degenerate");
   return {.applies = true, .expected = expected, .found = *sum};
+}
+
+/// A line spring between the base and the body's point.
+std::optional<Bar> line_bar(const PathProblem& problem, const statics::PointSpring& spring) {
+  const statics::System& system = problem.system(0);
+  std::size_t foot = spring.from, end = spring.to;
+  if (system.points[foot].body != 0) std::swap(foot, end);
+  const statics::PointSlice &a = system.points[foot], &b = system.points[end];
+  const Index d = system.body_slices.front().count;
+  const bool fits = a.z.empty() && b.body == 1 && std::ssize(b.z) == d && spring.stiffness > 0;
+  if (!fits) return std::nullopt;
+  Bar bar;
+  bar.foot = statics::position_of(system, foot, Vector::Zero(system.size), problem.inputs(0).rho);
+  if (d == 2 && bar.foot[2] != 0) return std::nullopt;  // its length is never zero
+  bar.stiffness = spring.stiffness;
+  bar.free = spring.free;
+  return bar;
+}
+
+/// A chain of passive slides that carries the point anywhere and holds it nowhere.
+bool is_free_guide(const statics::System& system, std::size_t number) {
+  const model::CompiledChain& chain = system.chains[number];
+  const Index d = dimension(chain.space);
+  if (chain.from_moves || chain.joint_count() != d || system.chain_slices[number].x_count != d)
+    return false;
+  Matrix axes(3, d);
+  model::Mat3<double> R = model::Mat3<double>::Identity();
+  for (Index j = 0; j < d; ++j) {
+    const auto& joint = chain.joints[static_cast<std::size_t>(j)];
+    if (joint.revolute || spring_of(system, system.chain_slices[number].x + j) ||
+        coupled_pull(system, system.chain_slices[number].x + j))
+      return false;
+    R = R * joint.before.R;
+    axes.col(j) = R * joint.axis;
+  }
+  return std::abs(axes.topRows(d).determinant()) > 1e-9;
+}
+
+/// A point that bars and line springs hold, and nothing else; slides may guide it anywhere.
+std::optional<std::vector<Bar>> holders_of(const PathProblem& problem) {
+  const statics::System& system = problem.system(0);
+  std::vector<Bar> bars;
+  for (std::size_t i = 0; i < system.chains.size(); ++i) {
+    if (const auto bar = bar_of(system, i))
+      bars.push_back(*bar);
+    else if (!is_free_guide(system, i))
+      return std::nullopt;
+  }
+  for (const statics::PointSpring& spring : system.line_springs) {
+    const auto bar = line_bar(problem, spring);
+    if (!bar) return std::nullopt;
+    bars.push_back(*bar);
+  }
+  return bars.empty() ? std::nullopt : std::optional{bars};
 }
 
 }  // namespace
@@ -162,19 +224,22 @@ MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEqui
                        const std::vector<CountedEquilibrium>& distinct) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return does_not_apply("the load has no potential");
-  if (!problem.system(0).loads.empty() || !problem.system(0).line_springs.empty())
-    return does_not_apply("weights, loads at points and line springs are not counted");
+  if (!system.loads.empty()) return does_not_apply("weights and loads at points are not counted");
   if (system.mechanism.bodies.size() != 1)
     return does_not_apply(
         "there are several bodies: the Euler characteristic of their "
         "configurations is not known here");
-  if (system.chains.size() == 1) return of_open_chain(problem, raw);
   const TaskSpace space = system.mechanism.bodies.front().task_space;
-  std::vector<Bar> bars;
-  if (space == TaskSpace::xy || space == TaskSpace::xyz)
-    for (std::size_t i = 0; i < system.chains.size(); ++i)
-      if (const auto bar = bar_of(system, i)) bars.push_back(*bar);
-  if (bars.size() == system.chains.size()) return of_bars(problem, bars, distinct);
+  const bool is_point = space == TaskSpace::xy || space == TaskSpace::xyz;
+  if (!system.line_springs.empty()) {
+    if (const auto bars = is_point ? holders_of(problem) : std::nullopt)
+      return of_bars(problem, *bars, distinct);
+    return does_not_apply(
+        "line springs are counted only where they and bars hold a point and nothing else does");
+  }
+  if (system.chains.size() == 1) return of_open_chain(problem, raw);
+  if (const auto bars = is_point ? holders_of(problem) : std::nullopt)
+    return of_bars(problem, *bars, distinct);
   return does_not_apply(
       "the chains close: the Euler characteristic of their configurations is not "
       "known here");

@@ -20,7 +20,7 @@ struct CountedEquilibrium {
 /// characteristic, the sum of (-1)^index over all equilibria is that number (Morse). It is known for
 ///
 ///   - one open chain: 1 if every joint has a spring, 0 if some turn freely;
-///   - a point held by bars, each a spring from a foot to the point: in the plane 1 - m, in space
+///   - a point held by bars and line springs, each a spring from a foot to the point: in the plane 1 - m, in space
 ///     1 + m, where m feet are peaks of the energy (the pressed bar there outweighs all other
 ///     forces). Bars of negative length do not count, nor states in which a foot's joint is
 ///     locked.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "number_text.hpp"
 #include "quaternion.hpp"
@@ -66,6 +67,14 @@ const statics::System& PathProblem::system(double lambda) const {
   if (!family_ || family_lambda_ != lambda) {
     family_ = rule_.family(lambda);
     family_lambda_ = lambda;
+    const statics::System& now = family_->first;
+    if (now.size != system_.size || now.switches.size() != system_.switches.size() ||
+        now.closure_count() != system_.closure_count() ||
+        now.body_slices.size() != system_.body_slices.size())
+      throw std::invalid_argument(
+          "the mechanism changes its shape along the parameter: its joints, bodies, springs and "
+          "breakpoints must "
+          "stay the same in number");
     if (!rotations_.empty()) turned_ = family_->first;
   }
   return family_->first;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "path_problem.hpp"
+#include "resting.hpp"
 #include "scales.hpp"
 #include "springfold/analysis/result.hpp"
 #include "springfold/analysis/study.hpp"
@@ -20,7 +21,7 @@ struct QuantityDefinition {
     lambda,
     deflection,  ///< displacement along the study's direction from the start
     force,       ///< along the study's direction, on top of the constant load
-    stiffness,   ///< d^T K_Sigma d
+    stiffness,   ///< d^T K_Sigma d; where the body is rigid in some directions 1/(d^T C d)
     unknown,     ///< entry of z
     command,     ///< entry of rho
     eigenvalue,  ///< of K_Sigma, dimensionless
@@ -106,6 +107,11 @@ class Evaluator {
   /// K_ci of all chains, paper eq. (12); empty matrices where undefined.
   std::vector<Matrix> chain_stiffnesses(const continuation::CurvePoint& point) const;
 
+  /// Where springs rest at their threshold: the number of unstable modes as all pieces together say.
+  /// @param kind  index, index_pose or index_force
+  std::optional<RestingIndex> resting_index_of(QuantityDefinition::Kind kind,
+                                               const continuation::CurvePoint& point) const;
+
  private:
   struct Assembled {
     Vector z{}, r{};
@@ -135,9 +141,14 @@ class Evaluator {
   double value_at(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                   const State& state) const;
   double force(const continuation::CurvePoint& point) const;
-  /// Where springs rest at their threshold: the largest numbers of unstable modes of all sides.
-  void raise_indices(const std::vector<QuantityDefinition>& quantities,
-                     const continuation::CurvePoint& point, std::vector<double>& values) const;
+  /// 1/(n^T C n) where the body is rigid in some directions, n the study's; NaN: rigid along n too.
+  double guided_stiffness(const continuation::CurvePoint& point, const Assembled& at) const;
+  /// Where springs rest at their threshold: what all pieces together say.
+  void decide_indices(const std::vector<QuantityDefinition>& quantities,
+                      const continuation::CurvePoint& point, std::vector<double>& values) const;
+  /// Where that is not known: the largest number of unstable modes of all sides.
+  double largest_index(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
+                       const std::vector<std::size_t>& resting, double own) const;
   double load_rate() const;  ///< of the study's wrench along the direction
   double from_matrix(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                      const Assembled& at, const State& state) const;

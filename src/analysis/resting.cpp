@@ -1,13 +1,72 @@
 #include "resting.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "springfold/core/inertia.hpp"
 
 namespace springfold::analysis {
 namespace {
 
-/// Numbers of the switches that rest.
-std::vector<std::size_t> resting(const PathProblem& problem,
-                                 const continuation::CurvePoint& point) {
+/// Compliance of the springs' coordinates in a piece that is regular.
+struct Base {
+  Matrix G{};
+  Index negative = 0;
+  Piece piece{};
+};
+
+Piece with_sides(Piece piece, const std::vector<std::size_t>& resting, std::size_t sides) {
+  for (std::size_t k = 0; k < resting.size(); ++k)
+    piece[resting[k]] = (sides >> k & 1) != 0 ? 1 : -1;
+  return piece;
+}
+
+std::optional<Base> base_of(const Matrix& M, const std::vector<Index>& coordinates, Piece piece) {
+  const auto k = static_cast<Index>(coordinates.size());
+  Matrix E = Matrix::Zero(M.rows(), k);
+  for (Index j = 0; j < k; ++j) E(coordinates[static_cast<std::size_t>(j)], j) = 1;
+  const auto solution = solve_and_count(M, E);
+  if (!solution || solution->inertia.zero > 0 || !solution->X.allFinite()) return std::nullopt;
+  return Base{solution->X(coordinates, Eigen::all), solution->inertia.negative, std::move(piece)};
+}
+
+/// The first piece that is regular, the given one first.
+std::optional<Base> regular_piece(const MatrixOfPiece& matrix, const Piece& piece,
+                                  const std::vector<std::size_t>& resting,
+                                  const std::vector<Index>& coordinates) {
+  const std::size_t all = std::size_t{1} << resting.size();
+  for (std::size_t sides = 0; sides <= all; ++sides) {
+    const Piece tried = sides == 0 ? piece : with_sides(piece, resting, all - sides);
+    const auto M = matrix(tried);
+    if (!M) return std::nullopt;
+    if (auto base = base_of(*M, coordinates, tried)) return base;
+  }
+  return std::nullopt;
+}
+
+/// What the diagonal gains where a spring begins to act.
+std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
+                               const std::vector<std::size_t>& resting,
+                               const std::vector<Index>& coordinates) {
+  Vector jumps(static_cast<Index>(resting.size()));
+  const Piece none = with_sides(piece, resting, 0);
+  const auto M = matrix(none);
+  for (std::size_t k = 0; M && k < resting.size(); ++k) {
+    Piece one = none;
+    one[resting[k]] = 1;
+    const auto N = matrix(one);
+    if (!N) return std::nullopt;
+    const Index c = coordinates[k];
+    jumps[static_cast<Index>(k)] = (*N)(c, c) - (*M)(c, c);
+  }
+  return M ? std::optional<Vector>(jumps) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::size_t> resting_switches(const PathProblem& problem,
+                                          const continuation::CurvePoint& point) {
   constexpr double at_zero = 1e-10, moving = 1e-8;
   Vector g;
   if (problem.switch_count() == 0 || !problem.switches(point.x, point.lambda, g)) return {};
@@ -26,20 +85,44 @@ std::vector<std::size_t> resting(const PathProblem& problem,
   return list;
 }
 
-}  // namespace
-
-std::vector<Piece> pieces_around(const PathProblem& problem,
-                                 const continuation::CurvePoint& point) {
+std::vector<Piece> pieces_around(const Piece& piece, const std::vector<std::size_t>& resting) {
   constexpr std::size_t most = 6;
-  const std::vector<std::size_t> list = resting(problem, point);
-  if (list.empty() || list.size() > most) return {};
+  if (resting.empty() || resting.size() > most) return {};
   std::vector<Piece> pieces;
-  for (std::size_t sides = 0; sides < (std::size_t{1} << list.size()); ++sides) {
-    Piece piece = point.piece;
-    for (std::size_t k = 0; k < list.size(); ++k) piece[list[k]] = (sides >> k & 1) != 0 ? 1 : -1;
-    pieces.push_back(std::move(piece));
-  }
+  for (std::size_t sides = 0; sides < (std::size_t{1} << resting.size()); ++sides)
+    pieces.push_back(with_sides(piece, resting, sides));
   return pieces;
+}
+
+double RestingIndex::index() const {
+  switch (verdict) {
+    case Definiteness::positive:
+      return 0;
+    case Definiteness::not_positive:
+      return static_cast<double>(std::max<Index>(1, fewest));
+    case Definiteness::undecided:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<RestingIndex> resting_index(const MatrixOfPiece& matrix, const Piece& piece,
+                                          const std::vector<std::size_t>& resting,
+                                          const std::vector<Index>& coordinates, Index closures) {
+  const auto k = static_cast<Index>(resting.size());
+  if (k == 0 || k > most_cones) return std::nullopt;
+  const auto base = regular_piece(matrix, piece, resting, coordinates);
+  if (!base) return std::nullopt;
+  const auto jumps = jumps_of(matrix, piece, resting, coordinates);
+  if (!jumps) return std::nullopt;
+  Vector sides(k);
+  for (Index j = 0; j < k; ++j) sides[j] = base->piece[resting[static_cast<std::size_t>(j)]];
+  const auto condensed = condensed_form(base->G, base->negative, *jumps, sides);
+  if (!condensed || condensed->across < closures) return std::nullopt;
+  const FormJudgement judged = judge(condensed->form);
+  const Index across = condensed->across - closures;
+  return RestingIndex{across > 0 ? Definiteness::not_positive : judged.verdict,
+                      across + judged.fewest, across + judged.most};
 }
 
 }  // namespace springfold::analysis

@@ -1,15 +1,41 @@
 // Springs that rest exactly at their threshold along a branch. Private to analysis.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "path_problem.hpp"
 #include "springfold/continuation/curve.hpp"
+#include "springfold/core/piecewise_form.hpp"
 
 namespace springfold::analysis {
 
-/// All pieces that meet at a point whose switches do not leave zero along its tangent (without a
-/// tangent: are zero), the point's own among them. Empty if no switch rests, or more than six do.
-std::vector<Piece> pieces_around(const PathProblem& problem, const continuation::CurvePoint& point);
+/// Numbers of the switches that do not leave zero along the point's tangent (without a tangent: are zero).
+std::vector<std::size_t> resting_switches(const PathProblem& problem,
+                                          const continuation::CurvePoint& point);
+
+/// All pieces that meet where these switches rest, the given one among them; at most 2^6.
+std::vector<Piece> pieces_around(const Piece& piece, const std::vector<std::size_t>& resting);
+
+/// What the 2^k pieces around a resting state say of its stability together.
+struct RestingIndex {
+  Definiteness verdict = Definiteness::undecided;  ///< positive: stable
+  Index fewest = 0, most = 0;  ///< unstable modes of the pieces that have room beside the state
+  /// 0 if stable, at least 1 if not; NaN: undecided.
+  double index() const;
+};
+
+/// The symmetric matrix of the equations of one piece; nothing where it is not defined.
+using MatrixOfPiece = std::function<std::optional<Matrix>(const Piece&)>;
+
+/// A state is stable if the quadratic form of its energy is positive on the cone of every piece. The form is
+/// that of the springs' own coordinates, with everything else at its best (core/piecewise_form.hpp).
+/// @param coordinates  of the resting springs, in the rows of the matrix
+/// @param closures     negative eigenvalues that belong to constraints
+/// @returns nothing for more than twelve springs, or where all pieces are singular
+std::optional<RestingIndex> resting_index(const MatrixOfPiece& matrix, const Piece& piece,
+                                          const std::vector<std::size_t>& resting,
+                                          const std::vector<Index>& coordinates, Index closures);
 
 }  // namespace springfold::analysis

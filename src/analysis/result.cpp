@@ -30,6 +30,32 @@ std::string code_of(EventKind kind) {
       return "SC";
     case EventKind::unresolved:
       return "UR";
+    case EventKind::cusp:
+      return "CP";
+    case EventKind::isola_centre:
+      return "IC";
+    case EventKind::crossing:
+      return "CX";
+    case EventKind::hilltop:
+      return "HT";
+    case EventKind::branch_points_merge:
+      return "BB";
+    case EventKind::more_modes:
+      return "C2";
+    case EventKind::fold_meets_activation:
+      return "FA";
+    case EventKind::corner_loses_reversal:
+      return "CR";
+    case EventKind::touches_activation:
+      return "TA";
+    case EventKind::two_activations:
+      return "AA";
+    case EventKind::parameter_turns:
+      return "PT";
+    case EventKind::extremum:
+      return "EX";
+    case EventKind::threshold:
+      return "TH";
   }
   return "??";
 }

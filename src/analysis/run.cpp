@@ -11,9 +11,16 @@
 #include "equilibria.hpp"
 #include "limits.hpp"
 #include "run_kinds.hpp"
+#include "run_traced.hpp"
+#include "settle_units.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "stability_changes.hpp"
 #include "start.hpp"
+#include "start_marks.hpp"
+#include "start_sides.hpp"
+#include "start_trouble.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -48,8 +55,11 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
                         : follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
+  add_stability_changes(t, source);
   add_between(t, source);
+  const CurvePoint first = source.forward.points.front();
   std::vector<BranchRows> rows{join(std::move(source), t.evaluator, t.quantities, t.problem)};
+  add_marks_at_start(t.study, t.evaluator, t.quantities, first, rows.front());
   label_events(rows, 0, t.quantities);
   return std::move(rows.front().branch);
 }
@@ -76,6 +86,30 @@ Branch not_traced(const Tracing& t, const CurvePoint& start, const std::string& 
   return branch;
 }
 
+std::string motions_text(const StartReport& start) {
+  return start.free_motions.empty() ? ""
+                                    : "; nothing resists a motion of " + start.free_motions +
+                                          ": give a joint that moves there a spring, or hold it";
+}
+
+/// Slopes at the start, on both sides.
+void report_rates(const Tracing& t, const CurvePoint& start, const continuation::Rays& rays,
+                  StartReport& report) {
+  const bool swapped = rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const continuation::Ray& ray = rays.rays[i];
+    const bool leaving = (i == 0) != swapped;
+    CurvePoint along = start;
+    along.piece = ray.piece;
+    along.tangent = ray.tangent;
+    if (!leaving) {
+      along.tangent.dx = -along.tangent.dx;
+      along.tangent.dlambda = -along.tangent.dlambda;
+    }
+    (leaving ? report.rates_after : report.rates_before) = t.evaluator.rates(t.quantities, along);
+  }
+}
+
 /// A start that several curves leave needs the diagram, whatever the study asks for: none of them is
 /// picked.
 void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result) {
@@ -83,6 +117,7 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
   const auto rays =
       rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
   const bool ordinary = rays.rays.size() == 2 && rays.complete;
+  if (ordinary) report_rates(t, start, rays, result.start);
   result.start.situation = situation_of(t, start, rays);
   const auto outside = limit_passed(t.study, t.evaluator, t.quantities, start);
   if (ordinary && (outside || (wanted.depth == 0 && wanted.search_at.empty()))) {
@@ -100,33 +135,25 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
       rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
   const auto singular = kinematic_singularity(t.problem, start);
   if (outside || t.study.path == Path::davidenko) {
-    result.branches.push_back(
-        not_traced(t, start, "the start is not an ordinary point of a curve: " + why));
+    result.branches.push_back(not_traced(
+        t, start,
+        "the start is not an ordinary point of a curve: " + why + motions_text(result.start)));
   } else {
     trace_branches(t, start, result);
     if (result.branches.empty())
-      result.branches.push_back(
-          not_traced(t, start, "no curve was found to leave the start: " + why));
+      result.branches.push_back(not_traced(
+          t, start, "no curve was found to leave the start: " + why + motions_text(result.start)));
   }
   if (singular) result.start.situation = "a " + *singular;
 }
 
-/// A start that was held by a wrench stays held in the directions that the study leaves free.
-void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
-  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
-  const Vector extra = (first.inputs.W - setup.rule.W_start).segment(body.W, body.count);
-  const Vector held = setup.rule.N * (setup.rule.N.transpose() * extra);
-  setup.rule.W_start.segment(body.W, body.count) += held;
-  const bool is_spatial =
-      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space ==
-      model::TaskSpace::spatial;
-  if (is_spatial && held.tail(3).lpNorm<Eigen::Infinity>() > 1e-12 * held.norm())
-    setup.rule.symmetric = false;  // a moment about fixed axes holds it
-}
-
-void report_tangent(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
+void report_tangent(const Evaluator& evaluator, const CurvePoint& start, const Vector& z,
+                    StartReport& report) {
   report.tangent = evaluator.tangent_eigenvalues(start);
   report.zero_modes = static_cast<int>(evaluator.zero_modes(start));
+  if (report.zero_modes > 0)
+    report.free_motions = free_motions(evaluator.problem().system(start.lambda), z,
+                                       evaluator.problem().inputs(start.lambda));
 }
 
 /// The start violates closures that were taken as redundant.
@@ -134,9 +161,34 @@ void refuse_contradiction(const Evaluator& evaluator, const CurvePoint& start,
                           StartReport& report) {
   if (evaluator.closure_gap(start) <= allowed_closure_gap) return;
   report.found = false;
+  report.advice = "give one of the chains an elasticity";
   report.message =
       "the redundant closures contradict each other under this load: a rigid mechanism "
-      "would have to give way; give one of the chains an elasticity";
+      "would have to give way";
+}
+
+void report_range(const Study& study, const Evaluator& evaluator,
+                  const std::vector<QuantityDefinition>& quantities, const CurvePoint& start,
+                  StartReport& report) {
+  if (study.kind != StudyKind::force_deflection) return;
+  const auto outside = outside_start(study, evaluator, quantities, start);
+  if (!outside) return;
+  report.outside = outside->text;
+  report.where = "until." + outside->quantity;
+  report.advice = "try limits that include the start, or another start";
+}
+
+/// The same study of commands with its first target alone.
+Study first_target(Study study) {
+  ControlPath& path = study.targets;
+  if (path.circle) {
+    path.circle_points = 1;
+    path.circle->to = path.circle->from;
+  } else {
+    path.targets.resize(1);
+  }
+  path.loads.resize(std::min<std::size_t>(path.loads.size(), 1));
+  return study;
 }
 
 RedundantClosures redundant_closures(const Setup& setup) {
@@ -158,50 +210,86 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   assert(problems_in(study, mechanism).empty());
   if (study.kind == StudyKind::control) return run_control(mechanism, study, observer);
   if (study.kind == StudyKind::map) return run_map(mechanism, study, observer, options);
-  if (study.kind == StudyKind::workspace) return run_workspace(mechanism, study);
+  if (study.kind == StudyKind::workspace) return run_workspace(mechanism, study, observer);
+  if (is_of_critical_points(study.kind)) return run_critical(study, observer);
+  if (study.snap) {
+    SnapResult with_jumps = run_with_jumps(mechanism, study, family, *study.snap, observer);
+    with_jumps.traced.snap = std::make_shared<const SnapReport>(std::move(with_jumps.report));
+    return std::move(with_jumps.traced);
+  }
+  return run_from_start(mechanism, study, family, observer, {});
+}
+
+StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study,
+                           const ParameterFamily* family, const Observer& observer,
+                           const TraceBy& trace_by) {
   const std::clock_t began = std::clock();
   StudyResult result;
   result.study = study.name;
   Setup setup = set_up(mechanism, study, family);
   result.lambda_unit = lambda_unit_of(study, setup.system);
+  result.non_conservative = non_conservative_loads(mechanism, study);
+  statics::FirstEquilibrium first = find_start(setup, study, result.start);
+  if (result.start.found) settle_units(mechanism, study, family, first, setup);
   const auto quantities =
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
   for (const QuantityDefinition& q : quantities) result.quantities.push_back({q.name, q.unit});
-
-  result.non_conservative = non_conservative_loads(mechanism, study);
-  const statics::FirstEquilibrium first = find_start(setup, study, result.start);
   result.start.redundant = redundant_closures(setup);
   if (study.kind == StudyKind::equilibria) {
-    setup.rule.t_start = Vector::Zero(setup.rule.t_rate.size());
-    setup.rule.rho_start = first.inputs.rho;
-    hold_free_part(study, first, setup);
-    find_equilibria(setup, study, first, result);
+    begin_at(study, first, setup);
+    find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
-    setup.rule.t_start = first.z.segment(body.t, body.count);
-    setup.rule.rho_start = first.inputs.rho;
-    hold_free_part(study, first, setup);
+    begin_at(study, first, setup);
     const PathProblem problem(setup.system, setup.rule);
     const Evaluator evaluator(problem, study, setup.scales);
-    CurvePoint start;
-    start.x = problem.reduce(first.z);
-    start.lambda = setup.lambda_start;
-    start.piece = first.piece;
+    CurvePoint start = start_point(problem, setup, first);
     count_negative(problem, start);
     refuse_contradiction(evaluator, start, result.start);
     if (!result.start.found) return result;
-    report_tangent(evaluator, start, result.start);
+    report_tangent(evaluator, start, first.z, result.start);
+    report_range(study, evaluator, quantities, start, result.start);
     result.start.stiffness = evaluator.platform_stiffness(start);
     result.start.compliance = evaluator.rigid_compliance(start);
+    result.start.sides = sides_of_start(evaluator, start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
-    if (study.kind == StudyKind::equilibrium)
+    const Tracing tracing{problem, study, evaluator, quantities, observer, setup.lambda_scale};
+    if (study.kind == StudyKind::equilibrium) {
+      result.start.situation = situation_of(tracing, start, {});
       result.branches.push_back(single_point(start, evaluator, quantities, problem));
-    else
-      trace_study({problem, study, evaluator, quantities, observer, setup.lambda_scale}, start,
-                  result);
+    } else if (trace_by) {
+      trace_by(tracing, setup.scales, start, result);
+    } else {
+      trace_study(tracing, start, result);
+    }
   }
   result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   return result;
+}
+
+std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
+                                       const ParameterFamily* family) {
+  assert(problems_in(study, mechanism).empty());
+  if (study.kind == StudyKind::control)
+    return run_control(mechanism, first_target(study), {}).start;
+  if (is_of_commands(study.kind)) return std::nullopt;
+  Setup setup = set_up(mechanism, study, family);
+  StartReport report;
+  statics::FirstEquilibrium first = find_start(setup, study, report);
+  if (report.found) settle_units(mechanism, study, family, first, setup);
+  report.redundant = redundant_closures(setup);
+  if (!report.found || study.kind == StudyKind::equilibria) return report;
+  const auto quantities = quantities_of(study, setup.system, setup.scales, setup.lambda_scale,
+                                        lambda_unit_of(study, setup.system));
+  begin_at(study, first, setup);
+  const PathProblem problem(setup.system, setup.rule);
+  const Evaluator evaluator(problem, study, setup.scales);
+  CurvePoint start = start_point(problem, setup, first);
+  count_negative(problem, start);
+  refuse_contradiction(evaluator, start, report);
+  if (!report.found) return report;
+  report_tangent(evaluator, start, first.z, report);
+  report_range(study, evaluator, quantities, start, report);
+  return report;
 }
 
 }  // namespace springfold::analysis

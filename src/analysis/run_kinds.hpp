@@ -14,9 +14,16 @@ StudyResult run_map(const model::Mechanism& mechanism, const Study& study, const
                     const RunOptions& options);
 
 /// Kind `workspace`: the largest region within bounds of the transmission factors.
-StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study);
+StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study,
+                          const Observer& observer);
 
-/// Columns of these kinds, in order.
+/// Kinds `critical_curve`, `threshold` and `sensitivity`: special points in a second parameter.
+StudyResult run_critical(const Study& study, const Observer& observer);
+std::vector<std::string> critical_columns(const Study& study, const model::Mechanism& mechanism);
+std::vector<std::string> problems_of_critical(const Study& study,
+                                              const model::Mechanism& mechanism);
+
+/// Columns of control, map and workspace, in order.
 std::vector<Quantity> columns_of(const Study& study, const model::Mechanism& mechanism);
 
 /// Every rule that a study of these kinds breaks, as sentences.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "springfold/core/scaling.hpp"
+#include "units.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -118,26 +119,30 @@ std::vector<double> load_forces(const model::Mechanism& mechanism, double length
 
 }  // namespace
 
-Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load) {
-  const double length = largest_length(mechanism);
-  Scales scales{power_of_two_near(length), 1};
+std::vector<double> spring_forces(const model::Mechanism& mechanism, double length) {
   std::vector<double> forces;
   for_each_joint(mechanism, [&](const Joint& joint) {
     if (!joint.spring) return;
     for (const auto& segment : model::compile(*joint.spring).segments)
       if (segment.stiffness > 0)
-        forces.push_back(joint.kind == JointKind::prismatic ? segment.stiffness * scales.length
-                                                            : segment.stiffness / scales.length);
+        forces.push_back(joint.kind == JointKind::prismatic ? segment.stiffness * length
+                                                            : segment.stiffness / length);
   });
   for (const model::Chain& chain : mechanism.chains)
     for (const model::CoupledSpring& spring : chain.coupled_springs)
       for (std::size_t i = 0; i < spring.elements.size(); ++i) {
         const double k = spring.stiffness.diagonal()[static_cast<Index>(i)];
-        if (k > 0)
-          forces.push_back(slides(chain, spring, i) ? k * scales.length : k / scales.length);
+        if (k > 0) forces.push_back(slides(chain, spring, i) ? k * length : k / length);
       }
   for (const model::LineSpring& spring : mechanism.line_springs)
-    if (spring.stiffness > 0) forces.push_back(spring.stiffness * scales.length);
+    if (spring.stiffness > 0) forces.push_back(spring.stiffness * length);
+  return forces;
+}
+
+Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load) {
+  const double length = largest_length(mechanism);
+  Scales scales{power_of_two_near(length), 1};
+  std::vector<double> forces = spring_forces(mechanism, scales.length);
   if (forces.empty()) forces = load_forces(mechanism, scales.length);
   if (forces.empty() && constant_load.size() > 0) forces.push_back(constant_load.norm());
   if (forces.empty()) return scales;

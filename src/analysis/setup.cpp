@@ -1,13 +1,14 @@
 #include "setup.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "quantities.hpp"
 #include "spring_origins.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/scaling.hpp"
+#include "units.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -25,9 +26,7 @@ Matrix free_directions(ControlMode control, const Vector& direction,
         N.col(column++) = Vector::Unit(d, i);
     return N;
   }
-  const Eigen::HouseholderQR<Matrix> qr(direction);
-  const Matrix Q = qr.householderQ() * Matrix::Identity(d, d);
-  return Q.rightCols(d - 1);
+  return orthonormal_basis(direction).rightCols(d - 1);
 }
 
 /// Largest rate in units of the scales sets the scale of lambda, again a power of two.
@@ -77,7 +76,8 @@ double parameter_scale(const Study& study, double start) {
 }
 
 void set_control(const Study& study, const ParameterFamily* family, const Origins& origins,
-                 Setup& setup) {
+                 const Units& wanted, Setup& setup) {
+  const auto unit_of_lambda = [&wanted](double natural) { return wanted.lambda.value_or(natural); };
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
   const Index d = dimension(space);
@@ -91,7 +91,7 @@ void set_control(const Study& study, const ParameterFamily* family, const Origin
       double largest = largest_load_rate(setup.system.mechanism);
       if (study.direction.size() > 0)
         largest = std::max(largest, study.direction.cwiseQuotient(units).lpNorm<Eigen::Infinity>());
-      setup.lambda_scale = 1 / power_of_two_near(largest);
+      setup.lambda_scale = unit_of_lambda(1 / power_of_two_near(largest));
       if (study.direction.size() == 0) break;
       rule.W_rate.segment(setup.system.body_slices[b].W, d) =
           study.direction.cwiseQuotient(units) * setup.lambda_scale;
@@ -100,7 +100,7 @@ void set_control(const Study& study, const ParameterFamily* family, const Origin
     case ControlMode::pose:
     case ControlMode::mixed: {
       const Vector units = pose_scales(space, setup.scales);
-      setup.lambda_scale = lambda_scale_for(study.direction, units);
+      setup.lambda_scale = unit_of_lambda(lambda_scale_for(study.direction, units));
       rule.t_rate = study.direction.cwiseQuotient(units) * setup.lambda_scale;
       break;
     }
@@ -112,13 +112,15 @@ void set_control(const Study& study, const ParameterFamily* family, const Origin
         for (const ActuatorRate& r : study.actuators)
           if (r.actuator == setup.system.command_names[k]) rate[i] = r.rate;
       }
-      setup.lambda_scale = lambda_scale_for(rate, units);
+      setup.lambda_scale = unit_of_lambda(lambda_scale_for(rate, units));
       rule.rho_rate = rate.cwiseQuotient(units) * setup.lambda_scale;
       break;
     }
     case ControlMode::parameter: {
       assert(family != nullptr);
-      setup.lambda_scale = parameter_scale(study, family->value);
+      const double natural = parameter_scale(study, family->value);
+      setup.lambda_scale = unit_of_lambda(natural);
+      rule.family_step *= natural / setup.lambda_scale;
       setup.lambda_start = family->value / setup.lambda_scale;
       const Scales scales = setup.scales;
       const double unit = setup.lambda_scale;
@@ -160,9 +162,12 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
   return list;
 }
 
-Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family) {
+namespace {
+
+Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const Study& study,
+                const ParameterFamily* family, const Units& units) {
   Setup setup;
-  setup.scales = scales_for(mechanism, study.constant_load);
+  setup.scales = scales;
   setup.system = statics::prepare(dimensionless(mechanism, setup.scales));
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
@@ -180,7 +185,7 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
   setup.rule.length = setup.scales.length;
   setup.rule.W_start = body_load(setup.system, study, study.constant_load, setup.scales);
   if (study.kind == StudyKind::force_deflection) {
-    set_control(study, family, *origins, setup);
+    set_control(study, family, *origins, units, setup);
   } else {
     setup.rule.t_rate = Vector::Zero(dimension(space));
     setup.rule.rho_rate = Vector::Zero(setup.system.commands.size());
@@ -193,6 +198,21 @@ Setup set_up(const model::Mechanism& mechanism, const Study& study, const Parame
   set_load_factors(setup);
   setup.rule.symmetric = non_conservative_loads(mechanism, study).empty();
   return setup;
+}
+
+}  // namespace
+
+Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
+             const Scales* scales) {
+  const Scales own = scales != nullptr ? *scales : scales_for(mechanism, study.constant_load);
+  return set_up_in(own, mechanism, study, family, {own.force, {}});
+}
+
+Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
+             const Units& units) {
+  Scales scales = scales_for(mechanism, study.constant_load);
+  scales.force = units.force;
+  return set_up_in(scales, mechanism, study, family, units);
 }
 
 }  // namespace springfold::analysis

@@ -26,6 +26,8 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
                                                 const Study& study);
 
 /// @param family needed for control mode `parameter` only, otherwise nullptr
-Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family);
+/// @param scales those of another value of a parameter; nullptr: from the mechanism
+Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
+             const Scales* scales = nullptr);
 
 }  // namespace springfold::analysis

@@ -1,42 +1,16 @@
 #include "start.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "number_text.hpp"
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
+#include "start_trouble.hpp"
 
 namespace springfold::analysis {
 namespace {
-
-statics::StartProblem problem_of(const Setup& setup, const Study& study) {
-  statics::StartProblem problem;
-  problem.body = study.body;
-  problem.attempts = study.start.attempts;
-  problem.seed = study.start.seed;
-  problem.z = statics::guess(setup.system);
-  problem.inputs = {setup.system.commands, setup.rule.W_start, setup.rule.load_start};
-  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
-  const model::TaskSpace space =
-      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
-  if (study.start.pose.size() > 0)
-    problem.z.segment(body.t, body.count) =
-        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
-  switch (study.start.solve) {
-    case StartSolve::pose:
-      problem.unknowns = statics::StartUnknowns::pose;
-      break;
-    case StartSolve::actuators:
-      problem.unknowns = statics::StartUnknowns::commands;
-      break;
-    case StartSolve::wrench:
-      problem.unknowns = statics::StartUnknowns::wrench;
-      break;
-  }
-  return problem;
-}
 
 /// Residual and matrix at the guess; of long chains column by column.
 struct Guess {
@@ -86,7 +60,7 @@ double guess_residual(const statics::System& system, const statics::StartProblem
   }
   Matrix M(system.size, static_cast<Index>(columns.size()));
   for (Index i = 0; i < M.cols(); ++i) M.col(i) = columns[static_cast<std::size_t>(i)];
-  if (M.cols() > 0) r -= M * M.completeOrthogonalDecomposition().solve(r);
+  if (M.cols() > 0) r -= M * least_squares(M, r);
   return r.lpNorm<Eigen::Infinity>();
 }
 
@@ -104,6 +78,8 @@ void report_move(const Setup& setup, const Study& study, const statics::StartPro
   }
   if (report.moved <= study.start.maximum_move) return;
   report.found = false;
+  report.where = "start.maximum_move";
+  report.advice = "try a guess nearer to the equilibrium you mean (pose, start.pose, initial)";
   report.message = "the equilibrium found lies " + rounded(report.moved) + " (" +
                    report.moved_most + ") away from the guess, whose residual is " +
                    rounded(report.guess_residual) +
@@ -123,27 +99,51 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
   report.iterations = first.iterations;
   report.chain_iterations = first.chain_iterations;
   report.residual = first.residual;
-  switch (first.status) {
-    case statics::StartStatus::found:
-      break;
-    case statics::StartStatus::no_assembly:
-      report.message =
-          "the chains cannot be closed from this guess: check lengths, attachments, "
-          "axes and the initial pose and coordinates";
-      break;
-    case statics::StartStatus::no_equilibrium:
-      report.message = "no equilibrium was found near this guess; the smallest residual is left";
-      break;
-    case statics::StartStatus::wrong_count:
-      report.message = "as many actuated joints as pose coordinates are needed";
-      break;
-  }
   return report;
 }
 
 }  // namespace
 
-Vector start_guess(const Setup& setup, const Study& study) { return problem_of(setup, study).z; }
+statics::StartProblem start_problem(const Setup& setup, const Study& study) {
+  statics::StartProblem problem;
+  problem.body = study.body;
+  problem.attempts = study.start.attempts;
+  problem.seed = study.start.seed;
+  problem.z = statics::guess(setup.system);
+  problem.inputs = {setup.system.commands, setup.rule.W_start, setup.rule.load_start};
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  const model::TaskSpace space =
+      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
+  if (study.start.pose.size() > 0)
+    problem.z.segment(body.t, body.count) =
+        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
+  switch (study.start.solve) {
+    case StartSolve::pose:
+      problem.unknowns = statics::StartUnknowns::pose;
+      break;
+    case StartSolve::actuators:
+      problem.unknowns = statics::StartUnknowns::commands;
+      break;
+    case StartSolve::wrench:
+      problem.unknowns = statics::StartUnknowns::wrench;
+      break;
+  }
+  return problem;
+}
+
+void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  const Vector extra = (first.inputs.W - setup.rule.W_start).segment(body.W, body.count);
+  const Vector held = setup.rule.N * (setup.rule.N.transpose() * extra);
+  setup.rule.W_start.segment(body.W, body.count) += held;
+  const bool is_spatial =
+      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space ==
+      model::TaskSpace::spatial;
+  if (is_spatial && held.tail(3).lpNorm<Eigen::Infinity>() > 1e-12 * held.norm())
+    setup.rule.symmetric = false;  // a moment about fixed axes holds it
+}
+
+Vector start_guess(const Setup& setup, const Study& study) { return start_problem(setup, study).z; }
 
 void count_negative(const PathProblem& problem, continuation::CurvePoint& point) {
   continuation::Linearisation at;
@@ -152,14 +152,16 @@ void count_negative(const PathProblem& problem, continuation::CurvePoint& point)
 }
 
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report) {
-  const statics::StartProblem problem = problem_of(setup, study);
+  const statics::StartProblem problem = start_problem(setup, study);
   statics::FirstEquilibrium first = study.start.solver == StartSolver::fixed_point
                                         ? first_equilibrium_paper(setup.system, problem)
                                         : first_equilibrium(setup.system, problem);
   report = report_of(first, study);
+  explain_failure(setup, study, problem, first, report);
   report_move(setup, study, problem, first, report);
   if (!setup.origins_found) {
     report.found = false;
+    report.where = study.start.pose.size() > 0 ? "start.pose" : "body";
     report.message =
         "the chains cannot be closed in the start pose, from which springs with origin "
         "= \"start\" are counted: check the poses, lengths and initial coordinates";

@@ -12,6 +12,12 @@ namespace springfold::analysis {
 /// its guess than the study allows counts as not found.
 statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, StartReport& report);
 
+/// The first state, what is given and what is looked for.
+statics::StartProblem start_problem(const Setup& setup, const Study& study);
+
+/// A start that was held by a wrench stays held in the directions that the study leaves free.
+void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup);
+
 /// The state from which the search for the start begins.
 Vector start_guess(const Setup& setup, const Study& study);
 

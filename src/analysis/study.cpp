@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "number_text.hpp"
 #include "quantities.hpp"
 #include "run_kinds.hpp"
 #include "springfold/statics/system.hpp"
@@ -143,6 +144,16 @@ void check_control(const Study& study, const model::Mechanism& mechanism,
   if (!moves) problems.push_back("actuators: control \"actuator\" needs one that moves");
 }
 
+void check_steps(const TraceSettings& t, std::vector<std::string>& problems) {
+  if (!(t.minimum_step > 0)) problems.push_back("trace.minimum_step: need a number > 0");
+  if (!(t.initial_step <= t.maximum_step))
+    problems.push_back("trace.initial_step: got " + rounded(t.initial_step) +
+                       ", need at most maximum_step, " + rounded(t.maximum_step));
+  if (!(t.minimum_step <= t.initial_step))
+    problems.push_back("trace.minimum_step: got " + rounded(t.minimum_step) +
+                       ", need at most initial_step, " + rounded(t.initial_step));
+}
+
 void check_branches(const Study& study, std::vector<std::string>& problems) {
   const BranchSettings& b = study.branches;
   if (b.depth < 0) problems.push_back("branches.depth: need a whole number >= 0");
@@ -159,6 +170,27 @@ void check_branches(const Study& study, std::vector<std::string>& problems) {
     for (const Limit& limit : study.until)
       if (limit.quantity == "lambda" && !(limit.low <= lambda && lambda <= limit.high))
         problems.push_back("branches.search_at: a value lies outside the limits of lambda");
+  }
+}
+
+/// Jumps need all special points, and names of joints that exist.
+void check_snap(const Study& study, const model::Mechanism& mechanism,
+                std::vector<std::string>& problems) {
+  if (!study.snap) return;
+  if (study.kind != StudyKind::force_deflection)
+    problems.push_back("snap: only studies that trace branches have jumps");
+  if (study.path == Path::davidenko)
+    problems.push_back("snap: path = \"davidenko\" finds no branch points, need \"arc_length\"");
+  if (study.snap->starts < 0) problems.push_back("snap.starts: need a whole number >= 0");
+  const statics::System system = statics::prepare(mechanism);
+  for (const JointDamping& damping : study.snap->damping) {
+    bool found = false;
+    for (Index i = 0; i < system.first_pose; ++i)
+      found |= !system.is_wrench[static_cast<std::size_t>(i)] &&
+               system.coordinate_names[static_cast<std::size_t>(i)] == damping.joint;
+    if (!found) problems.push_back("snap.damping: no joint coordinate \"" + damping.joint + "\"");
+    if (!(damping.value > 0) || !std::isfinite(damping.value))
+      problems.push_back("snap.damping." + damping.joint + ": need a number > 0");
   }
 }
 
@@ -193,6 +225,7 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   if (study.body < 1 || study.body > static_cast<Index>(mechanism.bodies.size()))
     return {"body: no such moving body"};
   if (is_of_commands(study.kind)) return problems_of_kind(study, mechanism);
+  if (is_of_critical_points(study.kind)) return problems_of_critical(study, mechanism);
   const model::Body& body = mechanism.bodies[static_cast<std::size_t>(study.body - 1)];
   const Index d = dimension(body.task_space);
   if (study.constant_load.size() != 0 &&
@@ -207,17 +240,18 @@ std::vector<std::string> problems_in(const Study& study, const model::Mechanism&
   check_start(study, mechanism, body, problems);
   check_control(study, mechanism, problems);
   const TraceSettings& t = study.trace;
-  if (!(0 < t.minimum_step && t.minimum_step <= t.initial_step && t.initial_step <= t.maximum_step))
-    problems.push_back("trace: need 0 < minimum_step <= initial_step <= maximum_step");
+  check_steps(study.trace, problems);
   check_branches(study, problems);
   if (!(t.spacing >= 0)) problems.push_back("trace.spacing: must not be negative");
   if (t.maximum_points < 2) problems.push_back("trace.maximum_points: need at least 2");
   if (problems.empty()) check_quantities(study, mechanism, problems);
   if (problems.empty()) check_search(study, mechanism, problems);
+  check_snap(study, mechanism, problems);
   return problems;
 }
 
 std::vector<std::string> quantity_names(const Study& study, const model::Mechanism& mechanism) {
+  if (is_of_critical_points(study.kind)) return critical_columns(study, mechanism);
   std::vector<std::string> names;
   if (is_of_commands(study.kind)) {
     for (const Quantity& q : columns_of(study, mechanism)) names.push_back(q.name);

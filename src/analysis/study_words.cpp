@@ -17,6 +17,12 @@ std::string_view to_string(StudyKind kind) {
       return "map";
     case StudyKind::workspace:
       return "workspace";
+    case StudyKind::critical_curve:
+      return "critical_curve";
+    case StudyKind::threshold:
+      return "threshold";
+    case StudyKind::sensitivity:
+      return "sensitivity";
   }
   return "";
 }

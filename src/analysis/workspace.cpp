@@ -13,6 +13,7 @@
 #include "commanded.hpp"
 #include "number_text.hpp"
 #include "run_kinds.hpp"
+#include "springfold/continuation/interrupted.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -113,9 +114,10 @@ struct FaceEnd {
 
 class Region {
  public:
-  Region(const CommandSetup& setup, const WorkspaceSettings& settings, Vector centre)
+  Region(const CommandSetup& setup, const WorkspaceSettings& settings, Vector centre,
+         const Observer& observer)
       : setup_{setup},
-        settings_{settings},
+        observer_{observer},
         margin_{setup, settings},
         centre_{std::move(centre)},
         far_{settings.up_to / setup.scales.length} {
@@ -127,7 +129,7 @@ class Region {
   const Margin& margin() const { return margin_; }
   const statics::KinematicInverse& middle() const { return middle_; }
 
-  /// The nearest end over all rays.
+  /// The nearest end over all rays. @throws Interrupted once the observer wants no more
   RayEnd nearest() const {
     std::vector<FaceEnd> faces;
     double best = std::numeric_limits<double>::infinity();
@@ -159,6 +161,7 @@ class Region {
 
   /// @param limit  ends farther away do not matter
   RayEnd end_of(const Vector& u, double limit) const {
+    if (observer_ && !observer_(1, 0)) throw continuation::Interrupted{};
     statics::KinematicInverse near = middle_;
     double a = 0, m_a = margin_.value(middle_), before = m_a;
     for (int i = 1; i <= steps && a < limit; ++i) {
@@ -252,7 +255,7 @@ class Region {
 
   static constexpr double golden = 0.6180339887498949;
   const CommandSetup& setup_;
-  const WorkspaceSettings& settings_;
+  const Observer& observer_;
   Margin margin_;
   Vector centre_;
   double far_ = 1;
@@ -269,7 +272,8 @@ std::string coordinates_of(const Vector& pose) {
 
 }  // namespace
 
-StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study) {
+StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study,
+                          const Observer& observer) {
   const std::clock_t began = std::clock();
   StudyResult result;
   result.study = study.name;
@@ -279,7 +283,7 @@ StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study)
   const Vector centre = settings.centre.size() > 0
                             ? Vector(settings.centre.cwiseQuotient(setup.pose_scale))
                             : setup.pose;
-  const Region region(setup, settings, centre);
+  const Region region(setup, settings, centre, observer);
   const Margin& margin = region.margin();
   result.start.attempts = 1;
   result.start.method = "root finding along rays from the centre";
@@ -296,8 +300,14 @@ StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study)
                            margin.nearest_bound(margin.factors(region.middle())) + " or is beyond";
     return finished();
   }
+  RayEnd end;
+  try {
+    end = region.nearest();
+  } catch (const continuation::Interrupted&) {  // a region that is half looked over is none
+    result.start.message = "interrupted";
+    return finished();
+  }
   result.start.found = true;
-  const RayEnd end = region.nearest();
   Sample sample;
   Branch& branch = result.branches.emplace_back();
   branch.backward = branch.forward = {"one region", true};

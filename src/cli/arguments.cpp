@@ -1,7 +1,10 @@
 #include "arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
 
+#include "springfold/io/nearest.hpp"
 #include "springfold/version.hpp"
 
 namespace springfold::cli {
@@ -21,13 +24,13 @@ constexpr const char* examples =
     "  springfold run case.toml --json --no-plots > summary.json\n"
     "      for other programs\n"
     "  springfold check case.toml\n"
-    "      reads the case, says what it contains or what is wrong with it\n"
+    "      reads the case, solves its starts, says what it contains or what is wrong with it\n"
     "  springfold verify cases\n"
     "      all cases of a folder against their expected values, one table\n"
     "\n"
     "Exit codes: 0 all done, 2 wrong usage, 3 mistakes in the case file, 4 no trustworthy start\n"
     "point, 5 partial (stopped early, unresolved, or a compared value does not hold),\n"
-    "6 input or output, 70 internal error, 130 and 143 interrupted.";
+    "6 input or output, 7 out of memory, 70 internal error, 130 and 143 interrupted.";
 
 /// Adds "name=value"; false if it has not that form or the name was there already.
 bool add_override(const std::string& text, std::map<std::string, std::string>& overrides,
@@ -43,6 +46,23 @@ bool add_override(const std::string& text, std::map<std::string, std::string>& o
   return false;
 }
 
+/// The first word, if it is no command: with the nearest one, or with all of them.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.empty() || word.front() == '-' ||
+      std::find(commands.begin(), commands.end(), word) != commands.end())
+    return std::nullopt;
+  if (word.ends_with(".toml"))
+    return "\"" + word + "\" is no command; did you mean \"springfold run " + word + "\"?";
+  const std::string near = io::nearest(word, commands);
+  std::string list;
+  for (const std::string& command : commands) list += (list.empty() ? "" : ", ") + command;
+  return "no command \"" + word + "\"" +
+         (near.empty() ? "; there are: " + list : ", did you mean \"" + near + "\"?");
+}
+
 }  // namespace
 
 ParsedArguments parse_arguments(int argc, const char* const* argv) {
@@ -55,7 +75,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   app.set_version_flag("--version", "springfold " + std::string{version});
 
   CLI::App* run = app.add_subcommand("run", "Run the studies of a case file");
-  CLI::App* check = app.add_subcommand("check", "Read and check a case file, run nothing");
+  CLI::App* check =
+      app.add_subcommand("check", "Read and check a case file and solve its starts, trace nothing");
   for (CLI::App* command : {run, check}) {
     command->add_option("CASE", arguments.case_file, "Case file (TOML)")->required();
     command
@@ -63,6 +84,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
   }
+  bool is_without_solving = false;
+  check->add_flag("--no-solve", is_without_solving, "Do not close the chains and solve the starts");
   run->add_option("--study", arguments.studies, "Run this study only; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -100,12 +123,13 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
     parsed.text = std::string{call.what()} + "\n";
     return parsed;
   } catch (const CLI::ParseError& mistake) {
-    parsed.error = mistake.what();
+    parsed.error = unknown_command(app, argc, argv).value_or(mistake.what());
     return parsed;
   }
   for (const auto& text : settings)
     if (!add_override(text, arguments.overrides, parsed.error)) return parsed;
   arguments.draws_plots = !is_without_plots;
+  arguments.solves_starts = !is_without_solving;
   arguments.command = run->parsed()      ? Command::run
                       : verify->parsed() ? Command::verify
                                          : Command::check;

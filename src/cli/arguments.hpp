@@ -20,6 +20,7 @@ struct Arguments {
   int threads = 0;                                 ///< --threads; 0: all cores
   bool resumes = false;                            ///< --resume
   bool draws_plots = true;
+  bool solves_starts = true;  ///< check only
   bool prints_json = false;
   bool prints_csv = false;                     ///< verify only
   std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them

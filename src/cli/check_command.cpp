@@ -5,7 +5,12 @@
 #include <algorithm>
 
 #include "exit_code.hpp"
+#include "messages.hpp"
 #include "selection.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/io/read_case.hpp"
+#include "springfold/io/shown_text.hpp"
+#include "springfold/io/start_text.hpp"
 
 namespace springfold::cli {
 
@@ -56,11 +61,12 @@ std::string body_name(const Mechanism& mechanism, Index body) {
 }
 
 /// "drive (prismatic, actuated, with drive spring)".
-std::string text_of(const Joint& joint) {
+std::string text_of(const Joint& joint, bool is_coupled) {
   const bool has_drive_spring = joint.role == JointRole::actuated && joint.spring.has_value();
-  return fmt::format("{} ({}, {}{})", joint.name,
+  return fmt::format("{} ({}, {}{}{})", joint.name,
                      joint.kind == JointKind::revolute ? "revolute" : "prismatic",
-                     word_of(joint.role), has_drive_spring ? ", with drive spring" : "");
+                     word_of(joint.role), has_drive_spring ? ", with drive spring" : "",
+                     is_coupled ? ", coupled" : "");
 }
 
 /// "foot (elastic in Tx Ty Tz Rx Ry Rz)".
@@ -78,14 +84,21 @@ std::string text_of(const Mechanism& mechanism, const model::Chain& chain) {
   Index links = 0;
   // An elastic link is named once, not by its up to six virtual joints.
   std::vector<const model::CoupledSpring*> coupled(chain.elements.size(), nullptr);
+  std::vector<bool> shares(chain.elements.size(), false);  // a preloaded joint of a coupled spring
   for (const model::CoupledSpring& spring : chain.coupled_springs)
-    for (const std::size_t i : spring.elements) coupled[i] = &spring;
+    for (const std::size_t i : spring.elements) {
+      const bool preloaded = std::get<Joint>(chain.elements[i]).role == JointRole::preloaded;
+      if (preloaded)
+        shares[i] = true;
+      else
+        coupled[i] = &spring;
+    }
   for (std::size_t i = 0; i < chain.elements.size(); ++i) {
     const auto* joint = std::get_if<Joint>(&chain.elements[i]);
     if (joint == nullptr) ++links;
     if (joint == nullptr || (coupled[i] && coupled[i]->elements.front() != i)) continue;
-    joints +=
-        (joints.empty() ? "" : ", ") + (coupled[i] ? text_of(chain, *coupled[i]) : text_of(*joint));
+    joints += (joints.empty() ? "" : ", ") +
+              (coupled[i] ? text_of(chain, *coupled[i]) : text_of(*joint, shares[i]));
   }
   return fmt::format("  chain     {}: {} to {}, {}\n            joints: {}\n", chain.name,
                      body_name(mechanism, chain.from), body_name(mechanism, chain.to),
@@ -124,18 +137,19 @@ std::string study_text(const io::Case& the_case, const std::string& name) {
   if (branches.depth > 0) more += fmt::format(", branches to depth {}", branches.depth);
   if (!branches.search_at.empty())
     more += ", searches at " + counted(std::ssize(branches.search_at), "value") + " of lambda";
-  return fmt::format("  study     {} ({}{}{}), {}{}\n", name, to_string(first->plan.kind),
+  return fmt::format("  study     {} ({}{}{}), {}{}\n", io::shown(name),
+                     to_string(first->plan.kind),
                      is_curve ? ", control " + std::string(to_string(first->plan.control)) : "",
-                     more, counted(runs, "run"), labels);
+                     more, counted(runs, "run"), io::shown(labels));
 }
 
 }  // namespace
 
 std::string description_of(const io::Case& the_case) {
-  std::string text = the_case.file.string() + ": no mistakes found\n";
-  if (!the_case.title.empty()) text += "  title     " + the_case.title + "\n";
-  text +=
-      fmt::format("  units     length {}, force {}\n", the_case.units.length, the_case.units.force);
+  std::string text = io::shown(the_case.file.string()) + ": no mistakes found\n";
+  if (!the_case.title.empty()) text += "  title     " + io::shown(the_case.title) + "\n";
+  text += fmt::format("  units     length {}, force {}\n", io::shown(the_case.units.length),
+                      io::shown(the_case.units.force));
   if (!the_case.runs.empty()) {
     const Mechanism& mechanism = the_case.runs.front().mechanism;
     for (const auto& body : mechanism.bodies)
@@ -152,11 +166,68 @@ std::string description_of(const io::Case& the_case) {
   return text;
 }
 
+namespace {
+
+/// "push, run 2 (Kv = 0.01)".
+std::string name_of(const io::PlannedRun& planned) {
+  return planned.study + ", run " + std::to_string(planned.run) +
+         (planned.label.empty() ? "" : " (" + planned.label + ")");
+}
+
+/// One line for a start that is found but deserves a word.
+std::string remark_on(const analysis::StartReport& start) {
+  if (start.free_motions.empty()) return {};
+  return fmt::format("nothing resists a motion of {}", start.free_motions);
+}
+
+/// Solves the starts of all runs up to a number that is solved in no time.
+int check_starts(const io::Case& the_case, const Session& session) {
+  constexpr std::size_t most = 50;
+  std::size_t tried = 0, found = 0, left_out = 0;
+  int code = all_done;
+  for (const auto& planned : the_case.runs) {
+    if (session.signal() != 0) break;
+    if (tried == most) {
+      ++left_out;
+      continue;
+    }
+    const auto* family = planned.family ? &*planned.family : nullptr;
+    const auto start = analysis::solve_start(planned.mechanism, planned.plan, family);
+    if (!start) continue;
+    ++tried;
+    const bool may_miss = planned.plan.kind == StudyKind::equilibria && !start->found;
+    const std::string problem = io::start_problem(*start, &planned);
+    if (may_miss)
+      session.out << "  remark    " << io::shown(name_of(planned)) << ": none near the guess ("
+                  << io::shown(problem) << "); the search looks elsewhere too\n";
+    else if (!problem.empty())
+      say(session.err,
+          name_of(planned) + ": " +
+              (start->found ? "nothing would be traced: " : "no trustworthy start point: ") +
+              problem);
+    if (!problem.empty() && !may_miss) code = no_start_point;
+    if (problem.empty()) ++found;
+    if (const std::string remark = remark_on(*start); problem.empty() && !remark.empty())
+      session.out << "  remark    " << io::shown(name_of(planned) + ": " + remark) << "\n";
+  }
+  if (tried > 0)
+    session.out << "  starts    " << found << " of " << tried << " found"
+                << (left_out > 0 ? fmt::format("; {} more runs were not tried", left_out) : "")
+                << "\n";
+  return session.signal() != 0 ? interrupted_by(session.signal()) : code;
+}
+
+}  // namespace
+
 int check_command(const Arguments& arguments, const Session& session) {
-  session.out << description_of(io::load_case(arguments.case_file, arguments.overrides));
+  const io::Case the_case =
+      io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
+  session.out << description_of(the_case);
+  for (const auto& hint : the_case.hints) session.out << "  hint      " << io::shown(hint) << "\n";
+  const int code = arguments.solves_starts ? check_starts(the_case, session) : all_done;
   session.out.flush();
-  if (session.out.good()) return all_done;
-  session.err << "springfold: cannot write to standard output\n";
+  if (session.out.good()) return code;
+  say(session.err, "cannot write to standard output");
   return input_output;
 }
 

@@ -10,6 +10,7 @@ enum ExitCode : int {
   no_start_point = 4,  ///< no trustworthy start point in at least one run
   partial = 5,         ///< stopped early, unresolved, or a compared value does not hold
   input_output = 6,
+  out_of_memory = 7,  ///< what was finished before is written
   internal_error = 70,
 };
 

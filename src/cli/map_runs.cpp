@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
+#include "messages.hpp"
 #include "springfold/io/checkpoint.hpp"
 
 namespace springfold::cli {
@@ -16,9 +18,9 @@ analysis::StudyResult run_map(const Arguments& arguments, const std::filesystem:
   if (known) {
     options.known = &*known;
     progress.clear();
-    session.err << "springfold: " << planned.study << ", run " << planned.run << ": "
-                << std::count(known->done.begin(), known->done.end(), true) << " of "
-                << known->done.size() << " nodes are known already\n";
+    say(session.err, planned.study + ", run " + std::to_string(planned.run) + ": " +
+                         std::to_string(std::count(known->done.begin(), known->done.end(), true)) +
+                         " of " + std::to_string(known->done.size()) + " nodes are known already");
   }
   bool can_write = true;
   options.checkpoint = [&](const analysis::PartialRows& rows) {
@@ -27,7 +29,7 @@ analysis::StudyResult run_map(const Arguments& arguments, const std::filesystem:
       io::write_checkpoint(folder, the_case, planned, rows);
     } catch (const std::runtime_error& error) {  // the results are what counts
       can_write = false;
-      session.err << "springfold: warning: no checkpoint: " << error.what() << "\n";
+      say(session.err, std::string{"warning: no checkpoint: "} + error.what());
     }
   };
   return session.run_map(

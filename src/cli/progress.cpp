@@ -1,9 +1,11 @@
 #include "progress.hpp"
 
+#include "springfold/io/shown_text.hpp"
+
 namespace springfold::cli {
 
-void Progress::begin(std::string what) {
-  what_ = std::move(what);
+void Progress::begin(const std::string& what) {
+  what_ = io::shown(what);
   began_ = std::chrono::steady_clock::now();
   shown_ = {};
   write(what_ + ": looking for the start point");

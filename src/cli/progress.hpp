@@ -14,7 +14,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress() { clear(); }
 
-  void begin(std::string what);
+  void begin(const std::string& what);
   void points(int count);
   /// The part of a known amount of work that is done: a bar, and the time that is left.
   void part(double done);

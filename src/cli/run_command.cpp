@@ -2,15 +2,22 @@
 
 #include <algorithm>
 #include <csignal>
+#include <functional>
+#include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "exit_code.hpp"
 #include "map_runs.hpp"
+#include "messages.hpp"
 #include "progress.hpp"
 #include "selection.hpp"
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
+#include "springfold/io/read_case.hpp"
+#include "springfold/io/result_folder.hpp"
 #include "springfold/io/results.hpp"
+#include "springfold/io/start_text.hpp"
 
 namespace springfold::cli {
 
@@ -19,45 +26,74 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::StudyResult;
 using io::Case;
+using io::PlannedRun;
 
 std::string name_of(const StudyResult& result) {
   return result.study + ", run " + std::to_string(result.run) +
          (result.label.empty() ? "" : " (" + result.label + ")");
 }
 
-void say(const Session& session, const std::string& message) {
-  session.err << "springfold: " << message << "\n";
-}
+void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
 
-/// Runs until all is done or a signal comes. The run that the signal stops is kept as well.
-std::vector<StudyResult> run_all(const Arguments& arguments, const fs::path& folder,
-                                 const Case& the_case, const Session& session) {
-  std::vector<StudyResult> results;
-  Progress progress{session.err, session.shows_progress};
-  for (const auto& planned : the_case.runs) {
-    if (session.signal() != 0) break;
-    const auto number = std::to_string(results.size() + 1) + "/" +
-                        std::to_string(the_case.runs.size()) + " " + planned.study;
-    progress.begin(planned.label.empty() ? number : number + ", " + planned.label);
-    const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
-    StudyResult result = is_map ? run_map(arguments, folder, the_case, planned, session, progress)
-                                : session.run_study(planned, [&](int points, double) {
-                                    progress.points(points);
-                                    return session.signal() == 0;
-                                  });
-    result.study = planned.study;
-    result.run = planned.run;
-    result.label = planned.label;
-    results.push_back(std::move(result));
+struct Results {
+  std::vector<StudyResult> list{};
+  bool last_interrupted = false;  ///< a signal ended the last one
+  bool fits_into_memory = true;   ///< false: ended because one did not
+
+  bool all_done(const Case& the_case) const {
+    return list.size() == the_case.runs.size() && !last_interrupted;
   }
-  return results;
+};
+
+/// Runs until all is done or a signal comes. The run that the signal stops is kept as well; one for
+/// which there is not enough memory is not.
+Results run_all(const Arguments& arguments, const fs::path& folder, const Case& the_case,
+                const Session& session) {
+  Results all;
+  auto& results = all.list;
+  results.reserve(the_case.runs.size());
+  Progress progress{session.err, session.shows_progress};
+  for (const auto& planned : the_case.runs) try {
+      if (session.signal() != 0) break;
+      const auto number = std::to_string(results.size() + 1) + "/" +
+                          std::to_string(the_case.runs.size()) + " " + planned.study;
+      progress.begin(planned.label.empty() ? number : number + ", " + planned.label);
+      const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
+      StudyResult result = is_map ? run_map(arguments, folder, the_case, planned, session, progress)
+                                  : session.run_study(planned, [&](int points, double) {
+                                      progress.points(points);
+                                      return session.signal() == 0;
+                                    });
+      result.study = planned.study;
+      result.run = planned.run;
+      result.label = planned.label;
+      all.last_interrupted = session.signal() != 0 && !analysis::complete(result);
+      results.push_back(std::move(result));
+    } catch (const std::bad_alloc&) {
+      all.fits_into_memory = false;
+      break;
+    } catch (const std::length_error&) {
+      all.fits_into_memory = false;
+      break;
+    }
+  return all;
 }
 
 /// Says what is missing in a result and gives its exit code.
-int judge(const StudyResult& result, const Session& session) {
+int judge(const Case& the_case, const StudyResult& result, const Session& session) {
+  const auto planned =
+      std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const io::PlannedRun& run) {
+        return run.study == result.study && run.run == result.run;
+      });
+  const std::string problem =
+      io::start_problem(result.start, planned == the_case.runs.end() ? nullptr : &*planned);
   if (!result.start.found) {
-    say(session, name_of(result) + ": no trustworthy start point: " + result.start.message);
+    say(session, name_of(result) + ": no trustworthy start point: " + problem);
     return no_start_point;
+  }
+  if (!problem.empty()) {
+    say(session, name_of(result) + ": nothing was traced: " + problem);
+    return partial;
   }
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
@@ -81,10 +117,16 @@ int worse(int a, int b) {
   return std::max(a, b);
 }
 
-int judge_all(const std::vector<StudyResult>& results,
+int judge_all(const Case& the_case, const Results& results,
               const std::vector<io::Comparison>& comparisons, const Session& session) {
   int code = all_done;
-  for (const auto& result : results) code = worse(code, judge(result, session));
+  for (const auto& result : results.list) {
+    const bool was_interrupted = results.last_interrupted && &result == &results.list.back();
+    if (was_interrupted)
+      say(session, name_of(result) + ": interrupted");
+    else
+      code = worse(code, judge(the_case, result, session));
+  }
   const auto failed = std::count_if(comparisons.begin(), comparisons.end(),
                                     [](const io::Comparison& c) { return !c.holds; });
   if (failed == 0) return code;
@@ -108,24 +150,100 @@ bool print(const Arguments& arguments, const Case& the_case,
   return session.out.good();
 }
 
-void draw(const fs::path& folder, const Case& the_case, const std::vector<StudyResult>& results,
-          const Session& session) {
-  const io::PlotOptions options{.stop_requested = [&] { return session.signal() != 0; }};
+/// @returns the pictures that are missing
+std::vector<std::string> draw(const fs::path& folder, const Case& the_case,
+                              const std::vector<StudyResult>& results, const Session& session) {
+  const io::PlotOptions options{.stop_requested = stop_request_of(session)};
   const auto outcome = io::draw_plots(folder, the_case, results, options);
   for (const auto& warning : outcome.warnings) say(session, "warning: " + warning);
   if (!outcome.files.empty())
     say(session,
         std::to_string(outcome.files.size()) + " pictures in " + (folder / "plots").string());
+  return outcome.missing;
 }
 
 std::string signal_name(int signal) {
   return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "a signal";
 }
 
+/// What a signal left: never that all is complete.
+std::string interruption(int signal, const Case& the_case, const Results& results,
+                         const std::vector<std::string>& missing, const fs::path& folder) {
+  const std::string begin = "interrupted by " + signal_name(signal);
+  if (!results.all_done(the_case)) {
+    const auto whole = std::count_if(results.list.begin(), results.list.end(), analysis::complete);
+    return begin + ": " + std::to_string(whole) + " of " + std::to_string(the_case.runs.size()) +
+           " runs are complete; what was found until then is in " + folder.string();
+  }
+  std::string pictures;
+  for (const std::string& picture : missing) pictures += (pictures.empty() ? "" : ", ") + picture;
+  return begin + " after all runs were done: their results are in " + folder.string() +
+         (pictures.empty() ? "" : "; not drawn: " + pictures);
+}
+
+/// The run for which there was not enough memory is the one behind those that were done.
+std::string shortage(const Case& the_case, const std::vector<StudyResult>& results) {
+  const PlannedRun& failed = the_case.runs[results.size()];
+  return "out of memory in " + failed.study + ", run " + std::to_string(failed.run) + ": " +
+         std::to_string(results.size()) + " of " + std::to_string(the_case.runs.size()) +
+         " runs were done and are written";
+}
+
+/// Says what keeps `write` from its work. @returns whether it was done
+bool is_done(const std::function<void()>& write, const Session& session) {
+  try {
+    write();
+    return true;
+  } catch (const std::runtime_error& error) {
+    say(session, error.what());
+    return false;
+  }
+}
+
+/// Runs all, writes, prints, draws. @returns the exit code
+int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_case,
+           const Session& session) {
+  const Results all = run_all(arguments, folder, the_case, session);
+  const std::vector<StudyResult>& results = all.list;
+  const bool is_whole = all.all_done(the_case);
+  const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
+  const auto write = [&] {
+    io::write_results(folder, the_case, results,
+                      arguments.draws_plots ? io::SetState::being_written : state);
+    if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
+  };
+  if (!is_done(write, session)) return input_output;
+  const auto comparisons = io::compare(the_case.expected, results);
+  const bool is_printed = print(arguments, the_case, results, comparisons, session);
+  int code = judge_all(the_case, all, comparisons, session);
+  if (code != all_done)
+    for (const auto& hint : the_case.hints) say(session, "hint: " + hint);
+  say(session,
+      "curves in " + (folder / "branches").string() + ", tables and summary in " + folder.string());
+  std::vector<std::string> missing;
+  if (arguments.draws_plots) {
+    missing = draw(folder, the_case, results, session);
+    if (!is_done([&] { io::close_results(folder, state, missing); }, session)) code = input_output;
+  }
+  if (!is_printed) {
+    say(session, "cannot write to standard output");
+    code = input_output;
+  }
+  if (!all.fits_into_memory) {
+    say(session, shortage(the_case, results));
+    code = out_of_memory;
+  }
+  if (const int signal = session.signal(); signal != 0) {
+    say(session, interruption(signal, the_case, all, missing, folder));
+    code = interrupted_by(signal);
+  }
+  return code;
+}
+
 }  // namespace
 
 int run_command(const Arguments& arguments, const Session& session) {
-  Case the_case = io::load_case(arguments.case_file, arguments.overrides);
+  Case the_case = io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
   if (const auto problem = unknown_study(the_case, arguments.studies); !problem.empty()) {
     say(session, problem);
     return wrong_usage;
@@ -137,33 +255,10 @@ int run_command(const Arguments& arguments, const Session& session) {
     return input_output;
   }
 
-  const auto results = run_all(arguments, folder, the_case, session);
-  try {
-    io::write_results(folder, the_case, results);
-    const bool all_ran = results.size() == the_case.runs.size();
-    if (all_ran && session.signal() == 0) io::remove_checkpoints(folder, the_case);
-  } catch (const std::runtime_error& error) {
-    say(session, error.what());
-    return input_output;
-  }
-  const auto comparisons = io::compare(the_case.expected, results);
-  const bool is_printed = print(arguments, the_case, results, comparisons, session);
-  int code = judge_all(results, comparisons, session);
-  say(session,
-      "curves in " + (folder / "branches").string() + ", tables and summary in " + folder.string());
-  if (arguments.draws_plots && session.signal() == 0) draw(folder, the_case, results, session);
-  if (!is_printed) {
-    say(session, "cannot write to standard output");
-    code = input_output;
-  }
-  if (const int signal = session.signal(); signal != 0) {
-    const auto whole = std::count_if(results.begin(), results.end(), analysis::complete);
-    say(session, "interrupted by " + signal_name(signal) + ": " + std::to_string(whole) + " of " +
-                     std::to_string(the_case.runs.size()) +
-                     " runs are complete; what was found until then is in " + folder.string());
-    code = interrupted_by(signal);
-  }
-  return code;
+  std::optional<io::FolderLock> lock;
+  if (!is_done([&] { lock.emplace(folder); }, session)) return input_output;
+  io::remove_leftovers(folder);
+  return run_in(folder, arguments, the_case, session);
 }
 
 }  // namespace springfold::cli

@@ -1,12 +1,16 @@
 #include "run_main.hpp"
 
 #include <exception>
+#include <new>
+#include <stdexcept>
 
 #include "arguments.hpp"
 #include "check_command.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
+#include "messages.hpp"
 #include "run_command.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "verify_command.hpp"
 
 namespace springfold::cli {
@@ -28,7 +32,8 @@ analysis::StudyResult run_planned_map(const io::PlannedRun& planned,
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
                bool shows_progress) {
   if (!parsed.error.empty()) {
-    err << "springfold: " << parsed.error << "\nspringfold: try springfold --help\n";
+    say(err, parsed.error);
+    say(err, "try springfold --help");
     return wrong_usage;
   }
   if (!parsed.arguments) {
@@ -62,12 +67,21 @@ int run_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
   } catch (const io::CaseError& error) {
     // Bare lines: editors jump to "file:line:column".
     for (const auto& message : error.messages()) err << message << "\n";
-    err << "springfold: nothing was run and nothing was written\n";
+    say(err, "nothing was run and nothing was written");
     return wrong_case_file;
+  } catch (const continuation::Interrupted&) {
+    say(err, "interrupted while the case was read: nothing was run and nothing was written");
+    return interrupted_by(InterruptGuard::signal());
+  } catch (const std::bad_alloc&) {
+    err << out_of_memory_text;  // there may be no memory for a message that is put together
+    return out_of_memory;
+  } catch (const std::length_error&) {  // a container cannot be as large
+    err << out_of_memory_text;
+    return out_of_memory;
   } catch (const std::exception& error) {
-    err << "springfold: internal error: " << error.what() << "\n";
+    say(err, std::string{"internal error: "} + error.what());
   } catch (...) {
-    err << "springfold: internal error\n";
+    say(err, "internal error");
   }
   return internal_error;
 }

@@ -78,7 +78,10 @@ io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted)
 fs::path default_folder(const fs::path& case_file) {
   const fs::path full = fs::absolute(case_file).lexically_normal();
   const bool has_plain_name = full.stem() == "case" && full.parent_path().has_filename();
-  return fs::path{"results"} / (has_plain_name ? full.parent_path().filename() : full.stem());
+  if (has_plain_name) return fs::path{"results"} / full.parent_path().filename();
+  // Without their ending "..toml" and "...toml" are names of folders above.
+  const bool leads_up = full.stem() == "." || full.stem() == "..";
+  return fs::path{"results"} / (leads_up ? full.filename() : full.stem());
 }
 
 std::string problem_with_folder(const fs::path& folder) {

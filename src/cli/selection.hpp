@@ -19,7 +19,8 @@ std::string unknown_study(const io::Case& the_case, const std::vector<std::strin
 /// The case with these studies only: their runs, figures and expected values. Empty: all.
 io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted);
 
-/// results/<name>: the name of the case file, or of its folder if the file is called "case".
+/// results/<name>: the name of the case file without its ending, or of its folder if the file is
+/// called "case"; always below results.
 std::filesystem::path default_folder(const std::filesystem::path& case_file);
 
 /// Creates the folder and tries to write into it. Empty if that works, otherwise path and reason.

@@ -24,4 +24,10 @@ struct Session {
   RunMap run_map{};  ///< maps, which have options; empty: run_study runs them too
 };
 
+/// For what runs long: is there a signal?
+inline std::function<bool()> stop_request_of(const Session& session) {
+  if (!session.signal) return {};
+  return [signal = session.signal] { return signal() != 0; };
+}
+
 }  // namespace springfold::cli

@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "exit_code.hpp"
+#include "messages.hpp"
+#include "springfold/io/read_case.hpp"
 #include "springfold/io/verification.hpp"
 
 namespace springfold::cli {
@@ -14,9 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using io::VerifiedCase;
 
-void say(const Session& session, const std::string& message) {
-  session.err << "springfold: " << message << "\n";
-}
+void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
 
 bool is_case_file(const fs::path& path) {
   const std::string name = path.filename().string();
@@ -91,7 +91,7 @@ bool load_all(const std::vector<fs::path>& files, std::vector<VerifiedCase>& cas
               const Session& session) {
   bool all = true;
   for (const fs::path& file : files) try {
-      cases.push_back({name_of(file), io::load_case(file), {}, {}});
+      cases.push_back({name_of(file), io::load_case(file, {}, stop_request_of(session)), {}, {}});
     } catch (const io::CaseError& error) {
       for (const auto& message : error.messages()) session.err << message << "\n";
       all = false;

@@ -1,10 +1,10 @@
 #include "arnoldi.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "extended.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 
@@ -34,13 +34,9 @@ bool Arnoldi::add() {
 }
 
 double Arnoldi::largest() const {
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_steps, most_steps>;
-  const Small M = H_.topLeftCorner(size_, size_);
+  const SmallMatrix M = H_.topLeftCorner(size_, size_);
   if (!M.allFinite()) return std::numeric_limits<double>::infinity();
-  const Eigen::EigenSolver<Small> solver(M, false);
-  double largest = 0;
-  for (Index i = 0; i < size_; ++i) largest = std::max(largest, std::abs(solver.eigenvalues()[i]));
-  return largest;
+  return spectral_radius(M);
 }
 
 }  // namespace springfold::continuation

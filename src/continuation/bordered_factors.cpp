@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
@@ -94,8 +95,7 @@ bool BorderedFactors::border_general() {
   storage_.resize(n_ + 1, n_ + 1);
   storage_ << at_->dF_dx, at_->dF_dlambda, row_.transpose(), corner_;
   large_.compute(storage_);
-  const auto pivots = large_.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() > singular_pivot * pivots.maxCoeff();
+  return large_.smallest_pivot() > singular_pivot * large_.largest_pivot();
 }
 
 bool BorderedFactors::set_border(const Vector& weights, const Direction& border) {
@@ -167,7 +167,7 @@ bool BorderedFactors::solve(double* x) {
     case Way::large: {
       Eigen::Map<Vector> solution(x, n_ + 1);
       right_ = solution;
-      solution = large_.solve(right_);
+      large_.solve(right_, solution);
       return true;
     }
     case Way::structured:
@@ -187,7 +187,7 @@ void BorderedFactors::invert(std::span<const Index> rows, Matrix& columns) {
     if (way_ == Way::small)
       front_->solve(columns);
     else
-      columns = large_.solve(columns).eval();
+      columns = large_.solve(columns);
     return;
   }
   constexpr int width = 4;

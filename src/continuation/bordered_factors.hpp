@@ -1,13 +1,13 @@
 // One factorisation for everything that is asked at a place of the curve. Private to the engine.
 #pragma once
 
-#include <Eigen/LU>
 #include <array>
 #include <optional>
 #include <span>
 
 #include "small_lu.hpp"
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/small_symmetric.hpp"
 
 namespace springfold::continuation {
@@ -71,9 +71,9 @@ class BorderedFactors {
   alignas(
       16) std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
   alignas(16) std::array<double, capacity> z_;  ///< L^-1 of the row
-  double last_ = 0;                      ///< what is left of the corner where no pivot was put off
-  std::optional<SmallLu> front_{};       ///< R with its borders; or all of it
-  Eigen::PartialPivLU<Matrix> large_{};  ///< all of it
+  double last_ = 0;                 ///< what is left of the corner where no pivot was put off
+  std::optional<SmallLu> front_{};  ///< R with its borders; or all of it
+  Lu large_{};                      ///< all of it
   Matrix storage_{};
   Vector right_{};
   FrontalBorders borders_{};

@@ -1,7 +1,5 @@
 #include "springfold/continuation/branch_point.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "extended.hpp"
 #include "reduced_equation.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -36,8 +35,7 @@ double least_rate(const ReducedEquation& e, double largest) {
 }
 
 /// One step from U with the kernels of e: first what F asks for across them, then along them from there.
-std::optional<Vector> step_from(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
-                                const Vector& U) {
+std::optional<Vector> step_from(const ReducedEquation& e, const Svd& rate, const Vector& U) {
   Vector F;
   if (!residual_at(e, U, F)) return std::nullopt;
   Vector right = Vector::Zero(F.size() + e.k + 1);
@@ -65,8 +63,7 @@ struct Places {
   double scatter = HUGE_VAL;  ///< largest distance from the mean
 };
 
-Places places_around(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate,
-                     const Vector& U, int number) {
+Places places_around(const ReducedEquation& e, const Svd& rate, const Vector& U, int number) {
   std::vector<Vector> ends;
   Places places{.mean = Vector::Zero(U.size())};
   for (int k = 0; k < number; ++k) {
@@ -94,7 +91,7 @@ double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double 
 
 /// Puts U, which is exact up to rounding, where many steps agree.
 /// @returns the estimated error
-double settle(const ReducedEquation& e, const Eigen::JacobiSVD<Matrix>& rate, Vector& U) {
+double settle(const ReducedEquation& e, const Svd& rate, Vector& U) {
   const Places few = places_around(e, rate, U, 4);
   if (!(few.scatter > 1e-12 * e.scale) || !std::isfinite(few.scatter)) return few.scatter;
   constexpr int many = 32;
@@ -129,7 +126,7 @@ std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point)
   Linearisation at;
   if (!linearise_densely(walker.problem, point.x, point.lambda, point.piece, at))
     return std::nullopt;
-  return Eigen::SelfAdjointEigenSolver<Matrix>(at.dF_dx, Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigenvalues(at.dF_dx);
 }
 
 double least_eigenvalue(const Walker& walker, const CurvePoint& point) {
@@ -166,8 +163,8 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
     place.point.lambda = U[n];
     const auto e = reduce(walker, place.point, corank);
     if (!e) return std::nullopt;
-    Eigen::JacobiSVD<Matrix> rate(rate_in_kernels(*e), Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Vector& values = rate.singularValues();
+    const Svd rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
+    const Vector& values = rate.values;
     if (!(values[corank] > least_rate(*e, values[0]))) return std::nullopt;
     const auto step = step_from(*e, rate, U);
     if (!step) return std::nullopt;

@@ -1,12 +1,11 @@
 #include "cluster.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "chebyshev.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "watched_step.hpp"
 
 namespace springfold::continuation {
@@ -24,7 +23,7 @@ Roots roots_of(const Interpolant& p) {
     for (Index k = 0; k < n; ++k) powers(i, k) = std::pow(t, static_cast<double>(k));
     values[i] = p.values(0, i);
   }
-  Vector c = powers.partialPivLu().solve(values);
+  Vector c = Lu(powers).solve(values);
   // Coefficients that rounding alone may have made would have zeros far away.
   Index degree = n - 1;
   while (degree > 0 && std::abs(c[degree]) <= 1e-11 * c.cwiseAbs().maxCoeff()) --degree;
@@ -32,8 +31,8 @@ Roots roots_of(const Interpolant& p) {
   Matrix companion = Matrix::Zero(degree, degree);
   companion.bottomLeftCorner(degree - 1, degree - 1).setIdentity();
   companion.col(degree - 1) = -c.head(degree) / c[degree];
-  const Eigen::EigenSolver<Matrix> solver(companion, false);
-  return {solver.eigenvalues().begin(), solver.eigenvalues().end()};
+  const Eigen::VectorXcd roots = eigenvalues(companion);
+  return {roots.begin(), roots.end()};
 }
 
 /// A function on the step, interpolated; nothing where that is not accurate.
@@ -93,7 +92,7 @@ std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
   // Shares of half the step: how wide a cluster may be, and how far from the step's ends.
   constexpr double wide = 0.35, clear = 0.35;
   const CurvePoint &from = *samples.front(), &to = *samples.back();
-  const WatchedStep arc(walker, from, to.s - from.s);
+  const WatchedStep arc(walker, samples);
   const auto roots = all_roots(arc, samples);
   if (!roots) return std::nullopt;
   Roots near;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "working_memory.hpp"
 
@@ -78,8 +79,10 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to) {
   if (target.piece != from.piece) return std::nullopt;
   Direction& offset = walker.memory->direction;
+  // Where the trace had other units of lambda, s is not the length of the step in this metric.
+  set_between(walker, from, to, offset);
+  const double h = std::max(to.s - from.s, metric_product(walker.weights, offset, from.tangent));
   set_between(walker, from, target, offset);
-  const double h = to.s - from.s;
   const double along = metric_product(walker.weights, offset, from.tangent);
   // The curve bends away from its tangent by no more than a fraction of the step.
   if (!(along > 0 && along <= h) || length_of(walker, offset) > 1.2 * h) return std::nullopt;
@@ -96,6 +99,15 @@ std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& st
   if (!point || cosine(walker, point->tangent, direction_seen_from(walker, point->x, start)) < 0)
     return std::nullopt;
   return point;
+}
+
+bool passes_through(ProblemView problem, const Curve& curve, const CurvePoint& point,
+                    const TraceOptions& options) {
+  const Walker walker{problem, problem.metric(), options};
+  if (!curve.points.empty() && coincide(walker, curve.points.front(), point)) return true;
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
+    if (passes(walker, point, curve.points[i], curve.points[i + 1])) return true;
+  return false;
 }
 
 }  // namespace springfold::continuation

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "davidenko_arc.hpp"
+#include "entry_checks.hpp"
+#include "many_points.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -81,7 +83,7 @@ std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool 
   }
   for (const Event& event : events)
     all.push_back({.value = event.value,
-                   .hit = {.kind = HitKind::user, .name = event.name},
+                   .hit = {.kind = HitKind::user, .name = event.name, .tag = event.tag},
                    .stops = event.action == EventAction::stop});
   return all;
 }
@@ -267,7 +269,8 @@ Outcome advance(Walk& walk, std::string& refusal) {
 Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                 const std::vector<Event>& events, const TraceOptions& options,
                 const StepObserver& observer) {
-  assert(problems_in(options).empty());
+  check_entry(problem, x, lambda, start.piece, options);
+  check_ray(problem, start);
   const Walker walker{problem, problem.metric(), options};
   Walk walk{walker, everything_to_watch(events, options.limit_points)};
   walk.here.x = x;
@@ -297,6 +300,7 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
       return std::move(walk.curve);
     }
   }
+  walk.curve.stop_detail = why_so_many(walk.walker, walk.curve);
   return std::move(walk.curve);
 }
 

@@ -61,6 +61,10 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     values[i] = event.value(*samples[i]);
     scale = std::max(scale, std::abs(values[i]));
   }
+  // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
+  constexpr double rounding = 1e-14, resolution = 1e-9;
+  for (double* end : {&values.front(), &values.back()})
+    if (std::abs(*end) <= rounding * scale) *end = 0;
   if (!within_reach(values)) return true;
   // At the ends the very values that the neighbouring steps see: a sign must not change in between.
   const auto value = [&](double ds) -> std::optional<double> {
@@ -69,10 +73,9 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     const auto point = point_between(walker, from, to, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
-  constexpr double rounding = 1e-14, resolution = 1e-9;
   const ZeroSearch search = find_zeros(value, 0, h, rounding * scale, resolution * h);
   const auto add = [&](CurvePoint point, double before, double after) {
-    Hit hit{.kind = HitKind::user, .name = event.name};
+    Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
     hit.point = std::move(point);
     hit.s_before = from.s + before;
     hit.s_after = from.s + after;

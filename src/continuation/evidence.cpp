@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coincide.hpp"
 #include "springfold/continuation/branch_point.hpp"
@@ -19,16 +20,23 @@ double residual_limit(double t) {
   return t <= 0.5 ? 0.4 + 0.8 * (t - 0.25) : 0.6 + 1.2 * (t - 0.5);
 }
 
-/// The residual on the predictor line at seven places against that at its end.
-std::string residual_doubt(const Walker& walker, const CurvePoint& from, double ds) {
+/// The residual on the predicted way, at seven places of it, against that at its end.
+std::string residual_doubt(const Walker& walker, const ArcModel* model, const CurvePoint& from,
+                           double ds) {
   constexpr double noise = 1e-12;
   constexpr int parts = 8;
-  Vector &F = walker.memory->F, &x = walker.memory->x;
+  Vector& F = walker.memory->F;
+  CurvePoint& p = walker.memory->trial;
+  const bool expected = expect(walker, model, from, ds, p);
   const auto size_at = [&](double t) {
     const double d = t * ds;
-    x = from.x + d * from.tangent.dx;
-    const bool inside =
-        walker.problem.residual(x, from.lambda + d * from.tangent.dlambda, from.piece, F);
+    if (expected) {
+      model->point(walker.weights, from, d, p);
+    } else {
+      p.x = from.x + d * from.tangent.dx;
+      p.lambda = from.lambda + d * from.tangent.dlambda;
+    }
+    const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
   const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
@@ -57,11 +65,13 @@ double across(const Walker& walker, Direction& d, const Direction& tangent) {
 /// Distance of the corrected middle from the cubic through both ends. @param d  storage
 double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                  const CurvePoint& middle, Direction& d) {
-  const double h = to.s - from.s;
-  const double a = h / 8 * rate(walker, from, from), b = h / 8 * rate(walker, from, to);
-  d.dx = middle.x - 0.5 * (from.x + to.x) - a * from.tangent.dx + b * to.tangent.dx;
-  d.dlambda = middle.lambda - 0.5 * (from.lambda + to.lambda) - a * from.tangent.dlambda +
-              b * to.tangent.dlambda;
+  ArcModel& chord = walker.memory->chord;
+  CurvePoint& expected = walker.memory->trial;
+  if (!chord.go_through(walker.weights, from, StepSamples(from, nullptr, to)))
+    return std::numeric_limits<double>::infinity();
+  chord.point(walker.weights, from, middle.s - from.s, expected);
+  d.dx = middle.x - expected.x;
+  d.dlambda = middle.lambda - expected.lambda;
   return across(walker, d, middle.tangent);
 }
 
@@ -78,36 +88,6 @@ double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoi
   return across(walker, d, middle.tangent);
 }
 
-/// The curve's point at the way `ahead` along the tangent at `from`, predicted by the cubic through `from` and the point
-/// before it, with their tangents: by nothing that lies ahead. Nearly always one correction is enough then.
-/// @returns false where the two points do not lie evenly on one smooth piece, or none is found
-bool find_ahead(const Walker& walker, const CurvePoint& before, const CurvePoint& from,
-                double ahead, CurvePoint& point) {
-  constexpr double same_direction = 0.9, near = 0.1;
-  if (before.piece != from.piece) return false;
-  const double along = metric_product(walker.weights, before.tangent, from.tangent);
-  Direction& d = walker.memory->direction;
-  d.dx = from.x - before.x;
-  d.dlambda = from.lambda - before.lambda;
-  const double h = metric_product(walker.weights, d, from.tangent);
-  if (!(along > same_direction) || !(h > 0.5 * ahead) || !(h < 8 * ahead)) return false;
-  // u(h + a) = u_0 + a tau_0 + a^2 (q + (a + h) c), u_0 and tau_0 at `from`; at -h it is u_b, with the rate tau_b / along.
-  const double a = ahead, q = a * a / (h * h), c = q * (a + h) / h;
-  const auto bend = [&](double chord, double rate, double rate_before) {
-    return q * (h * rate - chord) + c * (h * rate + h * rate_before - 2 * chord);
-  };
-  for (Index i = 0; i < d.dx.size(); ++i)
-    d.dx[i] = bend(d.dx[i], from.tangent.dx[i], before.tangent.dx[i] / along);
-  d.dlambda = bend(d.dlambda, from.tangent.dlambda, before.tangent.dlambda / along);
-  if (!(length_of(walker, d) <= near * ahead)) return false;
-  point.x = from.x + ahead * from.tangent.dx + d.dx;
-  point.lambda = from.lambda + ahead * from.tangent.dlambda + d.dlambda;
-  point.s = from.s + ahead;
-  StepMeasures measures;
-  std::string refusal;
-  return find_point(walker, from.piece, from.tangent, point, measures, refusal);
-}
-
 /// Errors that residuals at rounding level leave where dF/dx is nearly singular.
 double corrector_noise(const Walker& walker, const CurvePoint& point) {
   if (!walker.problem.symmetric()) return 0;
@@ -117,17 +97,22 @@ double corrector_noise(const Walker& walker, const CurvePoint& point) {
 
 }  // namespace
 
-bool examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from,
              const CurvePoint& to, CurvePoint& middle, std::string& doubt) {
   const double ds = to.s - from.s;
-  doubt = residual_doubt(walker, from, ds);
+  doubt = residual_doubt(walker, model, from, ds);
   if (!doubt.empty()) return false;
-  const bool found = (before && find_ahead(walker, *before, from, 0.5 * ds, middle)) ||
+  // Predicted by nothing that lies ahead.
+  StepMeasures measures;
+  std::string refusal;
+  const bool found = (expect(walker, model, from, 0.5 * ds, middle) &&
+                      find_point(walker, from.piece, from.tangent, middle, measures, refusal)) ||
                      find_point_at(walker, from, 0.5 * ds, middle);
   if (!found) {
     doubt = "no point of the curve found half-way";
     return false;
   }
+  middle.s = from.s + 0.5 * ds;
   Direction& d = walker.memory->direction;
   const auto bend = [&](const CurvePoint& p) {
     const double along = p.s - from.s;

@@ -167,8 +167,8 @@ Icosphere icosphere() {
 std::optional<Eigen::Vector3d> linear_zero(const Eigen::Matrix<double, 2, 3>& g) {
   Eigen::Matrix3d A;
   A << g / g.cwiseAbs().maxCoeff(), 1, 1, 1;
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(A);
-  if (!lu.isInvertible()) return Eigen::Vector3d::Constant(1.0 / 3);
+  const FullPivotLu lu(A);
+  if (!lu.is_invertible()) return Eigen::Vector3d::Constant(1.0 / 3);
   Eigen::Vector3d weights = lu.solve(Eigen::Vector3d::UnitZ());
   if (!(weights.minCoeff() > -0.75)) return std::nullopt;
   weights = weights.cwiseMax(0);

@@ -1,6 +1,5 @@
 #include "springfold/continuation/exits.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "exit_rays.hpp"
 #include "extended.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "words.hpp"
 
@@ -137,8 +137,40 @@ std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoi
   return point;
 }
 
+/// A point of the branch at the distance rho in the kernel, half as far as the last one: by Newton's
+/// method, and where that drowns in rounding by the expansion of second order, exact to rounding there.
+std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, const Vector& limit,
+                               double rho) {
+  if (auto ray = ray_point(e, e.U0 + 0.5 * (last.U - e.U0), rho)) return ray;
+  const Vector c = rho * limit;
+  RayPoint ray{.U = e.U0 + e.N * c, .c = c};
+  const Index m = e.k + 1;
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j)
+      ray.U += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  return ray;
+}
+
+/// Brings the start of a branch in until it is near enough.
+/// @returns false where that does not succeed
+bool bring_in(const ReducedEquation& e, const Limit& limit, RayPoint ray, double rho,
+              const Direction& tangent, const NearEnough& near_enough, CurvePoint& start) {
+  const double nearest = 1e-9 * e.scale;
+  while (!near_enough(start, tangent)) {
+    rho *= 0.5;
+    if (rho < nearest) return false;
+    const auto next = nearer(e, ray, limit.c, rho);
+    const auto point = next ? branch_point_of(e, *next) : std::nullopt;
+    if (!point) return false;
+    ray = *next;
+    start = *point;
+  }
+  return true;
+}
+
 /// Adds the branch of one ray, or a reason why not all is well.
-void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho, Exits& result) {
+void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
+              const NearEnough& near_enough, Exits& result) {
   const auto doubt = [&](std::string why) {
     result.complete = false;
     result.why = std::move(why);
@@ -156,7 +188,10 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho, Exits& 
                    scaled_point({.x = start->tangent.dx, .lambda = start->tangent.dlambda}, e.root))
                    .normalized());
   if (away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
-  result.exits.push_back({direction_of(e, e.N * limit.c), limit.accuracy, std::move(*start)});
+  const Direction tangent = direction_of(e, e.N * limit.c);
+  if (near_enough && !bring_in(e, limit, ray, rho, tangent, near_enough, *start))
+    doubt("a branch switches too near to the point to be followed");
+  result.exits.push_back({tangent, limit.accuracy, std::move(*start)});
 }
 
 struct Search {
@@ -187,9 +222,10 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
   return {std::move(last), doubt};
 }
 
-Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& doubt) {
+Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& doubt,
+               const NearEnough& near_enough) {
   Exits result;
-  for (const RayPoint& ray : set.rays) add_exit(e, ray, set.rho, result);
+  for (const RayPoint& ray : set.rays) add_exit(e, ray, set.rho, near_enough, result);
   if (result.why.empty() && !doubt.empty()) {
     result.complete = false;
     result.why = doubt;
@@ -200,6 +236,11 @@ Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& d
 }  // namespace
 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
+  return exits_at(walker, at, corank, {});
+}
+
+Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
+               const NearEnough& near_enough) {
   if (corank < 0 || corank > 2 || corank > at.x.size())
     return {.complete = false,
             .why = "branches are not searched for at points of corank " + std::to_string(corank)};
@@ -216,7 +257,7 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
     Search further_out = search_inwards(*e, 6 * rho, 5);
     if (further_out.doubt.empty()) search = std::move(further_out);
   }
-  return exits_of(*e, search.set, search.doubt);
+  return exits_of(*e, search.set, search.doubt, near_enough);
 }
 
 int corank_of(const Walker& walker, const CurvePoint& at) {
@@ -232,8 +273,7 @@ int corank_of(const Walker& walker, const CurvePoint& at) {
       sizes = sizes.cwiseMax(1e-2 * (*other - *J).cwiseAbs());
   const Equilibration scale = equilibrate(sizes);
   const Vector values =
-      Eigen::BDCSVD<Matrix>(scale.rows.asDiagonal() * *J * scale.columns.asDiagonal())
-          .singularValues();
+      divided_svd(scale.rows.asDiagonal() * *J * scale.columns.asDiagonal()).values;
   constexpr double gap = 30;
   for (Index i = 0; i < n; ++i) {
     const double above = i > 0 ? values[i - 1] : 1;

@@ -1,14 +1,11 @@
 #include "extended.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "arnoldi.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -77,28 +74,24 @@ LeastVectors least_vectors(const ExtendedMatrix& E, Index m) {
     if (moved < settled) break;
   }
   const Matrix image = product(E, borders.C);
-  const Eigen::JacobiSVD<Matrix> svd(borders.B.transpose() * image,
-                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
-  borders = {borders.B * svd.matrixU(), borders.C * svd.matrixV()};
-  result.values = Eigen::JacobiSVD<Matrix>(image).singularValues().reverse();
+  const Svd svd =
+      jacobi_svd(borders.B.transpose() * image, SingularVectors::full, SingularVectors::full);
+  borders = {borders.B * svd.U, borders.C * svd.V};
+  result.values = jacobi_svd(image).values.reverse();
   return result;
 }
 
 /// Of the eigenvalues, descending.
 std::vector<double> magnitudes_of(const Matrix& M) {
-  const Eigen::EigenSolver<Matrix> solver(M, false);
   std::vector<double> values;
-  for (const auto& value : solver.eigenvalues()) values.push_back(std::abs(value));
+  for (const auto& value : eigenvalues(M)) values.push_back(std::abs(value));
   std::sort(values.begin(), values.end(), std::greater<>());
   return values;
 }
 
 }  // namespace
 
-Matrix orthonormal(const Matrix& columns) {
-  return Eigen::HouseholderQR<Matrix>(columns).householderQ() *
-         Matrix::Identity(columns.rows(), columns.cols());
-}
+Matrix orthonormal(const Matrix& columns) { return orthonormal_columns(columns); }
 
 Matrix irregular_columns(Index rows, Index columns) {
   Matrix X(rows, columns);
@@ -155,24 +148,20 @@ std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders
   if (m > 0) A.bottomLeftCorner(m, n) = borders.C.transpose();
   A.bottomRightCorner(m, m).setZero();
   if (transposed) A.transposeInPlace();
-  Matrix X = A.partialPivLu().solve(right);
+  Matrix X = Lu(A).solve(right);
   if (!X.allFinite()) return std::nullopt;
   return X;
 }
 
 Borders borders_of(const ExtendedMatrix& E, Index m) {
   if (E.at.structured) return least_vectors(E, m).borders;
-  constexpr int both = Eigen::ComputeFullU | Eigen::ComputeFullV;
-  const auto last = [m](const auto& svd) {
-    return Borders{svd.matrixU().rightCols(m), svd.matrixV().rightCols(m)};
-  };
-  return E.rows() <= jacobi_size ? last(Eigen::JacobiSVD<Matrix>(E.dense, both))
-                                 : last(Eigen::BDCSVD<Matrix>(E.dense, both));
+  const auto decompose = E.rows() <= jacobi_size ? jacobi_svd : divided_svd;
+  const Svd svd = decompose(E.dense, SingularVectors::full, SingularVectors::full);
+  return {svd.U.rightCols(m), svd.V.rightCols(m)};
 }
 
 Vector singular_values(const Matrix& M) {
-  return M.rows() <= jacobi_size ? Vector(Eigen::JacobiSVD<Matrix>(M).singularValues())
-                                 : Vector(Eigen::BDCSVD<Matrix>(M).singularValues());
+  return M.rows() <= jacobi_size ? jacobi_svd(M).values : divided_svd(M).values;
 }
 
 Vector least_singular_values(const ExtendedMatrix& E, Index m) {
@@ -185,7 +174,7 @@ std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatri
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Matrix small;  // the map itself, or what Arnoldi's basis sees of it
   if (!E.at.structured) {
-    small = E.dense.partialPivLu().solve(E1.dense - E0.dense);
+    small = Lu(E.dense).solve(E1.dense - E0.dense);
   } else {
     Arnoldi arnoldi;
     arnoldi.begin(E.rows());

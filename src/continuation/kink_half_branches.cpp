@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extended.hpp"
+#include "kink_numerics.hpp"
 #include "kink_passage.hpp"
 #include "kink_rays.hpp"
 #include "singular.hpp"
 #include "springfold/continuation/locate.hpp"
+#include "springfold/core/inertia.hpp"
+#include "springfold/core/piecewise_form.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -50,9 +54,58 @@ void take_own(StepEvents& found, std::vector<ZeroBeside>& places) {
   found = std::move(rest);
 }
 
+/// Directions of the resting switches, k x r, in the motions that the other equations admit; nothing where
+/// that cannot be told.
+std::optional<Matrix> admitted_directions(const Walker& walker, const CurvePoint& at,
+                                          const std::vector<Index>& resting) {
+  if (walker.problem.structured()) return std::nullopt;
+  Linearisation linear;
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear) ||
+      !walker.problem.switch_gradients(at.x, at.lambda, dg_dx, dg_dlambda))
+    return std::nullopt;
+  const auto k = static_cast<Index>(resting.size());
+  const Matrix E = dg_dx(resting, Eigen::all).transpose();
+  const auto X = solve_symmetric(linear.dF_dx, E);
+  if (!X) return std::nullopt;
+  const auto form = condensed_form(E.transpose() * *X, 0, Vector::Zero(k), -Vector::Ones(k));
+  return form ? std::optional<Matrix>(form->form.directions) : std::nullopt;
+}
+
+/// Is there room for the piece beside the curve? (Two opposite springs are never both stretched.)
+bool has_room(const std::optional<Matrix>& directions, const Piece& piece,
+              const std::vector<Index>& resting) {
+  if (!directions) return true;
+  Matrix sides = *directions;
+  for (std::size_t k = 0; k < resting.size(); ++k)
+    sides.row(static_cast<Index>(k)) *= piece[static_cast<std::size_t>(resting[k])];
+  return inside_cone(sides).has_value();
+}
+
+/// A piece that is singular at the begin of the step, where the curve leaves a junction, is looked at from a
+/// little further on: that zero belongs to the junction.
+/// @param own  the begin of the step in its own piece, with which the others share the curve
+void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
+                         std::vector<CurvePoint>& points) {
+  constexpr double share = 1e-2;  // of the step
+  CurvePoint& first = points.front();
+  Linearisation at;
+  if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
+  const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
+  const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
+  if (!(least_singular_values(E, 1)[0] <= located_rank * size)) return;
+  auto moved = point_at(walker, own, share * (points.back().s - first.s));
+  if (!moved) return;
+  moved->piece = first.piece;
+  moved->negative.reset();
+  first = std::move(*moved);
+}
+
 void find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
                  StepEvents& found, std::vector<ZeroBeside>& places) {
   const Piece own = samples.front()->piece;
+  const auto directions = admitted_directions(walker, *samples.front(), resting);
   for (unsigned pattern = 1; pattern < (1u << resting.size()); ++pattern) {
     Piece piece = own;
     for (std::size_t k = 0; k < resting.size(); ++k)
@@ -60,12 +113,14 @@ void find_places(const Walker& walker, Samples samples, const std::vector<Index>
         auto& side = piece[static_cast<std::size_t>(resting[k])];
         side = side > 0 ? -1 : 1;
       }
+    if (!has_room(directions, piece, resting)) continue;
     std::vector<CurvePoint> moved;
     for (const CurvePoint* sample : samples) {
       moved.push_back(*sample);
       moved.back().piece = piece;
       moved.back().negative.reset();
     }
+    leave_zero_at_begin(walker, *samples.front(), moved);
     std::vector<const CurvePoint*> pointers;
     for (const CurvePoint& point : moved) pointers.push_back(&point);
     SingularPoints singular = singular_points(walker, pointers);
@@ -87,6 +142,10 @@ bool along_the_curve(const Walker& walker, const Ray& ray, const Direction& tang
 
 CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) {
   CurvePoint start = point_on_ray(walker, at, ray);
+  if (ray.start) {
+    start.negative = ray.start->negative;
+    return start;
+  }
   const auto beyond = point_at(walker, start, 1e-4);  // at the point itself an eigenvalue is zero
   start.negative = beyond ? beyond->negative : std::nullopt;
   return start;

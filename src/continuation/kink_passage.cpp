@@ -7,7 +7,9 @@
 #include "bordered_test.hpp"
 #include "flat_turns.hpp"
 #include "kink_half_branches.hpp"
+#include "kink_numerics.hpp"
 #include "kink_rays.hpp"
+#include "level.hpp"
 #include "springfold/continuation/locate.hpp"
 #include "springfold/core/inertia.hpp"
 #include "working_memory.hpp"
@@ -17,7 +19,6 @@ namespace {
 
 constexpr double vertical = 1e-12;   // lambda does not change along the curve at all
 constexpr double turns_here = 1e-7;  // lambda's rate at a kink that is taken for zero
-constexpr std::size_t most_active = 12;
 
 /// The curve on one side of a kink, as near as lambda's rate can be told from zero.
 struct Beside {
@@ -32,6 +33,7 @@ bool told_from_zero(const CurvePoint& p) { return std::abs(p.tangent.dlambda) > 
 /// @param direction  +1: ahead along the tangent, -1: back
 /// @param room       no further away than this
 Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
+  if (is_level(walker, at, direction, room)) return {at, 0};
   if (std::abs(at.tangent.dlambda) > turns_here) return {at, sense_of(at)};
   for (const double distance : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
@@ -40,13 +42,32 @@ Beside beside(const Walker& walker, const CurvePoint& at, int direction, double 
   return {at, 0};
 }
 
-bool is_way_back(const Walker& walker, const Ray& ray, const CurvePoint& arrived) {
+/// Is this ray in the piece on which the curve arrived, or one that it shares with it?
+bool on_piece(const Ray& ray, const Piece& piece) {
   for (std::size_t j = 0; j < ray.piece.size(); ++j)
-    if (ray.piece[j] != arrived.piece[j] && std::find(ray.resting.begin(), ray.resting.end(),
-                                                      static_cast<Index>(j)) == ray.resting.end())
+    if (ray.piece[j] != piece[j] && std::find(ray.resting.begin(), ray.resting.end(),
+                                              static_cast<Index>(j)) == ray.resting.end())
       return false;
-  const Direction back{-arrived.tangent.dx, -arrived.tangent.dlambda};
-  return same_direction(walker.weights, ray.tangent, back, 1e-6);
+  return true;
+}
+
+/// The ray along which the curve arrived. At a branch point of the arriving piece its tangent is known only
+/// roughly: then that of the ray is taken.
+void take_way_back(const Walker& walker, CurvePoint& arrived, std::vector<Ray>& rays) {
+  const Direction back = opposite(arrived.tangent);
+  const auto off = [&](const Ray& ray) {
+    return on_piece(ray, arrived.piece) ? 1 - metric_product(walker.weights, ray.tangent, back)
+                                        : HUGE_VAL;
+  };
+  const auto best = std::min_element(rays.begin(), rays.end(),
+                                     [&](const Ray& a, const Ray& b) { return off(a) < off(b); });
+  if (best == rays.end()) return;
+  const bool singular = best->start.has_value();
+  if (!(singular ? off(*best) <= nearly_same_line
+                 : same_direction(walker.weights, best->tangent, back, 1e-6)))
+    return;
+  if (singular) arrived.tangent = opposite(best->tangent);
+  rays.erase(best);
 }
 
 /// The family that reaches as far as this point.
@@ -61,10 +82,14 @@ Hit* open_family(const CurvePoint& from, Curve& curve) {
 /// on both sides of a step, it does not stand still, but turns, or almost does.
 bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
                   const CurvePoint& to, bool seen) {
+  if (seen) {
+    const auto inside = middle ? std::nullopt : point_at(walker, from, 0.4 * (to.s - from.s));
+    if (!middle && inside) middle = &*inside;
+    return middle && same_level(walker, {&from, middle, &to});
+  }
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
-  if (rate > (seen || to.s - from.s >= 1e-2 ? vertical : 1e-1 * vertical)) return false;
-  if (seen) return true;
+  if (rate > (to.s - from.s >= level_reach ? vertical : 1e-1 * vertical)) return false;
   const Place* at = place_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
   if (!at) return true;
   const double noise = rate_noise(extended_matrix(at->at, walker.weights, from.tangent));
@@ -216,11 +241,12 @@ std::vector<Index> crossed(const KinkSearch& kink, const std::vector<Index>& res
   return switches;
 }
 
-Rays ways_out(const Walker& walker, const KinkSearch& kink) {
+/// @param arrived  the kink on the piece that the curve comes from
+Rays ways_out(const Walker& walker, const KinkSearch& kink, CurvePoint& arrived) {
   if (kink.active.size() > most_active)
     return {.complete = false, .why = "too many switches act at one point"};
-  Rays rays = rays_at(walker, kink.point.x, kink.point.lambda, kink.point.piece, kink.active);
-  std::erase_if(rays.rays, [&](const Ray& ray) { return is_way_back(walker, ray, kink.point); });
+  Rays rays = rays_at(walker, arrived.x, arrived.lambda, arrived.piece, kink.active);
+  take_way_back(walker, arrived, rays.rays);
   return rays;
 }
 
@@ -282,10 +308,10 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
           .point = kink.point,
           .s_before = progress.here.s + kink.before,
           .s_after = progress.here.s + kink.after};
-  const Rays rays = ways_out(walker, kink);
+  const Rays rays = ways_out(walker, kink, hit.point);
   hit.switches = crossed(kink, resting_switches(walker, progress.here, kink.point), rays.rays);
   hit.name = names_of(walker.problem, hit.switches);
-  const Beside before = beside(walker, kink.point, -1, kink.point.s - progress.here.s);
+  const Beside before = beside(walker, hit.point, -1, hit.point.s - progress.here.s);
   if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
   const std::vector<Beside> after = add_leaving(walker, rays.rays, kink.active.size() > 1, hit);
@@ -309,7 +335,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   progress.clear_of = next.moved ? next.point.s : -1;
   progress.here = hit.leaving.front();
   progress.left = kink.active;
-  progress.ds = std::min(progress.ds, walker.options.step.initial);
+  progress.ds = walker.options.step.initial;  // another curve begins
   curve.hits.push_back(std::move(hit));
   return Outcome::go_on;
 }

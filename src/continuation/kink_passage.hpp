@@ -14,7 +14,8 @@ namespace springfold::continuation {
 /// places changes no number.)
 struct Progress {
   CurvePoint here{};
-  std::vector<Index> left{};  ///< switches that are zero at `here` and being left
+  CurvePoint before{}, middle{};  ///< of the step that ended here: its begin, and half-way
+  std::vector<Index> left{};      ///< switches that are zero at `here` and being left
   double ds = 0;
   int sense = 0;  ///< sign of lambda's rate after the last kink, or before a family; 0: not known
   bool flat = false;     ///< lambda stands still as far as could be seen from the last kink

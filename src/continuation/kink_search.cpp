@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "extended.hpp"
+#include "kink_numerics.hpp"
 #include "kink_rays.hpp"
 #include "springfold/continuation/branch_point.hpp"
 #include "springfold/continuation/locate.hpp"
@@ -224,6 +226,33 @@ Crossing crossing_of(const Watched& f, Cubic cubic, bool leaves) {
   return judge(f, a, cubic);
 }
 
+/// Where a branch point of the piece lies on the surface, corrected points beside it are uncertain, and so is the
+/// kink: it is the branch point itself, if that is on the surface too.
+void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSearch& kink) {
+  CurvePoint& point = kink.point;
+  Linearisation at;
+  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return;
+  const ExtendedMatrix E = extended_matrix(at, walker.weights, point.tangent);
+  const Vector least = least_singular_values(E, 1);
+  const double size = magnitudes(E, irregular_columns(point.x.size() + 1, 1)).norm();
+  if (!(least.size() > 0 && least[0] <= perhaps_singular * size)) return;
+  const auto place = refine_branch_point(walker, point);
+  if (!place) return;
+  Vector g;
+  if (!walker.problem.switches(place->x, place->lambda, g)) return;
+  for (const Index j : active_switches(walker, point.x, point.lambda))
+    if (std::abs(g[j]) > walker.options.simultaneous) return;
+  const Direction moved{place->x - point.x, place->lambda - point.lambda};
+  const double off = std::sqrt(metric_product(walker.weights, moved, moved));
+  if (!(off <= perhaps_singular)) return;
+  point.x = place->x;
+  point.lambda = place->lambda;
+  point.s = std::max(from.s, point.s + metric_product(walker.weights, moved, point.tangent));
+  point.negative.reset();
+  kink.before = std::min(kink.before, point.s - from.s);
+  kink.after = std::max(kink.after, point.s - from.s);
+}
+
 double largest(const CurvePoint& p) {
   return std::max({1.0, p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda)});
 }
@@ -300,8 +329,9 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     result.before = crossing.located->before;
     result.after = crossing.located->after;
   }
-  if (result.status == KinkSearch::Status::found)
-    result.active = active_switches(walker, result.point.x, result.point.lambda);
+  if (result.status != KinkSearch::Status::found) return result;
+  settle_on_branch_point(walker, from, result);
+  result.active = active_switches(walker, result.point.x, result.point.lambda);
   return result;
 }
 

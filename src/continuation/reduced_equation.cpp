@@ -1,12 +1,11 @@
 #include "reduced_equation.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "extended.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -16,9 +15,17 @@ namespace {
 bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
   const Index k = e.k;
   if (!J.structured) {
-    const Eigen::BDCSVD<Matrix> svd(J.dense, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    e.N = svd.matrixV().rightCols(k + 1);
-    e.L = svd.matrixU().rightCols(k);
+    const auto take = [&e, k](const Svd& svd) {
+      e.N = svd.V.rightCols(k + 1);
+      e.L = svd.U.rightCols(k);
+    };
+    take(divided_svd(J.dense, SingularVectors::full, SingularVectors::full));
+    // Divide and conquer may lose the vectors of values that agree to the last digits, as symmetric structures have them.
+    constexpr double lost = 1e-7;
+    const double largest = J.dense.norm();
+    if (!((J.dense * e.N).norm() < lost * largest) ||
+        !((e.L.transpose() * J.dense).norm() < lost * largest))
+      take(jacobi_svd(J.dense, SingularVectors::full, SingularVectors::full));
     return true;
   }
   const Index n = J.dF_dlambda.size();
@@ -48,7 +55,7 @@ bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
 bool turn_kernel(Matrix& N) {
   const Vector r = N.bottomRows(1).transpose();
   if (!(r.norm() > 1e-4)) return false;
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(r).householderQ();
+  const Matrix Q = orthonormal_basis(r);
   Matrix turned(N.rows(), N.cols());
   turned << N * Q.rightCols(N.cols() - 1), N * (r / r.norm());
   N = turned;
@@ -164,7 +171,7 @@ void KernelSystem::compute(const ScaledJacobian& J, const Matrix& N, const Matri
 }
 
 Matrix KernelSystem::solve(const Matrix& right, bool transposed) const {
-  if (!structured_) return transposed ? Matrix(lu_.transpose().solve(right)) : lu_.solve(right);
+  if (!structured_) return transposed ? lu_.solve_transposed(right) : lu_.solve(right);
   Matrix X = right;
   if (!structured_->solve(borders_, X, transposed))
     X.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -244,7 +251,7 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
     A << *J, (e.N * (ray.c / length)).transpose();
     right << -F, rho - length;
-    const Eigen::PartialPivLU<Matrix> lu(A);
+    const Lu lu(A);
     Vector step = lu.solve(right);
     if (!step.allFinite()) return std::nullopt;
     const double moved = step.norm();
@@ -255,10 +262,8 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     const bool small =
         F.lpNorm<Eigen::Infinity>() <= e.walker->options.newton.residual_tolerance * e.scale;
     if (moved <= 1e-11 * rho || (small && moved < 3e-5 * rho && moved > 0.3 * before)) {
-      const auto pivots = lu.matrixLU().diagonal().array();
-      const Index negative = (pivots < 0).count();
-      ray.noise = 1e-16 * e.scale * pivots.abs().maxCoeff() / pivots.abs().minCoeff() / rho;
-      ray.sign = static_cast<int>(lu.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+      ray.noise = 1e-16 * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
+      ray.sign = lu.sign();
       return ray;
     }
     before = moved;
@@ -283,8 +288,8 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
     }
     A.row(e.k) = c.transpose();
     right[e.k] = 0;
-    const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    if (!(svd.singularValues()[m - 1] > 1e-3)) return std::nullopt;
+    const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
+    if (!(svd.values[m - 1] > 1e-3)) return std::nullopt;
     const Vector step = svd.solve(right);
     c = (c + step).normalized();
     if (!((c - start.normalized()).norm() < reach)) return std::nullopt;

@@ -1,12 +1,12 @@
 // Lyapunov-Schmidt reduction at a singular point, see exits.hpp. Private to the engine.
 #pragma once
 
-#include <Eigen/LU>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "springfold/continuation/step.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 
@@ -38,7 +38,7 @@ class KernelSystem {
   Matrix solve(const Matrix& right, bool transposed = false) const;
 
  private:
-  Eigen::PartialPivLU<Matrix> lu_{};
+  Lu lu_{};
   std::shared_ptr<const StructuredMatrix> structured_{};
   FrontalBorders borders_{};
 };

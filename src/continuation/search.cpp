@@ -1,11 +1,11 @@
 #include "springfold/continuation/search.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <random>
 
+#include "springfold/core/decompositions.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -53,13 +53,11 @@ bool residual_at(const Task& task, const Vector& x, Piece& piece, Vector& F) {
 }
 
 /// dF/dx, factorised; nothing where it is singular to working precision or not defined.
-std::optional<Eigen::PartialPivLU<Matrix>> factorised(const Task& task, const Vector& x,
-                                                      const Piece& piece) {
+std::optional<Lu> factorised(const Task& task, const Vector& x, const Piece& piece) {
   Linearisation at;
   if (!linearise_densely(task.problem, x, task.lambda, piece, at)) return std::nullopt;
-  Eigen::PartialPivLU<Matrix> lu(at.dF_dx);
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > 1e-15 * pivots.maxCoeff())) return std::nullopt;
+  Lu lu(at.dF_dx);
+  if (!(lu.smallest_pivot() > 1e-15 * lu.largest_pivot())) return std::nullopt;
   return lu;
 }
 
@@ -142,7 +140,7 @@ struct Polished {
 };
 
 /// The change of x, as a part of the box, that changes F by rounding errors only.
-double rounding_of(const Task& task, const Eigen::PartialPivLU<Matrix>& lu, double scale) {
+double rounding_of(const Task& task, const Lu& lu, double scale) {
   constexpr double rounding = 1e-15;
   const Matrix inverse = task.side.cwiseInverse().asDiagonal() * lu.inverse();
   return rounding * scale * inverse.cwiseAbs().rowwise().sum().maxCoeff();

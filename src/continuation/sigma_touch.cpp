@@ -1,11 +1,10 @@
 #include "sigma_touch.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -33,7 +32,7 @@ bool surely_regular_near(const WatchedStep& arc, const Borders& borders, double 
     A.row(i) = powers(u);
     entries.row(i) = Sigma->reshaped().transpose();
   }
-  const Matrix c = A.householderQr().solve(entries);
+  const Matrix c = fitted(A, entries);
   const double scatter = (A * c - entries).norm() / std::sqrt(points - terms);
   const auto fitted = [&](int k) -> Matrix {
     const Vector at = (powers(0.5 * (2.0 * k / grid - 1)) * c).transpose();
@@ -41,7 +40,7 @@ bool surely_regular_near(const WatchedStep& arc, const Borders& borders, double 
   };
   for (int k = 0; k <= grid; ++k) {
     const Matrix here = fitted(k);
-    const Eigen::PartialPivLU<Matrix> lu(here);
+    const Lu lu(here);
     if (!(singular_values(here).minCoeff() > beyond_doubt * scatter)) return false;
     // Between this place and the next ones no matrix is singular, either.
     for (const int next : {k - 1, k + 1})
@@ -53,9 +52,9 @@ bool surely_regular_near(const WatchedStep& arc, const Borders& borders, double 
 }  // namespace
 
 Vector shrunk(const Matrix& from, const Matrix& to) {
-  const Matrix share = from.partialPivLu().solve(to);
+  const Matrix share = Lu(from).solve(to);
   if (!share.allFinite()) return Vector::Ones(from.rows());
-  Vector sizes = Eigen::EigenSolver<Matrix>(share, false).eigenvalues().cwiseAbs();
+  Vector sizes = eigenvalues(share).cwiseAbs();
   std::sort(sizes.begin(), sizes.end());
   return sizes;
 }
@@ -84,6 +83,8 @@ bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const Zero
   for (const double share : {0.1, 0.03, 0.01, 0.003}) {
     const double half = share * arc.length();
     const double t = std::clamp(touch.at, arc.low() + half, arc.high() - half);
+    // Two zeros within the stretch on which the determinant is lost in its rounding may lie beside a narrower window.
+    if (t - 0.5 * half > touch.before || t + 0.5 * half < touch.after) continue;
     if (std::abs(t - touch.at) < 0.25 * half && surely_regular_near(arc, borders, t, half))
       return false;
   }

@@ -1,13 +1,14 @@
 #include "singular.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "determined.hpp"
 #include "flat_turns.hpp"
 #include "small_lu.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "watched_step.hpp"
 #include "words.hpp"
 
@@ -209,30 +210,6 @@ std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& fou
   return {};
 }
 
-/// How far rounding of F may move a corrected point: E^-1 times that rounding, with a few patterns of signs.
-double blur_of_point(const WatchedStep& arc, const CurvePoint& point) {
-  const auto E = arc.matrix(point);
-  const Index n = point.x.size();
-  if (!E) return std::numeric_limits<double>::infinity();
-  Vector u(n + 1);
-  u << point.x, point.lambda;
-  Vector rounding_of_F = std::numeric_limits<double>::epsilon() * magnitudes(*E, u).col(0);
-  rounding_of_F[n] = 0;
-  Matrix right(n + 1, 3);
-  for (Index k = 0; k < right.cols(); ++k)
-    for (Index i = 0; i <= n; ++i)
-      right(i, k) =
-          rounding_of_F[i] * (std::cos(2.1 * static_cast<double>((k + 1) * (i + 1))) > 0 ? 1 : -1);
-  const auto moved = solve_with(*E, {}, right);
-  if (!moved) return std::numeric_limits<double>::infinity();
-  double worst = 0;
-  for (Index k = 0; k < right.cols(); ++k) {
-    const Direction d{moved->col(k).head(n), (*moved)(n, k)};
-    worst = std::max(worst, std::sqrt(metric_product(arc.walker().weights, d, d)));
-  }
-  return worst;
-}
-
 Hit hit_of(const WatchedStep& arc, Candidate candidate) {
   const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
                      : candidate.kind == HitKind::branch_point ? "branch point"
@@ -256,8 +233,8 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
       std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
   if (hit.kind != HitKind::branch_point || off <= exact * scale) return std::nullopt;
   Hit doubt = hit;
-  doubt.kind = HitKind::unresolved;
-  doubt.name = "unresolved: rounding lets the branch point be placed to " + rounded(off) + " only";
+  doubt.kind = HitKind::inexact;
+  doubt.name = "rounding lets the branch point be placed to " + rounded(off) + " only";
   doubt.multiplicity = 0;
   return doubt;
 }
@@ -265,10 +242,9 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 }  // namespace
 
 SingularPoints singular_points(const Walker& walker, Samples samples) {
-  constexpr double most_blur = 3e-5;
   SingularPoints result;
-  const CurvePoint &from = *samples.front(), &to = *samples.back();
-  const WatchedStep arc(walker, from, to.s - from.s);
+  const CurvePoint& to = *samples.back();
+  const WatchedStep arc(walker, samples);
   WatchedZeros turns = turns_on(arc, samples);
   const WatchedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
@@ -292,7 +268,7 @@ SingularPoints singular_points(const Walker& walker, Samples samples) {
     result.doubt = "step ends at a special point";
     return result;
   }
-  if (singular.examined && blur_of_point(arc, to) > most_blur) {
+  if (singular.examined && !is_determined(arc, to)) {
     result.doubt = "rounding does not determine the point at the end of the step";
     return result;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "coincide.hpp"
+#include "numerics.hpp"
 #include "words.hpp"
 #include "working_memory.hpp"
 
@@ -72,12 +74,38 @@ StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const P
   return result;
 }
 
-bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
-              StepMeasures& measures, std::string& refusal) {
-  to.x = from.x + ds * from.tangent.dx;
-  to.lambda = from.lambda + ds * from.tangent.dlambda;
+namespace {
+
+/// Puts point - from - ahead tangent into storage. @returns its length
+double off_straight(const Walker& walker, const CurvePoint& from, double ahead,
+                    const CurvePoint& point) {
+  Direction& d = walker.memory->direction;
+  d.dx = point.x - from.x - ahead * from.tangent.dx;
+  d.dlambda = point.lambda - from.lambda - ahead * from.tangent.dlambda;
+  return length_of(walker, d);
+}
+
+}  // namespace
+
+bool expect(const Walker& walker, const ArcModel* model, const CurvePoint& origin, double ahead,
+            CurvePoint& point) {
+  // Twice as far as the model is long it shows the curve no more.
+  if (model == nullptr || model->empty() || ahead > 2 * (model->end() - model->begin()))
+    return false;
+  model->point(walker.weights, origin, ahead, point);
+  return off_straight(walker, origin, ahead, point) <= most_bend * ahead;
+}
+
+bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,
+              CurvePoint& to, StepMeasures& measures, std::string& refusal) {
+  const bool expected = expect(walker, model, from, ds, to);
+  if (!expected) {
+    to.x = from.x + ds * from.tangent.dx;
+    to.lambda = from.lambda + ds * from.tangent.dlambda;
+  }
   to.s = from.s + ds;
   const bool found = find_point(walker, from.piece, from.tangent, to, measures, refusal);
+  if (found && expected) measures.deviation = off_straight(walker, from, ds, to);
   measures.deviation /= ds;
   if (!found) return false;
   refusal = judge(measures, walker.options.step);
@@ -87,7 +115,8 @@ bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoin
 StepResult try_step(const Walker& walker, const CurvePoint& from, double ds) {
   StepResult result;
   CurvePoint to;
-  if (try_step(walker, from, ds, to, result.measures, result.refusal)) result.point = std::move(to);
+  if (try_step(walker, from, ds, nullptr, to, result.measures, result.refusal))
+    result.point = std::move(to);
   return result;
 }
 

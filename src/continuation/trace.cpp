@@ -7,69 +7,23 @@
 
 #include "cluster.hpp"
 #include "coincide.hpp"
+#include "entry_checks.hpp"
 #include "events.hpp"
 #include "kink_passage.hpp"
+#include "many_points.hpp"
 #include "normalised.hpp"
+#include "numerics.hpp"
 #include "samples.hpp"
 #include "springfold/continuation/evidence.hpp"
+#include "unexplained.hpp"
+#include "watched_step.hpp"
 #include "working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Steps are not shortened below this to separate special points; what is left is one cluster.
-constexpr double unresolved_length = 1e-6;
-
 /// Share of the anchor's step: a cluster is not crossed from nearer to it.
 constexpr double near_cluster = 0.2;
-
-/// Neighbouring unresolved steps are one cluster with its total multiplicity.
-void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,
-                    Curve& curve) {
-  const int count = std::max(1, found.unexplained);
-  if (!curve.hits.empty() && curve.hits.back().kind == HitKind::unresolved &&
-      from.s - curve.hits.back().s_after < 1000 * unresolved_length) {
-    curve.hits.back().s_after = to.s;
-    if (!found.flat) curve.hits.back().multiplicity += count;
-    return;
-  }
-  Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
-  hit.point = to;
-  hit.multiplicity = count;
-  hit.s_before = from.s;
-  hit.s_after = to.s;
-  curve.hits.push_back(std::move(hit));
-}
-
-/// Steps may end where an eigenvalue is zero to rounding. From the last point before them with a count
-/// of negative eigenvalues to the new one, the special points must explain its change.
-void account_over_gap(Curve& curve) {
-  const CurvePoint& here = curve.points.back();
-  auto known = curve.points.rbegin() + 1;
-  while (known != curve.points.rend() && !known->negative) ++known;
-  if (!here.negative || known == curve.points.rend() || known == curve.points.rbegin() + 1) return;
-  int most = 0;
-  bool odd = false, parity = true;
-  for (const Hit& hit : curve.hits) {
-    if (hit.point.s < known->s || hit.kind == HitKind::user) continue;
-    const bool branch_point = hit.kind == HitKind::branch_point;
-    const bool limit_point = hit.kind == HitKind::limit_point;
-    if (!branch_point && !limit_point && hit.kind != HitKind::touch) return;
-    most += branch_point ? hit.multiplicity + 1 : limit_point ? 1 : 0;
-    odd = odd != limit_point;
-    parity = parity && !branch_point;  // lambda may turn there as well
-  }
-  const auto change = static_cast<int>(std::abs(*here.negative - *known->negative));
-  if (change <= most && (!parity || (change % 2 == 1) == odd)) return;
-  Hit hit{
-      .kind = HitKind::unresolved,
-      .name = "unresolved: number of negative eigenvalues and special points do not fit together"};
-  hit.point = here;
-  hit.multiplicity = std::max(1, change);
-  hit.s_before = known->s;
-  hit.s_after = here.s;
-  curve.hits.push_back(std::move(hit));
-}
 
 /// Where special points made a step too long first: from there a cluster of them is crossed.
 struct Anchor {
@@ -79,8 +33,7 @@ struct Anchor {
   bool passing = false;  ///< branches pass each other there: nothing is crossed in one step
 };
 
-/// Crosses a cluster of special points in one step from `before.here`; only the caller's events are
-/// looked for on it.
+/// Crosses a cluster of special points in one step from `before.here`, looking for the caller's events only.
 bool cross_from(const Walker& walker, const std::vector<Event>& events, const Progress& before,
                 double ds, Progress& progress, Curve& curve) {
   Walker plain = walker;
@@ -106,8 +59,7 @@ bool cross_from(const Walker& walker, const std::vector<Event>& events, const Pr
   return true;
 }
 
-/// Crosses a cluster in one step from the anchor, or from a point between it and the cluster that is not
-/// too near to it: on short steps beside it rounding would decide where the curve goes.
+/// Crosses a cluster in one step from the anchor, or from a point between them that is not too near to it.
 bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
                    Progress& progress, Curve& curve) {
   anchor.tried = true;
@@ -132,8 +84,7 @@ struct Refusal {
   bool passing = false;  ///< because branches pass each other on it
 };
 
-/// Special points behind the place at which a curve closes were met at its start already. One at this
-/// very place is met now.
+/// Special points behind the place at which a curve closes were met at its start, one at this place now.
 void end_at(const CurvePoint& start, StepEvents& found) {
   constexpr double same_place = 1e-7;
   for (std::size_t i = found.hits.size(); i-- > 0;) {
@@ -151,6 +102,43 @@ bool is_reported(const Curve& curve, const Hit& hit) {
          hit.s_before < last.point.s && last.point.s < hit.s_after;
 }
 
+/// Keeps the special points of a step and, between any two, a point of the curve with the index there.
+/// @returns whether the curve ends at one of them
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+          Curve& curve) {
+  const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
+  for (std::size_t i = 0, next = 0; i < found.hits.size(); ++i) {
+    if (is_reported(curve, found.hits[i])) continue;
+    for (; next < between.size() && between[next].s < found.hits[i].point.s; ++next)
+      curve.points.push_back(between[next]);
+    const bool stops = found.stops[i];
+    curve.hits.push_back(found.hits[i]);
+    if (!stops && (!at_hit || at_hit(curve.hits.back()))) continue;
+    curve.stop = stops ? StopReason::event : StopReason::joined;
+    curve.stop_detail = curve.hits.back().name;
+    return true;
+  }
+  return false;
+}
+
+/// The last accepted step as a model of the curve: the next one must continue it, not just satisfy F.
+/// @returns nullptr where the curve begins, or begins again at a kink
+const ArcModel* model_behind(const Walker& walker, const Progress& progress, const Curve& curve) {
+  const CurvePoint &here = progress.here, &before = progress.before, &inside = progress.middle;
+  if (curve.points.size() < 2 || curve.points.back().s != here.s) return nullptr;
+  if (!(before.s < here.s) || before.piece != here.piece || before.x.size() != here.x.size())
+    return nullptr;
+  const bool known = inside.s > before.s && inside.s < here.s && inside.piece == here.piece;
+  const StepSamples samples(before, known ? &inside : nullptr, here);
+  ArcModel& arc = walker.memory->behind;
+  return arc.go_through(walker.weights, here, samples) ? &arc : nullptr;
+}
+
+/// Was the curve not where the model expected it? Then nothing says that it is the same one.
+bool is_surprise(const NewtonResult& newton, const Vector& x) {
+  return !newton.corrections.empty() && newton.corrections.front() > most_surprise * (1 + x.norm());
+}
+
 /// One step: predict, correct, look for switching surfaces and events, record.
 /// @param report  special points that cannot be told apart are reported on the shortest steps
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
@@ -158,14 +146,15 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   std::string& refusal = refused.reason;
   CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
   StepMeasures measures;
-  if (!try_step(walker, progress.here, progress.ds, next, measures, refusal))
+  const ArcModel* model = model_behind(walker, progress, curve);
+  if (model && (!try_step(walker, progress.here, progress.ds, model, next, measures, refusal) ||
+                is_surprise(walker.memory->newton, next.x)))
+    model = nullptr;
+  if (!model && !try_step(walker, progress.here, progress.ds, nullptr, next, measures, refusal))
     return Outcome::shorten;
   const CurvePoint* middle = nullptr;
   if (walker.options.verify) {
-    const std::size_t kept = curve.points.size();
-    const bool goes_on = kept > 1 && curve.points.back().s == progress.here.s;
-    examine(walker, goes_on ? &curve.points[kept - 2] : nullptr, progress.here, next, half_way,
-            refusal);
+    examine(walker, model, progress.here, next, half_way, refusal);
     if (!refusal.empty()) return Outcome::shorten;
     middle = &half_way;
   }
@@ -191,25 +180,20 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     if (!shortest && !found.flat) return Outcome::shorten;
     add_unresolved(progress.here, end, found, curve);
   }
-  for (std::size_t i = 0; i < found.hits.size(); ++i) {
-    if (is_reported(curve, found.hits[i])) continue;
-    const bool stops = found.stops[i];
-    curve.hits.push_back(std::move(found.hits[i]));
-    const bool joined = !stops && at_hit && !at_hit(curve.hits.back());
-    if (!stops && !joined) continue;
-    curve.stop = stops ? StopReason::event : StopReason::joined;
-    curve.stop_detail = curve.hits.back().name;
+  if (keep(walker, StepSamples(progress.here, middle && middle->s < end.s ? middle : nullptr, end),
+           at_hit, found, curve))
     return Outcome::stop;
-  }
   if (cut) {
     curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,
                          "cut: " + names_of(walker.problem, kink.active)});
     return pass_kink(walker, kink, progress, curve);
   }
+  std::swap(progress.before, progress.here);
   if (closed)
     progress.here = *start;
   else
     std::swap(progress.here, next);
+  if (middle) std::swap(progress.middle, half_way);
   progress.left.clear();
   curve.points.push_back(progress.here);
   account_over_gap(curve);
@@ -224,8 +208,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   return Outcome::go_on;
 }
 
-/// One step from a kept point, `times` as long as the anchor's, which must pass all the tests of a step and resolve
-/// everything on it.
+/// One step from a kept point, `times` as long as the anchor's, which must resolve everything on it.
 std::optional<Outcome> step_over_from(const Walker& walker, const std::vector<Event>& events,
                                       const HitObserver& at_hit, const Anchor& anchor,
                                       std::size_t points, double times, Progress& progress,
@@ -247,8 +230,7 @@ std::optional<Outcome> step_over_from(const Walker& walker, const std::vector<Ev
   return outcome;
 }
 
-/// On steps much shorter than the stretch on which rounding hides special points nothing can be told of them: longer
-/// ones from the anchor, and from points between it and them, are tried.
+/// On steps on which rounding hides the special points nothing can be told of them: longer ones are tried.
 std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>& events,
                                  const HitObserver& at_hit, const Anchor& anchor,
                                  Progress& progress, Curve& curve) {
@@ -269,8 +251,7 @@ std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>&
   return std::nullopt;
 }
 
-/// Where a curve ends among special points that could not be resolved, the last points were reached on steps shorter
-/// than anything that can be told there: they may lie on any of the branches.
+/// Points among unresolved special points, reached on steps too short to tell, may lie on any branch.
 void forget_last_crawl(const Anchor& anchor, Curve& curve) {
   constexpr double crawl = 100 * unresolved_length;
   const auto length_of_last = [&] {
@@ -299,7 +280,6 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
     Outcome outcome = advance(walker, events, at_hit, report, progress, curve, refused);
     if (outcome == Outcome::stop) return;
     if (outcome == Outcome::shorten) {
-      // A refused step has changed nothing in `progress`.
       curve.log.push_back({progress.here.s, progress.ds, refused.reason});
       if (refused.special && !anchor.set)
         anchor = {progress, curve.points.size(), curve.hits.size(), true, false, false};
@@ -325,12 +305,14 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
       return;
     }
   }
+  curve.stop_detail = why_so_many(walker, curve);
 }
 
 }  // namespace
 
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                const TraceOptions& options) {
+  check_entry(problem, x, lambda, piece, options);
   const Normalised own(problem, x, lambda, piece);
   const Walker walker{own, own.metric(), options};
   const Vector y = own.inside(x);
@@ -345,7 +327,8 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
             const StepObserver& observer, const HitObserver& at_hit) {
-  assert(problems_in(options).empty());
+  check_entry(problem, x, lambda, start.piece, options);
+  check_ray(problem, start);
   const Normalised own(problem, x, lambda, start.piece);
   return own.outside(trace_in_own_units(own, own.inside(x), lambda, own.inside(start),
                                         own.inside(events), options, own.inside(observer),
@@ -356,14 +339,21 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
                          const std::vector<Event>& events, const TraceOptions& options,
                          const StepObserver& observer, const HitObserver& at_hit) {
   const Walker walker{problem, problem.metric(), options};
-  CurvePoint first;
-  first.x = x;
-  first.lambda = lambda;
+  const CurvePoint first{.x = x, .lambda = lambda};
   Progress progress;
   progress.here = point_on_ray(walker, first, start);
   progress.left = active_switches(walker, x, lambda);
   progress.ds = options.step.initial;
   Curve curve{.points = {progress.here}};
+  // The piece may be singular at the point itself, and the next surface as near as the way's first point.
+  if (start.start) {
+    progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
+    if (start.start->x != x || start.start->lambda != lambda) {
+      progress.here = *start.start;
+      progress.left.clear();
+      curve.points.push_back(progress.here);
+    }
+  }
 
   follow(walker, events, observer, at_hit, progress, curve);
   settle_families(curve);

@@ -1,12 +1,12 @@
 #include "watched_step.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "branch_candidate.hpp"
 #include "sigma_touch.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -16,8 +16,7 @@ namespace {
 double left_of(const Vector& entries, const Vector& slopes, Index m, double nothing) {
   const auto Sigma = entries.reshaped(m, m), slope = slopes.reshaped(m, m);
   if (Sigma.norm() <= nothing) return 0;
-  const Eigen::PartialPivLU<Matrix> lu(slope);
-  const double left = lu.solve(Sigma).norm();
+  const double left = Lu(slope).solve(Sigma).norm();
   return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "arc.hpp"
 #include "bordered_test.hpp"
 #include "samples.hpp"
 #include "springfold/continuation/locate.hpp"
@@ -22,9 +23,13 @@ inline constexpr double blurred = 2e-4;     // around a branch point corrected p
 inline constexpr double poor = 1e-6, worst_place = 1e-4;
 inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
 
-/// One step, its points (each computed once), and what is watched on it.
+/// One step, its points (each computed once), and what is watched on it. Points are predicted by the model that its samples
+/// define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding decides about the
+/// point, beside a branch point: there the model is the better curve.
 class WatchedStep {
  public:
+  WatchedStep(const Walker& walker, Samples samples);
+
   WatchedStep(const Walker& walker, const CurvePoint& from, double length)
       : walker_{walker}, from_{from}, length_{length} {}
 
@@ -39,7 +44,7 @@ class WatchedStep {
 
   const std::optional<CurvePoint>& point(double ds) const {
     auto found = points_.find(ds);
-    if (found == points_.end()) found = points_.emplace(ds, point_at(walker_, from_, ds)).first;
+    if (found == points_.end()) found = points_.emplace(ds, find(ds)).first;
     return found->second;
   }
   std::optional<double> rate(double ds) const {
@@ -61,9 +66,26 @@ class WatchedStep {
   const Walker& walker_;
   const CurvePoint& from_;
   double length_;
+  std::optional<CurvePoint> find(double ds) const;
+  std::optional<CurvePoint> corrected(double ds) const;
+  void settle_model() const;
+
+  /// How far corrected points are from the model, and their tangents from its own.
+  struct ModelError {
+    double place = 0, direction = 0;
+  };
+  std::vector<CurvePoint> nodes_{};  ///< of the model, in order
+  mutable ArcModel model_{};
+  mutable ModelError error_{};
+  mutable bool settled_ = false, exact_ = false;
   mutable std::map<double, std::optional<CurvePoint>> points_{};
   mutable bool passing_ = false;
 };
+
+/// One point of the curve between any two neighbouring special points of a step, with the number of negative eigenvalues
+/// there; none where they lie so close together that rounding decides on which branch it lies.
+std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
+                                            const std::vector<Hit>& hits);
 
 /// A special point on the arc before its label is final.
 struct Candidate {

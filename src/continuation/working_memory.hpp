@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "arc.hpp"
 #include "arnoldi.hpp"
 #include "bordered_factors.hpp"
 #include "springfold/continuation/step.hpp"
@@ -50,6 +51,7 @@ struct WorkingMemory {
   bool asked = false;  ///< what follows is the problem's
   Vector periods{};
   std::vector<Index> double_covers{};
+  ArcModel behind{}, chord{};  ///< the last step as a model, and a step between its ends only
 };
 
 /// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until
@@ -75,13 +77,19 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
                 CurvePoint& point, StepMeasures& measures, std::string& refusal);
 
 /// try_step(), point_at() and examine() with their results in storage of the caller's.
-bool try_step(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& to,
-              StepMeasures& measures, std::string& refusal);
+/// @param model  the curve behind `from`, its origin, which is continued where it promises an even way; or nullptr
+bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,
+              CurvePoint& to, StepMeasures& measures, std::string& refusal);
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
 /// @param doubt   why the step is not to be trusted; empty: it is
 /// @returns whether the middle was found
-/// @param before  the point before `from` on the curve, which then helps to predict the middle; or nullptr
-bool examine(const Walker& walker, const CurvePoint* before, const CurvePoint& from,
+/// @param model  as for try_step()
+bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from,
              const CurvePoint& to, CurvePoint& middle, std::string& doubt);
+
+/// Where the model expects the curve at the way `ahead` from its origin. @returns false where it bends too much to be
+/// believed, or where there is no model
+bool expect(const Walker& walker, const ArcModel* model, const CurvePoint& origin, double ahead,
+            CurvePoint& point);
 
 }  // namespace springfold::continuation

@@ -1,12 +1,12 @@
 #include "springfold/core/equilibration.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <vector>
 
 #include "equal_sizes.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/scaling.hpp"
 
 namespace springfold {
@@ -54,13 +54,13 @@ Matrix null_directions(const Matrix& A) {
   assert(A.rows() == A.cols());
   if (A.size() == 0 || !A.allFinite()) return Matrix(A.rows(), 0);
   const Equilibration scale = equilibrate(A);
-  const Eigen::BDCSVD<Matrix> svd(scale.rows.asDiagonal() * A * scale.columns.asDiagonal(),
-                                  Eigen::ComputeFullV);
-  const Vector& values = svd.singularValues();
+  const Svd svd = divided_svd(scale.rows.asDiagonal() * A * scale.columns.asDiagonal(),
+                              SingularVectors::none, SingularVectors::full);
+  const Vector& values = svd.values;
   constexpr double zero = 1e-13, gap = 1e3;
   for (Index i = 0; i < values.size(); ++i) {
     const double above = i > 0 ? values[i - 1] : 1;
-    if (values[i] <= zero && values[i] * gap <= above) return svd.matrixV().rightCols(A.rows() - i);
+    if (values[i] <= zero && values[i] * gap <= above) return svd.V.rightCols(A.rows() - i);
   }
   return Matrix(A.rows(), 0);
 }

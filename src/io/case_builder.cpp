@@ -4,7 +4,10 @@
 #include <string_view>
 
 #include "case_draft.hpp"
+#include "case_hints.hpp"
 #include "compared_quantity.hpp"
+#include "jump_access.hpp"
+#include "memory_limits.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -137,7 +140,12 @@ class Builder {
     if (study.control == analysis::ControlMode::parameter && study.parameter)
       planned.family = family_of(draft_, i, run, parameters);
     planned.plan.map.situation = situations_of(draft_, i, run);
-    if (check(planned, of_mechanism, i)) result_.runs.push_back(std::move(planned));
+    if (analysis::is_of_critical_points(study.kind))
+      planned.plan.critical.cases = cases_of(draft_, i, run, parameters);
+    planned.places = places_of(study, draft_->mechanism);
+    if (!check(planned, of_mechanism, i)) return;
+    if (run == 1) add_hints(*draft_, i, of_mechanism, numbers, planned.mechanism, result_.hints);
+    result_.runs.push_back(std::move(planned));
   }
 
   /// How many links a link is cut into cannot change along a branch.
@@ -174,6 +182,7 @@ class Builder {
     for (const std::string& text : model::problems_in(planned.mechanism))
       add_model_problem(text, draft_->mechanism, numbers, study, planned.run, problems_);
     if (problems_.size() != before) return false;
+    check_planes(draft_->mechanism, numbers, planned.mechanism, study.when(planned.run), problems_);
     check_names(planned, i);
     for (const std::string& text : analysis::problems_in(planned.plan, planned.mechanism)) {
       const bool has_better_place = text.find(": no quantity ") != std::string::npos;
@@ -190,6 +199,7 @@ class Builder {
         std::find(names_[i].begin(), names_[i].end(), names) != names_[i].end();
     names_[i].resize(static_cast<std::size_t>(study.runs()));
     names_[i][static_cast<std::size_t>(planned.run - 1)] = names;
+    rows_.add(planned, names.size(), study, problems_);
     if (seen_before) return;
     std::set<std::string> seen;
     for (const std::string& name : names)
@@ -268,7 +278,9 @@ class Builder {
       value.tolerance = numbers[draft.tolerance];
       value.factor = numbers[draft.factor];
       for (const NearDraft& near : draft.near) {
-        check_use(near.quantity, *draft.study, value.run);
+        NamedPlace column = near.quantity;
+        if (value.at == "J") column.name = jump_column(column.name);
+        check_use(column, *draft.study, value.run);
         value.near.push_back({near.quantity.name, numbers[near.value]});
       }
       check_use(draft.per, *draft.study, value.run);
@@ -281,6 +293,7 @@ class Builder {
   std::shared_ptr<const CaseDraft> draft_;
   Problems& problems_;
   std::vector<std::vector<std::vector<std::string>>> names_{};  ///< quantities of every run
+  RowCounter rows_{};
   Case result_{};
 };
 

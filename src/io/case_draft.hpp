@@ -76,6 +76,11 @@ Case build_case(std::shared_ptr<const CaseDraft> draft, Problems& problems);
 analysis::ParameterFamily family_of(std::shared_ptr<const CaseDraft> draft, std::size_t study,
                                     int run, const Values& parameters);
 
+/// Mechanism and study of one run as a function of all named parameters. @param parameters  as the run has them
+std::shared_ptr<const analysis::CaseFamily> cases_of(std::shared_ptr<const CaseDraft> draft,
+                                                     std::size_t study, int run,
+                                                     const Values& parameters);
+
 /// Mechanism and load of a map's run as a function of those axes that are parameters; empty if none
 /// is. Several threads may call it.
 std::function<analysis::Situation(const std::vector<double>&)> situations_of(

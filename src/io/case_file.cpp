@@ -1,8 +1,8 @@
-#include "springfold/io/case_file.hpp"
-
 #include "case_draft.hpp"
 #include "command_reader.hpp"
+#include "memory_limits.hpp"
 #include "sha256.hpp"
+#include "springfold/io/read_case.hpp"
 
 namespace springfold::io {
 namespace {
@@ -39,6 +39,15 @@ std::vector<Document> read_expected_file(const fs::path& file, const Node& root,
   return sources.read_single((folder / named->text).lexically_normal(), named->place, "expected");
 }
 
+/// Mistakes in a file of expected values that the case does not name: it may belong to another case.
+void explain_neighbour(const fs::path& file, const Document& expected, Problems& problems) {
+  if (!problems.are_in(expected.name)) return;
+  problems.add({expected.name, 0, 0}, "",
+               "was read because it lies beside " + file.filename().string() +
+                   "; if it belongs to another case, write expected = \"\" at the top of " +
+                   file.filename().string());
+}
+
 /// Targets of studies that have them in files of their own, beside the case.
 void read_target_files(const fs::path& folder, SourceReader& sources, CaseDraft& draft,
                        Problems& problems) {
@@ -64,20 +73,31 @@ CaseError::CaseError(std::vector<std::string> messages)
     : std::runtime_error{joined(messages)}, messages_{std::move(messages)} {}
 
 Case load_case(const fs::path& file, const std::map<std::string, std::string>& overrides) {
+  return load_case(file, overrides, {});
+}
+
+Case load_case(const fs::path& file, const std::map<std::string, std::string>& overrides,
+               const std::function<bool()>& stop_requested) {
   Problems problems;
-  SourceReader sources{problems};
+  SourceReader sources{problems, stop_requested};
   const std::vector<Document> documents = sources.read_case(file);
   throw_if_any(problems);
   const std::vector<Document> expected =
       read_expected_file(file, documents.back().root, sources, problems);
+  const bool unasked = !expected.empty() && !documents.back().root.find("expected");
 
   CaseDraft read = read_case(documents, overrides, expected, problems);
   read_target_files(file.parent_path(), sources, read, problems);
   const auto draft = std::make_shared<const CaseDraft>(std::move(read));
-  check_numbers(*draft, problems);
+  const std::size_t before = problems.size();
+  check_memory(*draft, problems);
+  // Numbers of too many runs would take long to check.
+  if (problems.size() == before) check_numbers(*draft, problems);
+  if (unasked) explain_neighbour(file, expected.front(), problems);
   throw_if_any(problems);
 
   Case result = build_case(draft, problems);
+  if (unasked) explain_neighbour(file, expected.front(), problems);
   throw_if_any(problems);
   result.file = file;
   result.overrides = overrides;

@@ -96,12 +96,14 @@ std::optional<Index> body_number(const std::string& name, const Item& at,
                                  const std::vector<BodyDraft>& bodies, bool base_allowed,
                                  Reading& reading) {
   if (base_allowed && name == "base") return 0;
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&name](const BodyDraft& body) { return body.name == name; });
+  if (found != bodies.end()) return static_cast<Index>(found - bodies.begin() + 1);
+  constexpr std::size_t most_known = 1000;
   std::vector<std::string> known;
   if (base_allowed) known.push_back("base");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].name == name) return static_cast<Index>(i + 1);
+  for (std::size_t i = 0; i < std::min(bodies.size(), most_known); ++i)
     if (!bodies[i].name.empty()) known.push_back(bodies[i].name);
-  }
   reading.problems.add(at.node->place, at.key,
                        "got \"" + name + "\", need the name of a " +
                            (base_allowed ? "" : "moving ") + "body" + suggestion(name, known));
@@ -132,7 +134,10 @@ void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading
 void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const TableReader table{
-        *item.node, item.key, {"name", "from", "from_at", "to", "to_at", "elements"}, reading};
+        *item.node,
+        item.key,
+        {"name", "from", "from_at", "to", "to_at", "elements", "coupled_springs"},
+        reading};
     ChainDraft chain{.place = item.node->place, .key = item.key};
     chain.name = read_own_name(table, draft, reading);
     read_ends(table, draft, chain, reading);
@@ -143,7 +148,9 @@ void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading
         *frame = read_frame({node, table.key_of(name)}, planar, draft.numbers, reading);
     const std::string need = "a list of { joint = ... }, { rigid = ... } and { elastic = ... }";
     const Node* elements = table.require("elements", need);
-    read_elements(table.list("elements", need), planar, draft.numbers, chain, reading);
+    read_elements(table.list("elements", need), planar, coupled_joint_names(*item.node),
+                  draft.numbers, chain, reading);
+    read_coupled_springs(table, draft.numbers, chain, reading);
     if (elements && elements->kind == Node::Kind::array && elements->items.empty())
       reading.problems.add(elements->place, table.key_of("elements"),
                            "got an empty list, need at least one element");

@@ -43,11 +43,15 @@ bool read_number(std::string_view text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// node, piece, status, values; tabs between them, nothing for NaN.
+/// node, state, piece, status, values; tabs between them, nothing for NaN.
 bool read_row(std::string_view line, PartialRows& all) {
   std::size_t node = 0;
   if (!read_number(taken(line, '\t'), node) || node >= all.rows.size()) return false;
   analysis::Sample sample;
+  int state = 0;
+  constexpr int last = static_cast<int>(analysis::NodeState::not_computed);
+  if (!read_number(taken(line, '\t'), state) || state < 0 || state > last) return false;
+  sample.state = static_cast<analysis::NodeState>(state);
   sample.piece = taken(line, '\t');
   sample.status = taken(line, '\t');
   while (!line.empty()) {
@@ -69,7 +73,8 @@ void write_checkpoint(const fs::path& folder, const Case& the_case, const Planne
   for (std::size_t node = 0; node < rows.rows.size(); ++node) {
     if (!rows.done[node]) continue;
     const analysis::Sample& sample = rows.rows[node];
-    text += std::to_string(node) + "\t" + sample.piece + "\t" + sample.status;
+    text += std::to_string(node) + "\t" + std::to_string(static_cast<int>(sample.state)) + "\t" +
+            sample.piece + "\t" + sample.status;
     for (const double value : sample.values)
       text += "\t" + (std::isnan(value) ? std::string(".") : shortest(value));
     text += "\n";

@@ -39,6 +39,7 @@ std::vector<std::string> wrench_words(TaskSpace space) {
   return {};
 }
 
+const std::string axes_example = "axes = [{ pose = \"x\", from = -0.5, to = 0.5, points = 21 }]";
 const std::vector<std::string> solver_words{"newton", "paper"};
 const std::vector<std::string> command_words{"kinetostatic", "geometric", "given"};
 const std::vector<std::string> shape_words{"square", "disc", "cube", "ball"};
@@ -259,7 +260,7 @@ class CommandReader {
   void read_map() {
     const Node* list = table_.require(
         "axes", "a list such as [{ pose = \"x\", from = -0.5, to = 0.5, points = 21 }]");
-    for (const Item& item : table_.tables("axes")) read_axis(item);
+    for (const Item& item : table_.tables("axes", axes_example)) read_axis(item);
     if (list && list->kind == Node::Kind::array && (list->items.empty() || list->items.size() > 3))
       reading_.problems.add(list->place, table_.key_of("axes"),
                             "got " + described(*list) + ", need one to three axes");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "critical_summary.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -18,7 +19,7 @@ constexpr std::size_t most_targets = 24;
 
 std::string line(std::string label, const std::string& text) {
   label.resize(std::max<std::size_t>(label.size(), 14), ' ');
-  return std::string(indent, ' ') + label + text + "\n";
+  return std::string(indent, ' ') + label + shown(text) + "\n";
 }
 
 std::string with_unit(const StudyResult& result, std::size_t column, const UnitLabels& units) {
@@ -131,6 +132,7 @@ std::string workspace_lines(const StudyResult& result, const UnitLabels& units) 
 
 std::string command_lines(const Case& the_case, const PlannedRun& planned,
                           const StudyResult& result) {
+  if (analysis::is_of_critical_points(planned.plan.kind)) return critical_lines(planned, result);
   if (!result.start.found || result.branches.empty())
     return line("start", "NOT FOUND: " + result.start.message);
   if (planned.plan.kind == StudyKind::control) return control_lines(result, the_case.units);

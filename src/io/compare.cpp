@@ -7,6 +7,7 @@
 #include "comparison_text.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -72,7 +73,8 @@ std::string comparison_table(const std::vector<Comparison>& comparisons,
   auto heading = headings.begin();
   for (std::size_t at = 0; at < table.size(); ++row) {
     if (heading != headings.end() && heading->first == row) {
-      if (!heading->second.empty()) text += (row > 1 ? "\n  " : "  ") + heading->second + "\n";
+      if (!heading->second.empty())
+        text += (row > 1 ? "\n  " : "  ") + shown(heading->second) + "\n";
       ++heading;
     }
     const std::size_t end = table.find('\n', at) + 1;
@@ -83,7 +85,7 @@ std::string comparison_table(const std::vector<Comparison>& comparisons,
   for (const auto& note : expected.notes) {
     std::string lead = "  - ";
     for (const auto& line : wrapped(note, 96)) {
-      text += lead + line + "\n";
+      text += lead + shown(line) + "\n";
       lead = "    ";
     }
   }

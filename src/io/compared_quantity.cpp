@@ -1,12 +1,14 @@
 #include "compared_quantity.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "jump_access.hpp"
 #include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/system.hpp"
 #include "text.hpp"
 
@@ -28,6 +30,9 @@ struct Point {
   const Matrix* stiffness = nullptr;
   double potential = nothing;
   const Matrix* compliance = nullptr;  ///< where there is no stiffness
+  const Branch* branch = nullptr;      ///< of an event
+  /// At the start: slopes on both sides of it.
+  const std::vector<double>*rates_before = nullptr, *rates_after = nullptr;
 };
 
 double value_at(const StudyResult& result, const Point& point, const std::string& quantity) {
@@ -37,7 +42,40 @@ double value_at(const StudyResult& result, const Point& point, const std::string
 }
 
 Point point_of(const Branch& branch, const Event& event) {
-  return {&branch.samples[event.row], &event, &event.stiffness, nothing, &event.compliance};
+  return {&branch.samples[event.row], &event,  &event.stiffness,    nothing,
+          &event.compliance,          &branch, &event.rates_before, &event.rates_after};
+}
+
+bool is_index(const std::string& quantity) {
+  return quantity == "index" || quantity == "index_force" || quantity == "index_pose";
+}
+
+/// The point as it is on one side of it: at a switching one of its two rows, and for counts of unstable
+/// modes the row before or behind a special point, where they are defined.
+Point on_side(Point point, Side side, const std::string& quantity) {
+  if (side == Side::unsaid || point.event == nullptr || point.branch == nullptr) return point;
+  const std::vector<analysis::Sample>& samples = point.branch->samples;
+  const std::size_t row = point.event->row;
+  if (has_two_sides(*point.event)) {
+    if (side == Side::before || row + 1 >= samples.size()) return point;
+    point.sample = &samples[row + 1];
+    point.stiffness = &point.event->stiffness_after;
+    point.compliance = &point.event->compliance_after;
+    return point;
+  }
+  if (!is_index(quantity)) return point;
+  if (side == Side::before && row > 0) point.sample = &samples[row - 1];
+  if (side == Side::after && row + 1 < samples.size()) point.sample = &samples[row + 1];
+  return point;
+}
+
+/// The row of a target of a study of commands.
+const analysis::Sample* target_row(const StudyResult& result, int target) {
+  const auto path = column_of(result, "path");
+  if (!path || result.branches.empty()) return nullptr;
+  for (const analysis::Sample& sample : result.branches.front().samples)
+    if (sample.event.empty() && sample.values[*path] == target) return &sample;
+  return nullptr;
 }
 
 Point point_of(const analysis::Equilibrium& e) {
@@ -59,6 +97,8 @@ double count_of(const analysis::EquilibriaReport& report, const StudyResult& res
 double count_of(const StudyResult& result, std::string_view what) {
   if (what.starts_with("equilibria"))
     return result.equilibria ? count_of(*result.equilibria, result, what) : nothing;
+  if (what == "jumps")
+    return result.snap ? static_cast<double>(result.snap->jumps.size()) : nothing;
   if (what == "branches") return static_cast<double>(result.branches.size());
   const auto counts = event_counts(result);
   const auto found = counts.find(std::string{what});
@@ -139,7 +179,18 @@ std::optional<Point> point_of(const ExpectedValue& expected, const StudyResult& 
     Point point{&first.samples[first.start_row], event_in(first, first.start_row)};
     point.stiffness = &result.start.stiffness;
     point.compliance = &result.start.compliance;
+    if (!result.start.rates_after.empty()) {
+      point.rates_before = &result.start.rates_before;
+      point.rates_after = &result.start.rates_after;
+    } else if (point.event != nullptr) {
+      point.rates_before = &point.event->rates_before;
+      point.rates_after = &point.event->rates_after;
+    }
     return point;
+  }
+  if (const auto target = target_number(expected.at)) {
+    const analysis::Sample* row = target_row(result, *target);
+    return row ? std::optional{Point{row}} : std::nullopt;
   }
   if (expected.at == "end") {
     const std::size_t last = first.samples.size() - 1;
@@ -155,8 +206,8 @@ std::optional<Point> point_of(const ExpectedValue& expected, const StudyResult& 
 double matrix_entry(const Matrix& K, const MatrixEntry& at) {
   if (at.row >= K.rows() || at.column >= K.cols()) return nothing;
   if (!at.is_compliance) return K(at.row, at.column);
-  const Eigen::FullPivLU<Matrix> lu(K);
-  return lu.isInvertible() ? lu.inverse()(at.row, at.column) : nothing;
+  const FullPivotLu lu(K);
+  return lu.is_invertible() ? lu.inverse()(at.row, at.column) : nothing;
 }
 
 double of_junction(const StudyResult& result, const Point& point, const std::string& quantity) {
@@ -169,8 +220,9 @@ double of_junction(const StudyResult& result, const Point& point, const std::str
 }
 
 double slope(const ExpectedValue& expected, const StudyResult& result, const Point& point) {
-  if (!point.event) return nothing;
-  const auto& rates = expected.before ? point.event->rates_before : point.event->rates_after;
+  const auto* side = expected.side == Side::before ? point.rates_before : point.rates_after;
+  if (side == nullptr) return nothing;
+  const auto& rates = *side;
   const auto of = column_of(result, expected.quantity), per = column_of(result, expected.per);
   if (!of || !per || *of >= rates.size() || *per >= rates.size()) return nothing;
   return rates[*of] / rates[*per];
@@ -196,14 +248,15 @@ std::vector<MatrixEntryName> matrix_entries(const model::Mechanism& mechanism) {
 }
 
 const std::vector<std::string>& event_codes() {
-  static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS", "TP",
-                                              "FM", "UZ", "EP", "SC", "UR", "EQ"};
+  static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ",
+                                              "EP", "SC", "UR", "EQ", "CP", "IC", "CX", "HT", "BB",
+                                              "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH"};
   return codes;
 }
 
 std::vector<std::string> general_quantities() {
-  std::vector<std::string> names{"corank", "ways", "potential", "count.branches",
-                                 "count.equilibria"};
+  std::vector<std::string> names{"corank",         "ways",        "potential",
+                                 "count.branches", "count.jumps", "count.equilibria"};
   for (const std::string& code : event_codes())
     if (code != equilibrium_code) names.push_back("count." + code);
   return names;
@@ -219,12 +272,24 @@ bool is_general_quantity(const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::optional<int> target_number(const std::string& at) {
+  const std::string word = "target ";
+  if (!at.starts_with(word) || at.size() == word.size() || at.size() > word.size() + 7)
+    return std::nullopt;
+  const bool digits = std::all_of(at.begin() + static_cast<std::ptrdiff_t>(word.size()), at.end(),
+                                  [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || at[word.size()] == '0') return std::nullopt;
+  return std::stoi(at.substr(word.size()));
+}
+
 double found_value(const ExpectedValue& expected, const StudyResult& result) {
   const std::string& quantity = expected.quantity;
+  if (is_jump_place(expected.at)) return jump_value(expected, result);
   if (quantity.starts_with(count_prefix))
     return result.start.found ? count_of(result, quantity.substr(count_prefix.size())) : nothing;
-  const auto point = point_of(expected, result);
-  if (!point) return nothing;
+  const auto found = point_of(expected, result);
+  if (!found) return nothing;
+  const std::optional<Point> point = on_side(*found, expected.side, quantity);
   if (quantity == "corank" || quantity == "ways") return of_junction(result, *point, quantity);
   if (!expected.per.empty()) return slope(expected, result, *point);
   if (!expected.entry) return value_at(result, *point, quantity);

@@ -1,6 +1,7 @@
 // What an expected value is compared with: more than the columns of the branch table.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ const std::vector<std::string>& event_codes();
 
 /// Stands where a code may stand: the rows that are no special points.
 inline constexpr const char* any_row = "row";
+
+/// The number in "target 5"; nothing for every other text.
+std::optional<int> target_number(const std::string& at);
 
 /// The value that the run has; NaN if the point or the quantity does not exist.
 double found_value(const ExpectedValue& expected, const analysis::StudyResult& result);

@@ -193,32 +193,10 @@ class ElasticReader {
     const Node* node = table_.require("matrix", need + ", rows and columns as directions");
     link_.matrix.assign(m * m, numbers_.add(0));
     if (!node || !directions_known_) return;
-    const std::vector<Item> items = table_.list("matrix", need);
-    if (node->kind != Node::Kind::array) return;
-    if (items.size() != m) return report("matrix", "got " + described(*node) + ", need " + need);
-    bool whole = true;
-    for (std::size_t i = 0; i < m; ++i) {
-      const std::vector<Item> row =
-          list_items(items[i], "a list of " + rows + " numbers", reading_);
-      whole = whole && row.size() == m;
-      if (items[i].node->kind == Node::Kind::array && row.size() != m)
-        reading_.problems.add(
-            items[i].node->place, items[i].key,
-            "got " + described(*items[i].node) + ", need a list of " + rows + " numbers");
-      for (std::size_t j = 0; j < std::min(m, row.size()); ++j)
-        link_.matrix[i * m + j] = read_number(row[j], {}, numbers_, reading_);
-    }
-    if (!whole) return;
     const Definiteness definite =
         link_.kind == Kind::compliance ? Definiteness::definite : Definiteness::semidefinite;
-    numbers_.require(link_.matrix, node->place, table_.key_of("matrix"),
-                     [m, definite](const std::vector<double>& n) {
-                       const auto rows_of = static_cast<Index>(m);
-                       Matrix matrix(rows_of, rows_of);
-                       for (Index i = 0; i < rows_of * rows_of; ++i)
-                         matrix(i / rows_of, i % rows_of) = n[static_cast<std::size_t>(i)];
-                       return model::problem_in(matrix, definite);
-                     });
+    link_.matrix =
+        read_symmetric_matrix({node, table_.key_of("matrix")}, m, definite, numbers_, reading_);
   }
 
   /// One number per direction: lengths, then angles.

@@ -22,12 +22,13 @@ const std::vector<std::string>& role_words() {
 /// Reads one `{ joint = ... }`, which becomes one, two or three joints of the model.
 class JointReader {
  public:
-  JointReader(const Item& item, const std::string& default_name, NumberTable& numbers,
-              Reading& reading)
+  JointReader(const Item& item, const std::string& default_name,
+              const std::set<std::string>& coupled, NumberTable& numbers, Reading& reading)
       : table_{*item.node,
                item.key,
                {"joint", "axis", "axes", "name", "role", "spring", "value", "stiffness", "initial"},
                reading},
+        coupled_{coupled},
         numbers_{numbers},
         reading_{reading} {
     const std::size_t word = table_.choice("joint", joint_words(), 0);
@@ -142,12 +143,19 @@ class JointReader {
     if (has_spring) read_spring_laws(springs);
     const bool written = has_spring || has_stiffness || table_.is_misspelt("spring") ||
                          table_.is_misspelt("stiffness");
-    if (!written && role_ == JointRole::preloaded)
+    if (!written && role_ == JointRole::preloaded && !is_coupled())
       report("spring", "missing, need a spring: a preloaded joint has one");
     if (!written && role_ == JointRole::compliant)
       report("stiffness",
              "missing, need a number >= 0 [" + units_.stiffness + "] or spring = { law = ... }");
     return springs;
+  }
+
+  /// Does a coupled spring hold all its axes?
+  bool is_coupled() const {
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      if (!coupled_.contains(composed_ ? name_ + "." + std::to_string(i + 1) : name_)) return false;
+    return true;
   }
 
   void read_spring_laws(std::vector<std::optional<SpringDraft>>& springs) {
@@ -192,6 +200,7 @@ class JointReader {
   }
 
   TableReader table_;
+  const std::set<std::string>& coupled_;
   NumberTable& numbers_;
   Reading& reading_;
   bool composed_ = false;  ///< universal or spherical
@@ -267,8 +276,9 @@ NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& read
   return table.number("mass", {Range::non_negative, unit}, numbers, 0);
 }
 
-void read_elements(const std::vector<Item>& items, bool planar, NumberTable& numbers,
-                   ChainDraft& chain, Reading& reading) {
+void read_elements(const std::vector<Item>& items, bool planar,
+                   const std::set<std::string>& coupled, NumberTable& numbers, ChainDraft& chain,
+                   Reading& reading) {
   std::vector<ElementDraft>& elements = chain.elements;
   std::set<std::string> names;
   int joints = 0, links = 0;
@@ -280,6 +290,11 @@ void read_elements(const std::vector<Item>& items, bool planar, NumberTable& num
                              "\" is already the name of another joint of "
                              "this chain, need different names");
   };
+  constexpr std::size_t most_elements = 20000;
+  if (items.size() > most_elements)
+    return reading.problems.add(items[most_elements].node->place, items[most_elements].key,
+                                "got " + std::to_string(items.size()) + " elements, need at most " +
+                                    std::to_string(most_elements));
   for (const Item& item : items) {
     if (!is_table(item, "{ joint = ... }, { rigid = ... } or { elastic = ... }", reading)) continue;
     if (item.node->find("point")) {
@@ -296,7 +311,7 @@ void read_elements(const std::vector<Item>& items, bool planar, NumberTable& num
       claim(item, link.name);
       elements.push_back({std::move(link), item.node->place, item.key});
     } else {
-      JointReader reader{item, "j" + std::to_string(++joints), numbers, reading};
+      JointReader reader{item, "j" + std::to_string(++joints), coupled, numbers, reading};
       claim(item, reader.name());
       for (JointDraft& draft : reader.joints())
         elements.push_back({std::move(draft), item.node->place, item.key});

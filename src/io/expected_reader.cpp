@@ -2,6 +2,7 @@
 #include <array>
 
 #include "compared_quantity.hpp"
+#include "jump_access.hpp"
 #include "plot_reader.hpp"
 
 namespace springfold::io {
@@ -25,7 +26,7 @@ bool is_event_label(const std::string& text) {
 
 /// Whether the point is one that there can be, and `near` is there if and only if it is needed.
 void check_point(const TableReader& table, const std::string& at, Reading& reading) {
-  const bool is_code = is_event_code(at) || at == any_row;
+  const bool is_code = is_event_code(at) || at == any_row || at == "J";
   if (is_code && !table.has("near"))
     reading.problems.add(table.find("at")->place, table.key_of("at"),
                          "got \"" + at + "\", which may be several points: need near = { " +
@@ -34,11 +35,13 @@ void check_point(const TableReader& table, const std::string& at, Reading& readi
     reading.problems.add(table.find("near")->place, table.key_of("near"),
                          "goes with at = \"LP\" and the like, the code of a special point "
                          "without a number, and with at = \"row\"");
-  if (at == "start" || at == "end" || is_code || is_event_label(at)) return;
+  if (at == "start" || at == "end" || is_code || is_event_label(at) || target_number(at) ||
+      is_jump_place(at))
+    return;
   reading.problems.add(table.find("at")->place, table.key_of("at"),
                        "got \"" + at +
-                           "\", need \"start\", \"end\", an event such as \"LP1\", or the code of "
-                           "an event or \"row\" and `near`");
+                           "\", need \"start\", \"end\", an event such as \"LP1\", \"target 2\" "
+                           "of a study of commands, or the code of an event or \"row\" and `near`");
 }
 
 std::vector<NearDraft> read_near(const TableReader& table, NumberTable& numbers, Reading& reading) {
@@ -58,6 +61,8 @@ NamedPlace read_quantity(const TableReader& table, Reading& reading) {
   if (!name) return {};
   const Place place = table.find("quantity")->place;
   const std::string prefix = "count.";
+  if (const std::string column = jump_column(*name); column != *name)
+    return column.empty() ? NamedPlace{} : NamedPlace{column, place, table.key_of("quantity")};
   if (is_general_quantity(*name)) return {};
   if (!name->starts_with(prefix)) return {*name, place, table.key_of("quantity")};
   std::vector<std::string> known;
@@ -105,7 +110,8 @@ std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
       value.per = *per;
       draft.per = {*per, table.find("per")->place, table.key_of("per")};
     }
-    value.before = table.choice("side", side_words, 0) == 1;
+    if (table.has("side"))
+      value.side = table.choice("side", side_words, 0) == 1 ? Side::before : Side::after;
     value.agreement = std::array{Agreement::equal, Agreement::at_least,
                                  Agreement::at_most}[table.choice("compare", agreement_words, 0)];
     draft.expected = table.required_number("expected", {}, draft.numbers);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "result_access.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
 
@@ -94,7 +95,8 @@ void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, con
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
-  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch)), hue});
+  figure.curves.push_back(
+      {shown(label), parts_of(points, stability_of_steps(result, branch)), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
       add_mark(figure,

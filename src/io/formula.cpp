@@ -10,6 +10,7 @@
 #include <set>
 
 #include "problems.hpp"
+#include "unit_text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -186,6 +187,12 @@ FormulaBook::Added FormulaBook::add(const std::string& text) {
   if (text.size() > longest_formula)
     return {{}, "longer than " + std::to_string(longest_formula) + " characters"};
   if (std::all_of(text.begin(), text.end(), is_blank)) return {{}, "it is empty"};
+  if (!unit_problem(text, {}).empty()) {
+    std::vector<std::string> known = state.variables;
+    known.insert(known.end(), function_names().begin(), function_names().end());
+    known.emplace_back("pi");
+    if (std::string problem = unit_problem(text, known); !problem.empty()) return {{}, problem};
+  }
   for (const unsigned char c : text)
     if (c < 0x20 || c > 0x7e || c == '"' || c == '\'')
       return {{}, "formulas have letters, digits and + - * / ^ ( ) , . < > = ! & | ? : only"};

@@ -37,12 +37,28 @@ Json json_of(const PlannedRun& planned) {
           {"parameters", planned.parameters}, {"options_given", given}, {"options_used", options}};
 }
 
-/// The manifest of an earlier run, or null.
+const char* word_of(SetState state) {
+  return state == SetState::whole         ? "whole"
+         : state == SetState::interrupted ? "interrupted"
+                                          : "being written";
+}
+
+/// The manifest of an earlier run, or null: also for a file that is damaged, or that somebody else
+/// made, deeply nested or very large.
 Json read_manifest(const fs::path& folder) {
+  constexpr int deepest = 8;                                   // ours are 4 deep
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 28;  // [byte]
   std::error_code error;
-  if (!fs::is_regular_file(folder / manifest_name, error)) return nullptr;
+  const fs::path file = folder / manifest_name;
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > largest) return nullptr;
+  bool is_too_deep = false;
+  const auto within = [&](int depth, Json::parse_event_t, Json&) {
+    is_too_deep = is_too_deep || depth > deepest;
+    return !is_too_deep;
+  };
   try {
-    const auto json = Json::parse(read_file(folder / manifest_name), nullptr, false);
+    const auto json = Json::parse(read_file(file), within, false);
+    if (is_too_deep) return nullptr;
     const bool is_ours = json.is_object() && json.value("program", Json{}) == "springfold" &&
                          json.contains("files") && json["files"].is_array();
     return is_ours ? json : Json{};
@@ -74,7 +90,7 @@ std::string manifest_text(const Case& the_case, SetState state,
   Json json = {{"schema_version", 1},
                {"program", "springfold"},
                {"version", version},
-               {"state", state == SetState::whole ? "whole" : "being written"}};
+               {"state", word_of(state)}};
   json["case"] = {{"file", the_case.file.filename().string()},
                   {"title", the_case.title},
                   {"hash", the_case.hash}};
@@ -93,6 +109,15 @@ std::vector<std::string> files_listed_in(const fs::path& folder) {
   for (const auto& entry : manifest["files"])
     if (auto path = path_in(entry); stays_in_the_set(path)) paths.push_back(std::move(path));
   return paths;
+}
+
+void set_manifest_state(const fs::path& folder, SetState state,
+                        const std::vector<std::string>& pending) {
+  Json manifest = read_manifest(folder);
+  if (manifest.is_null()) return;
+  manifest["state"] = word_of(state);
+  manifest["pending"] = pending;
+  write_file(folder / manifest_name, json_text(manifest));
 }
 
 void list_in_manifest(const fs::path& folder, const std::vector<ListedFile>& files) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "springfold/io/case_file.hpp"
+#include "springfold/io/results.hpp"
 
 namespace springfold::io {
 
@@ -16,13 +16,11 @@ struct ListedFile {
   std::size_t bytes = 0;  ///< 0 without hash
 };
 
-/// Is the result set still being written (an interrupted run leaves it so) or whole?
-enum class SetState { being_written, whole };
-
 std::string manifest_text(const Case& the_case, SetState state,
                           const std::vector<ListedFile>& files);
 
-/// Files that the manifest in `folder` lists; empty when there is none or it cannot be read. Paths
+/// Files that the manifest in `folder` lists, pending ones too; empty when there is none or it cannot
+/// be read, whatever it holds. Paths
 /// that would lead out of branches/ and plots/ or the folder itself are left out.
 std::vector<std::string> files_listed_in(const std::filesystem::path& folder);
 
@@ -30,5 +28,10 @@ std::vector<std::string> files_listed_in(const std::filesystem::path& folder);
 /// manifest nothing happens.
 /// @throws std::runtime_error when it cannot be written
 void list_in_manifest(const std::filesystem::path& folder, const std::vector<ListedFile>& files);
+
+/// Changes the state that an existing manifest tells, and the pictures that it calls pending.
+/// @throws std::runtime_error when it cannot be written
+void set_manifest_state(const std::filesystem::path& folder, SetState state,
+                        const std::vector<std::string>& pending);
 
 }  // namespace springfold::io

@@ -11,6 +11,7 @@
 namespace springfold::io {
 namespace {
 
+using analysis::NodeState;
 using analysis::StudyKind;
 using analysis::StudyResult;
 
@@ -46,16 +47,16 @@ class Plane {
 
   GridField held() const {
     return field([](const analysis::Sample& s) {
-      const bool inside = s.status == "ok" || s.status == "unstable" || s.status == "critical" ||
-                          s.status.starts_with("critical load");
-      return s.status == "not computed" ? nothing : inside ? 1.0 : 0.0;
+      if (s.state == NodeState::not_computed) return nothing;
+      return s.state == NodeState::outside ? 0.0 : 1.0;
     });
   }
 
   GridField stable() const {
     return field([](const analysis::Sample& s) {
-      if (s.status == "unstable") return 0.0;
-      return s.status == "ok" || s.status.starts_with("critical load") ? 1.0 : nothing;
+      if (s.state == NodeState::unstable) return 0.0;
+      const bool stable = s.state == NodeState::stable || s.state == NodeState::load_not_found;
+      return stable ? 1.0 : nothing;
     });
   }
 

@@ -61,7 +61,8 @@ class MapPlotReader {
 
   void read_panels() {
     const Node* panels = table_.require("panels", "a list such as [{ study = \"...\" }]");
-    for (const Item& item : table_.tables("panels")) read_panel(item);
+    for (const Item& item : table_.tables("panels", "panels = [{ study = \"...\" }]"))
+      read_panel(item);
     if (panels && panels->kind == Node::Kind::array && panels->items.empty())
       reading_.problems.add(panels->place, table_.key_of("panels"),
                             "got an empty list, need at least one panel");

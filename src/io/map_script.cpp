@@ -1,20 +1,12 @@
 // The gnuplot script of a map: values and lines as data blocks, then the templates.
 #include <cmath>
 
+#include "gnuplot_text.hpp"
 #include "map_figure.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
 namespace {
-
-std::string gnuplot_text(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "'";
-}
 
 std::string number(double value) { return std::isnan(value) ? "NaN" : rounded(value, 8); }
 
@@ -53,17 +45,17 @@ std::string map_script(const MapFigure& figure, const std::string& style,
   const auto assign = [&script](const std::string& name, const std::string& value) {
     script += name + " = " + value + "\n";
   };
-  assign("figure_name", gnuplot_text(figure.name));
-  assign("figure_title", gnuplot_text(figure.title));
-  assign("x_title", gnuplot_text(figure.x_title));
-  assign("y_title", gnuplot_text(figure.y_title));
-  assign("value_title", gnuplot_text(figure.value_title));
+  assign("figure_name", gnuplot_string(figure.name));
+  assign("figure_title", gnuplot_string(figure.title));
+  assign("x_title", gnuplot_string(figure.x_title));
+  assign("y_title", gnuplot_string(figure.y_title));
+  assign("value_title", gnuplot_string(figure.value_title));
   assign("value_low", shortest(figure.low));
   assign("value_high", shortest(figure.high));
   std::string levels;
   for (const double level : figure.levels)
     levels += (levels.empty() ? "" : " ") + rounded(level, 6);
-  assign("levels", gnuplot_text(levels));
+  assign("levels", gnuplot_string(levels));
   assign("panels", std::to_string(figure.panels.size()));
   const auto& xs = figure.panels.front().field.xs;
   const auto& ys = figure.panels.front().field.ys;
@@ -76,7 +68,7 @@ std::string map_script(const MapFigure& figure, const std::string& style,
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const MapPanel& panel = figure.panels[i];
     const std::string k = std::to_string(i + 1);
-    script += "panel_title[" + k + "] = " + gnuplot_text(panel.title) + "\n";
+    script += "panel_title[" + k + "] = " + gnuplot_string(panel.title) + "\n";
     add_field(script, "field_" + k, panel.field, figure.low, figure.high);
     add_block(script, "contours_" + k, panel.contours);
     add_block(script, "edge_" + k, panel.edge);

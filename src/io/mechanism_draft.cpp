@@ -141,6 +141,20 @@ model::Vec3<double> vec3_of(const std::vector<NumberId>& ids, const Numbers& num
   return v;
 }
 
+/// @param first  of the model's elements, per element of the draft
+model::CoupledSpring coupled_of(const CoupledDraft& draft, const std::vector<std::size_t>& first,
+                                const Numbers& numbers) {
+  model::CoupledSpring spring{.name = draft.name};
+  for (const std::size_t joint : draft.joints) spring.elements.push_back(first[joint]);
+  const auto m = static_cast<Index>(draft.joints.size());
+  Matrix matrix(m, m);
+  for (Index i = 0; i < m * m; ++i)
+    matrix(i / m, i % m) = numbers[draft.stiffness[static_cast<std::size_t>(i)]];
+  spring.stiffness = 0.5 * (matrix + matrix.transpose());
+  spring.free = vector_of(draft.free, numbers);
+  return spring;
+}
+
 model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
   return {.body = draft.body,
           .chain = draft.chain,
@@ -207,6 +221,8 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
       add_element(element, numbers, chain);
     }
     first.push_back(chain.elements.size());
+    for (const CoupledDraft& spring : from.coupled)
+      chain.coupled_springs.push_back(coupled_of(spring, first, numbers));
     for (const PointDraft& point : from.points)
       chain.points.push_back(point_of(point, first[point.elements_before], numbers));
     mechanism.chains.push_back(std::move(chain));

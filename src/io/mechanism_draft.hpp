@@ -129,12 +129,23 @@ struct LineSpringDraft {
   std::string key{};
 };
 
+/// A linear spring on several preloaded joints of a chain.
+struct CoupledDraft {
+  std::string name{};
+  std::vector<std::size_t> joints{};  ///< places in ChainDraft::elements
+  std::vector<NumberId> stiffness{};  ///< row by row
+  std::vector<NumberId> free{};       ///< one per joint
+  Place place{};
+  std::string key{};
+};
+
 struct ChainDraft {
   std::string name{};
   Index from = 0, to = 1;
   FrameDraft from_at{}, to_at{};
   std::vector<ElementDraft> elements{};
   std::vector<PointDraft> points{};
+  std::vector<CoupledDraft> coupled{};
   Place place{};
   std::string key{};
 };

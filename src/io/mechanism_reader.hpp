@@ -1,6 +1,7 @@
 // [[body]] and [[chain]] tables.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading
 void read_chains(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
 
 /// `elements` of one chain, into chain.elements and chain.points.
-/// @param planar  rigid links may have two entries
-void read_elements(const std::vector<Item>& elements, bool planar, NumberTable& numbers,
-                   ChainDraft& chain, Reading& reading);
+/// @param planar   rigid links may have two entries
+/// @param coupled  joints that a coupled spring holds: they need none of their own
+void read_elements(const std::vector<Item>& elements, bool planar,
+                   const std::set<std::string>& coupled, NumberTable& numbers, ChainDraft& chain,
+                   Reading& reading);
 
 /// `gravity`, [[spring]] and [[load]] tables. All chains must be read before.
 void read_gravity(const Item& item, MechanismDraft& draft, Reading& reading);
@@ -52,6 +55,18 @@ bool is_planar(const BodyDraft& body);
 /// One `{ elastic = ... }`. @param plane  the body moves in the plane: directions Tx, Ty, Rz
 ElasticDraft read_elastic(const Item& item, const std::string& default_name, bool plane,
                           NumberTable& numbers, Reading& reading);
+
+/// `coupled_springs` of a chain whose elements are read, into chain.coupled.
+void read_coupled_springs(const TableReader& table, NumberTable& numbers, ChainDraft& chain,
+                          Reading& reading);
+
+/// The joints that they name, before the elements are read.
+std::set<std::string> coupled_joint_names(const Node& chain);
+
+/// `size` rows of as many numbers that make a symmetric matrix, row by row.
+std::vector<NumberId> read_symmetric_matrix(const Item& item, std::size_t size,
+                                            model::Definiteness definite, NumberTable& numbers,
+                                            Reading& reading);
 
 /// `[x, y, z]` or `{ at = [...], rotate = { axis = ..., angle = ... } }`.
 FrameDraft read_frame(const Item& item, bool planar, NumberTable& numbers, Reading& reading);

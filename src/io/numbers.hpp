@@ -49,6 +49,7 @@ class NumberTable {
                std::function<std::string(const std::vector<double>&)> problem_in);
 
   std::size_t size() const { return entries_.size(); }
+  const Rule& rule(NumberId id) const { return entries_[id].rule; }
   const Definition& definition(NumberId id) const { return entries_[id].definition; }
 
   Values values(const FormulaBook& book, const Values& parameters) const;

@@ -29,6 +29,19 @@ PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies,
   return curves;
 }
 
+/// How `curves` is written, with what was meant if that can be seen.
+std::string curves_example(const Node* curves, const std::vector<StudyDraft>& studies) {
+  std::string study = "...";
+  const Node* named = curves;
+  if (curves && curves->kind == Node::Kind::table && curves->find("study"))
+    named = curves->find("study");
+  const auto has_name = [named](const StudyDraft& s) { return s.name == named->text; };
+  if (named && named->kind == Node::Kind::text &&
+      std::any_of(studies.begin(), studies.end(), has_name))
+    study = named->text;
+  return "curves = [{ study = \"" + study + "\" }]";
+}
+
 NamedPlace read_quantity(const TableReader& table, const std::string& name,
                          const std::string& otherwise) {
   const Node* node = table.find(name);
@@ -106,7 +119,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
     const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");
-    for (const Item& curve : table.tables("curves"))
+    for (const Item& curve : table.tables("curves", curves_example(curves, studies)))
       spec.curves.push_back(read_curves(curve, studies, reading));
     if (curves && curves->kind == Node::Kind::array && curves->items.empty())
       reading.problems.add(curves->place, table.key_of("curves"),

@@ -11,6 +11,7 @@
 #include "atomic_file.hpp"
 #include "figure.hpp"
 #include "gnuplot_process.hpp"
+#include "gnuplot_text.hpp"
 #include "label_layout.hpp"
 #include "manifest.hpp"
 #include "map_figure.hpp"
@@ -69,23 +70,12 @@ Templates read_templates(const fs::path& wanted, bool with_maps) {
           with_maps ? read_file(folder / "map.gp") : std::string{}};
 }
 
-/// A gnuplot string: nothing but the quote is special between single quotes.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    const bool is_control = static_cast<unsigned char>(c) < 0x20;
-    result += is_control ? ' ' : c;
-  }
-  return result + "'";
-}
-
 std::string assignment(const std::string& name, double value) {
   return name + " = " + shortest(value) + "\n";
 }
 
 std::string assignment(const std::string& name, std::string_view text) {
-  return name + " = " + quoted(text) + "\n";
+  return name + " = " + gnuplot_string(text) + "\n";
 }
 
 /// gnuplot-iostream ends data with a line "e": the same line ends a named data block.
@@ -164,7 +154,7 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
     if (label.has_leader)
       gnuplot << "set arrow from " << on_screen(label.leader_from, canvas) << " to "
               << on_screen(label.leader_to, canvas) << " nohead linestyle 4 back\n";
-    gnuplot << "set label " << quoted(label.text) << " at " << on_screen(label.at, canvas)
+    gnuplot << "set label " << gnuplot_string(label.text) << " at " << on_screen(label.at, canvas)
             << " center noenhanced front font "
             << (label.is_curve_label ? "curve_label_font" : "point_label_font") << " textcolor rgb "
             << (label.is_curve_label ? "curve_label_color" : "point_label_color") << "\n";
@@ -242,8 +232,13 @@ std::optional<std::string> draw(const fs::path& folder, const std::string& name,
     const std::string picture = name + ending;
     publish_file(work.path() / picture, folder / "plots" / picture);
     outcome.files.push_back(folder / "plots" / picture);
+    std::erase(outcome.missing, "plots/" + picture);
   }
   return std::nullopt;
+}
+
+void expect_pictures(const std::string& name, PlotOutcome& outcome) {
+  for (const char* ending : {".png", ".svg"}) outcome.missing.push_back("plots/" + name + ending);
 }
 
 }  // namespace
@@ -256,6 +251,9 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
     const auto figures = figures_of(the_case, results, outcome.warnings);
     const auto maps = map_figures_of(the_case, results, outcome.warnings);
     if (figures.empty() && maps.empty()) return outcome;
+    for (const auto& figure : figures) expect_pictures(figure.name, outcome);
+    for (const auto& figure : maps) expect_pictures(figure.name, outcome);
+    if (options.stop_requested && options.stop_requested()) return outcome;
     const Templates templates = read_templates(options.templates, !maps.empty());
     const auto gnuplot = find_executable(options.gnuplot);
     make_folder(folder / "plots");

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <unordered_set>
+
+#include "springfold/io/shown_text.hpp"
 
 namespace springfold::io {
 namespace {
+
+/// More messages than that help nobody.
+constexpr std::size_t most_messages = 100;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -40,10 +46,17 @@ void Problems::add(const Place& place, const std::string& key, const std::string
   text += ": ";
   if (!key.empty()) text += key + ": ";
   text += what;
-  for (char& c : text)  // keys and names come from the file: one message stays one line
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  text = shown(text);  // keys and names come from the file: one message stays one line
+  // The same mistake comes again soon, with the next run; others are found when all are printed.
+  constexpr std::ptrdiff_t looked_at = 200;
+  const auto begin = items_.end() - std::min(std::ssize(items_), looked_at);
   const auto is_same = [&text](const Item& item) { return item.text == text; };
-  if (std::none_of(items_.begin(), items_.end(), is_same)) items_.push_back({place, text, when});
+  if (std::none_of(begin, items_.end(), is_same)) items_.push_back({place, text, when});
+}
+
+bool Problems::are_in(const std::string& file) const {
+  return std::any_of(items_.begin(), items_.end(),
+                     [&file](const Item& item) { return item.place.file == file; });
 }
 
 std::vector<std::string> Problems::messages() const {
@@ -55,7 +68,17 @@ std::vector<std::string> Problems::messages() const {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Item& a, const Item& b) { return rank(a) < rank(b); });
   std::vector<std::string> texts;
-  for (const Item& item : sorted) texts.push_back(item.text + item.when);
+  std::unordered_set<std::string_view> seen;
+  std::size_t others = 0;
+  for (const Item& item : sorted) {
+    if (!seen.insert(item.text).second) continue;
+    if (texts.size() == most_messages)
+      ++others;
+    else
+      texts.push_back(item.text + item.when);
+  }
+  if (others > 0)
+    texts.push_back("and " + std::to_string(others) + " other mistake" + (others > 1 ? "s" : ""));
   return texts;
 }
 
@@ -73,7 +96,11 @@ std::string nearest(std::string_view got, const std::vector<std::string>& known)
   };
   std::string best;
   std::pair least{most + 2, std::size_t{0}};
+  constexpr std::size_t most_candidates = 1000;
+  std::size_t looked_at = 0;
   for (const std::string& candidate : known) {
+    if (++looked_at > most_candidates) break;
+    if (difference(candidate) > most + 1) continue;  // the distance is at least that
     const std::size_t distance = edit_distance(got, candidate);
     if (distance >= std::max(got.size(), candidate.size())) continue;
     if (distance > most + (begins_alike(candidate) ? 1 : 0)) continue;

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "springfold/io/nearest.hpp"
+
 namespace springfold::io {
 
 /// A position in a file. Line 0: the file as a whole. Columns count characters from 1.
@@ -30,6 +32,9 @@ class Problems {
   void add(const Place& place, const std::string& key, const std::string& what,
            const std::string& when = "");
 
+  /// Is one of them in this file?
+  bool are_in(const std::string& file) const;
+
   bool empty() const { return items_.empty(); }
   std::size_t size() const { return items_.size(); }
 
@@ -45,10 +50,6 @@ class Problems {
   std::vector<Item> items_;
   std::vector<std::string> files_;
 };
-
-/// Whichever of `known` is nearest to `got` (swapped, missing, added or wrong letters; upper and
-/// lower case count little); empty if none is near.
-std::string nearest(std::string_view got, const std::vector<std::string>& known);
 
 /// `, did you mean "spring"?`, or `; known here: at, rotate` if none is near.
 std::string suggestion(std::string_view got, const std::vector<std::string>& known);

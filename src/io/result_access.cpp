@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include "springfold/io/shown_text.hpp"
+
 namespace springfold::io {
 
 namespace {
@@ -86,6 +88,19 @@ bool has_two_sides(const analysis::Event& event) {
     case EventKind::end_of_range:
     case EventKind::stability_change:
     case EventKind::unresolved:
+    case EventKind::cusp:
+    case EventKind::isola_centre:
+    case EventKind::crossing:
+    case EventKind::hilltop:
+    case EventKind::branch_points_merge:
+    case EventKind::more_modes:
+    case EventKind::fold_meets_activation:
+    case EventKind::corner_loses_reversal:
+    case EventKind::touches_activation:
+    case EventKind::two_activations:
+    case EventKind::parameter_turns:
+    case EventKind::extremum:
+    case EventKind::threshold:
       return false;
   }
   return false;
@@ -113,8 +128,8 @@ std::string unit_label(Unit unit, Unit lambda_unit, const UnitLabels& labels) {
 }
 
 std::string heading_of(const analysis::StudyResult& result) {
-  std::string heading = result.study + ", run " + std::to_string(result.run);
-  if (!result.label.empty()) heading += " (" + result.label + ")";
+  std::string heading = shown(result.study) + ", run " + std::to_string(result.run);
+  if (!result.label.empty()) heading += " (" + shown(result.label) + ")";
   return heading;
 }
 

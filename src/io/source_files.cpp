@@ -1,11 +1,15 @@
 #include "source_files.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
+
+#include "springfold/continuation/interrupted.hpp"
 
 namespace springfold::io {
 namespace {
@@ -20,25 +24,51 @@ struct Contents {
   std::string problem{};
 };
 
-Contents read_bytes(const fs::path& file) {
+/// An open file. A pipe is opened whether or not somebody writes into it yet.
+class Input {
+ public:
+  explicit Input(const fs::path& file)
+      : number_{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)} {}
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+  ~Input() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// Until there is something to read or the end: a pipe without a writer has neither.
+void wait_for_bytes(const Input& input, const std::function<bool()>& stop_requested) {
+  constexpr int patience_ms = 100;
+  pollfd wanted{.fd = input.number(), .events = POLLIN, .revents = 0};
+  do {
+    if (stop_requested && stop_requested()) throw continuation::Interrupted{};
+  } while (::poll(&wanted, 1, patience_ms) <= 0);
+}
+
+Contents read_bytes(const fs::path& file, const std::function<bool()>& stop_requested) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) {
     const fs::path inside = file / "case.toml";
     const bool likely = fs::is_regular_file(inside, ignored);
     return {{}, "it is a directory" + (likely ? "; its case is " + inside.string() : "")};
   }
-  errno = 0;
-  const auto close = [](std::FILE* stream) { std::fclose(stream); };
-  const std::unique_ptr<std::FILE, decltype(close)> stream{std::fopen(file.c_str(), "rb"), close};
-  if (!stream) return {{}, std::generic_category().message(errno)};
+  const Input input{file};
+  if (input.number() < 0) return {{}, std::generic_category().message(errno)};
   Contents contents;
-  std::array<char, 16384> buffer{};
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), stream.get())) {
-    contents.bytes.append(buffer.data(), got);
+  std::array<char, 1 << 16> buffer{};
+  for (;;) {
+    wait_for_bytes(input, stop_requested);
+    const ssize_t got = ::read(input.number(), buffer.data(), buffer.size());
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got < 0) return {{}, std::generic_category().message(errno)};
+    if (got == 0) return contents;
+    contents.bytes.append(buffer.data(), static_cast<std::size_t>(got));
     if (contents.bytes.size() > largest_file) return {{}, "it is larger than 4 MiB"};
   }
-  if (std::ferror(stream.get())) return {{}, std::generic_category().message(errno)};
-  return contents;
 }
 
 fs::path identity_of(const fs::path& file) {
@@ -74,7 +104,7 @@ std::optional<Node> SourceReader::read_one(const fs::path& file, const Origin& o
 }
 
 std::optional<std::string> SourceReader::read_counted(const fs::path& file, const Origin& origin) {
-  const Contents contents = read_bytes(file);
+  const Contents contents = read_bytes(file, stop_requested_);
   if (!contents.problem.empty()) {
     const bool named = !origin.place.file.empty();
     if (named)

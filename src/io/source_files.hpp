@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,7 +21,9 @@ struct Document {
 /// Reads files for one case and keeps their bytes for its fingerprint.
 class SourceReader {
  public:
-  explicit SourceReader(Problems& problems) : problems_{&problems} {}
+  /// @param stop_requested  asked while files are read; then Interrupted is thrown. May be empty
+  explicit SourceReader(Problems& problems, std::function<bool()> stop_requested = {})
+      : problems_{&problems}, stop_requested_{std::move(stop_requested)} {}
 
   /// The file and all that it includes: included ones first, each once, the file itself last.
   /// Unreadable, too large, ill-formed files and circles are problems.
@@ -50,6 +53,7 @@ class SourceReader {
   std::vector<std::pair<std::string, Origin>> includes_of(const Node& root) const;
 
   Problems* problems_;
+  std::function<bool()> stop_requested_{};
   std::string bytes_{};
   std::vector<std::filesystem::path> open_{};  ///< files that are being read, outermost first
   std::set<std::filesystem::path> done_{};

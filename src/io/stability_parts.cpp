@@ -36,6 +36,19 @@ Trust trust_at(EventKind kind) {
     case EventKind::family:
     case EventKind::stability_change:
     case EventKind::unresolved:
+    case EventKind::cusp:
+    case EventKind::isola_centre:
+    case EventKind::crossing:
+    case EventKind::hilltop:
+    case EventKind::branch_points_merge:
+    case EventKind::more_modes:
+    case EventKind::fold_meets_activation:
+    case EventKind::corner_loses_reversal:
+    case EventKind::touches_activation:
+    case EventKind::two_activations:
+    case EventKind::parameter_turns:
+    case EventKind::extremum:
+    case EventKind::threshold:
       return Trust::little;
   }
   return Trust::none;

@@ -1,5 +1,7 @@
 #include "study_draft.hpp"
 
+#include <algorithm>
+
 namespace springfold::io {
 
 Redefinitions StudyDraft::changes(int run) const {
@@ -34,6 +36,31 @@ void check_direction(const StudyDraft& draft, model::TaskSpace space, const Valu
                varies ? when : "");
 }
 
+namespace {
+
+/// Default steps give way to those of the case: minimum <= initial <= maximum.
+analysis::TraceSettings trace_of(const StudyDraft& draft, const std::vector<double>& numbers) {
+  analysis::TraceSettings trace;
+  const auto given = [&](const std::optional<NumberId>& id, double otherwise) {
+    return id ? numbers[*id] : otherwise;
+  };
+  trace.initial_step = given(draft.initial_step, trace.initial_step);
+  trace.minimum_step = given(draft.minimum_step, trace.minimum_step);
+  trace.maximum_step = given(draft.maximum_step, trace.maximum_step);
+  if (!draft.maximum_step)
+    trace.maximum_step =
+        std::max({trace.maximum_step, given(draft.initial_step, 0), given(draft.minimum_step, 0)});
+  if (!draft.initial_step)
+    trace.initial_step =
+        std::max(std::min(trace.initial_step, trace.maximum_step), given(draft.minimum_step, 0));
+  if (!draft.minimum_step) trace.minimum_step = std::min(trace.minimum_step, trace.initial_step);
+  trace.maximum_points = static_cast<int>(numbers[draft.maximum_points]);
+  trace.spacing = numbers[draft.spacing];
+  return trace;
+}
+
+}  // namespace
+
 analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
                             const std::vector<double>& numbers,
                             const std::vector<Parameter>& parameters) {
@@ -57,11 +84,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   for (const MarkDraft& mark : draft.marks)
     study.marks.push_back({mark.quantity.name, numbers[mark.value]});
   study.path = draft.path;
-  study.trace = {.initial_step = numbers[draft.initial_step],
-                 .minimum_step = numbers[draft.minimum_step],
-                 .maximum_step = numbers[draft.maximum_step],
-                 .maximum_points = static_cast<int>(numbers[draft.maximum_points]),
-                 .spacing = numbers[draft.spacing]};
+  study.trace = trace_of(draft, numbers);
   study.branches = {.depth = static_cast<int>(numbers[draft.depth]),
                     .maximum = static_cast<int>(numbers[draft.maximum_branches]),
                     .search_at = {},
@@ -73,6 +96,8 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   study.search.maximum = static_cast<int>(numbers[draft.equilibria_maximum]);
   for (const LimitDraft& limit : draft.box)
     study.search.box.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
+  build_critical(draft.critical, numbers, study.critical);
+  study.snap = build_snap(draft.snap, numbers);
   build_commands(draft.commands, space, numbers, study);
   return study;
 }

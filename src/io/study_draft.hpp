@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "command_draft.hpp"
+#include "critical_draft.hpp"
 #include "mechanism_draft.hpp"
+#include "snap_reader.hpp"
 #include "springfold/analysis/study.hpp"
 
 namespace springfold::io {
@@ -48,14 +50,18 @@ struct StudyDraft {
   std::vector<NumberId> start_pose{};  ///< d or none
   NumberId attempts = 0, seed = 0, maximum_move = 0;
   analysis::Path path = analysis::Path::arc_length;
-  NumberId initial_step = 0, minimum_step = 0, maximum_step = 0, maximum_points = 0, spacing = 0;
+  /// Steps that the case leaves out follow those that it gives.
+  std::optional<NumberId> initial_step{}, minimum_step{}, maximum_step{};
+  NumberId maximum_points = 0, spacing = 0;
   NumberId depth = 0, maximum_branches = 0, search_starts = 0, search_seed = 0;
   std::vector<NumberId> search_at{};
   NumberId equilibria_starts = 0, equilibria_seed = 0, equilibria_maximum = 0;
   std::vector<LimitDraft> box{};
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};
-  CommandDraft commands{};  ///< kinds control, map and workspace
+  SnapDraft snap{};
+  CommandDraft commands{};        ///< kinds control, map and workspace
+  CriticalPointDraft critical{};  ///< kinds critical_curve, threshold and sensitivity
   Redefinitions set{};
   std::optional<VaryDraft> vary{};
   bool runs_known = true;  ///< false: `vary` is there but unusable

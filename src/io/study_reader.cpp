@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "command_reader.hpp"
 #include "mechanism_reader.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -13,18 +15,23 @@ using analysis::ControlMode;
 using analysis::StartSolve;
 using analysis::StudyKind;
 
-const std::vector<std::string> kind_words{"force_deflection", "equilibrium", "equilibria",
-                                          "control",          "map",         "workspace"};
+const std::vector<std::string> kind_words{
+    "force_deflection", "equilibrium",    "equilibria", "control",     "map",
+    "workspace",        "critical_curve", "threshold",  "sensitivity", snap_kind};
 const std::array kinds{StudyKind::force_deflection, StudyKind::equilibrium, StudyKind::equilibria,
-                       StudyKind::control,          StudyKind::map,         StudyKind::workspace};
+                       StudyKind::control,          StudyKind::map,         StudyKind::workspace,
+                       StudyKind::critical_curve,   StudyKind::threshold,   StudyKind::sensitivity,
+                       StudyKind::force_deflection};  // the last one with jumps
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
+const std::string loads_example = "loads = [{ name = \"...\", on = \"...\", force = [...] }]";
 const std::vector<std::string> study_keys{
-    "name",  "kind",  "control",  "body",      "direction", "load", "loads",
-    "start", "until", "mark",     "actuators", "parameter", "set",  "vary",
-    "path",  "trace", "branches", "search",    "prescribed"};
+    "name",       "kind",           "control",   "body",        "direction", "load",
+    "loads",      "start",          "until",     "mark",        "actuators", "parameter",
+    "set",        "vary",           "path",      "trace",       "branches",  "search",
+    "prescribed", "critical_curve", "threshold", "sensitivity", "snap"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {
@@ -80,8 +87,8 @@ class StudyReader {
     const std::string force = reading_.units.force, length = reading_.units.length;
     draft_.load = read_vector(table_, "load", force, force + "*" + length);
     if (!analysis::is_of_commands(draft_.kind))
-      draft_.loads = read_loads(table_.tables("loads"), mechanism_, body_known_ ? draft_.body : 0,
-                                draft_.numbers, reading_);
+      draft_.loads = read_loads(table_.tables("loads", loads_example), mechanism_,
+                                body_known_ ? draft_.body : 0, draft_.numbers, reading_);
     else if (body_known_)
       draft_.commands = read_commands(draft_.kind, table_,
                                       mechanism_.bodies[static_cast<std::size_t>(draft_.body - 1)],
@@ -95,15 +102,18 @@ class StudyReader {
     draft_.vary = read_vary(table_, draft_.set, reading_);
     draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
     read_trace();
+    draft_.snap = read_snap(table_, draft_.numbers, reading_);
     read_branches();
     read_search();
+    draft_.critical = read_critical(draft_.kind, table_, draft_.numbers, reading_);
     return std::move(draft_);
   }
 
  private:
   bool read_kind() {
     draft_.kind = kinds[table_.choice("kind", kind_words, 0)];
-    const bool traces = draft_.kind == StudyKind::force_deflection;
+    const bool traces =
+        draft_.kind == StudyKind::force_deflection || analysis::is_of_critical_points(draft_.kind);
     if (traces) table_.require("control", choices(control_words));
     draft_.control =
         std::array{ControlMode::load, ControlMode::pose, ControlMode::mixed, ControlMode::actuator,
@@ -119,7 +129,7 @@ class StudyReader {
     const bool single = draft_.kind == StudyKind::equilibrium;
     if (!single && draft_.kind != StudyKind::equilibria) return;
     std::vector<std::string> keys{"control", "actuators", "parameter", "prescribed",
-                                  "mark",    "path",      "trace"};
+                                  "mark",    "path",      "trace",     "snap"};
     if (single) keys.emplace_back("until");
     for (const std::string& key : keys)
       if (const Node* node = table_.find(key))
@@ -290,9 +300,10 @@ class StudyReader {
         {"initial_step", "minimum_step", "maximum_step", "maximum_points", "spacing"});
     const Rule step{Range::positive, ""};
     NumberTable& numbers = draft_.numbers;
-    draft_.initial_step = trace.number("initial_step", step, numbers, defaults.initial_step);
-    draft_.minimum_step = trace.number("minimum_step", step, numbers, defaults.minimum_step);
-    draft_.maximum_step = trace.number("maximum_step", step, numbers, defaults.maximum_step);
+    for (auto [name, id] : {std::pair{"initial_step", &draft_.initial_step},
+                            {"minimum_step", &draft_.minimum_step},
+                            {"maximum_step", &draft_.maximum_step}})
+      if (trace.has(name)) *id = trace.number(name, step, numbers, 0);
     draft_.maximum_points =
         trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
     draft_.spacing = trace.number("spacing", {Range::non_negative, ""}, numbers, defaults.spacing);
@@ -307,12 +318,23 @@ class StudyReader {
     const auto count = [&](const std::string& name, Range range, double otherwise) {
       return branches.number(name, {range, ""}, numbers, otherwise);
     };
-    draft_.depth = count("depth", Range::whole, defaults.depth);
+    draft_.depth = count("depth", Range::whole, draft_.snap.is_kind ? 1 : defaults.depth);
+    require_count(draft_.depth);
     draft_.maximum_branches = count("maximum", Range::small_count, defaults.maximum);
     draft_.search_starts = count("starts", Range::small_count, defaults.starts);
     draft_.search_seed = count("seed", Range::whole, static_cast<double>(defaults.seed));
     draft_.search_at = read_numbers(branches.list("search_at", "a list of values of lambda"), {},
                                     numbers, reading_);
+  }
+
+  /// A count is converted to an integer: it must fit.
+  void require_count(NumberId id) {
+    const Definition& at = draft_.numbers.definition(id);
+    draft_.numbers.require({id}, at.place, at.key, [](const std::vector<double>& value) {
+      return value[0] <= 1e6
+                 ? std::string{}
+                 : "got " + shortest(value[0]) + ", need a whole number from 0 to 1000000";
+    });
   }
 
   void read_search() {
@@ -345,10 +367,10 @@ class StudyReader {
 std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
                                      const MechanismDraft& mechanism, Reading& reading) {
   std::vector<StudyDraft> studies;
+  std::set<std::string> names;
   for (const Item& item : tables) {
     StudyDraft study = StudyReader{item, mechanism, reading}.read();
-    const auto has_name = [&study](const StudyDraft& other) { return other.name == study.name; };
-    if (!study.name.empty() && std::any_of(studies.begin(), studies.end(), has_name))
+    if (!study.name.empty() && !names.insert(study.name).second)
       reading.problems.add(item.node->find("name")->place, item.key + ".name",
                            "\"" + study.name +
                                "\" is already the name of another study, need "

@@ -3,6 +3,7 @@
 
 #include "comparison_text.hpp"
 #include "json_text.hpp"
+#include "jump_access.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
 #include "springfold/io/results.hpp"
@@ -51,6 +52,8 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
   json["rates_after"] = by_quantity(result, event.rates_after);
   json["stiffness"] = json_of(event.stiffness);
   json["compliance"] = json_of(event.compliance);
+  if (event.stiffness_after.size() > 0) json["stiffness_after"] = json_of(event.stiffness_after);
+  if (event.compliance_after.size() > 0) json["compliance_after"] = json_of(event.compliance_after);
   return json;
 }
 
@@ -65,6 +68,18 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch, const st
                {"start", branch.start},
                {"backward", json_of(branch.backward)},
                {"forward", json_of(branch.forward)}};
+  json["resting"] = Json::array();
+  for (const analysis::RestingRows& rows : branch.resting) {
+    using Stable = analysis::RestingRows::Stable;
+    const char* stable = rows.stable == Stable::yes  ? "yes"
+                         : rows.stable == Stable::no ? "no"
+                                                     : "undecided";
+    json["resting"].push_back({{"first_row", rows.first},
+                               {"last_row", rows.last},
+                               {"stable", stable},
+                               {"fewest_unstable", rows.fewest},
+                               {"most_unstable", rows.most}});
+  }
   json["events"] = Json::array();
   for (const auto& event : branch.events) json["events"].push_back(json_of(result, branch, event));
   return json;
@@ -119,6 +134,17 @@ Json equilibria_json(const StudyResult& result, const std::string& file) {
           {"list", list}};
 }
 
+/// null for studies of another kind.
+Json threshold_json(const StudyResult& result) {
+  if (!result.threshold) return nullptr;
+  const analysis::ThresholdReport& report = *result.threshold;
+  return {{"found", report.found},
+          {"value", report.found ? Json(report.value) : Json()},
+          {"decides", report.decides},
+          {"verified", report.verified},
+          {"message", report.message}};
+}
+
 /// Chain stiffnesses by the chains' names.
 Json chain_stiffnesses(const std::vector<Matrix>& matrices, const PlannedRun* planned) {
   Json json = Json::object();
@@ -140,6 +166,11 @@ Json json_of(const analysis::RedundantClosures& redundant) {
 
 Json json_of(const StudyResult& result, const PlannedRun* planned) {
   const analysis::StartReport& start = result.start;
+  Json sides = Json::array();
+  for (const auto& side : start.sides)
+    sides.push_back({{"piece", side.piece},
+                     {"stiffness", json_of(side.stiffness)},
+                     {"compliance", json_of(side.compliance)}});
   Json ways = Json::array();
   for (const auto& way : start.ways)
     ways.push_back({{"branch", way.branch}, {"rates", by_quantity(result, way.rates)}});
@@ -157,6 +188,13 @@ Json json_of(const StudyResult& result, const PlannedRun* planned) {
           {"moved", start.moved},
           {"moved_most", start.moved_most},
           {"situation", start.situation},
+          {"sides", sides},
+          {"where", start.where},
+          {"advice", start.advice},
+          {"outside", start.outside},
+          {"free_motions", start.free_motions},
+          {"rates_before", by_quantity(result, start.rates_before)},
+          {"rates_after", by_quantity(result, start.rates_after)},
           {"ways", ways},
           {"tangent_eigenvalues", tangent},
           {"zero_modes", start.zero_modes},
@@ -186,6 +224,8 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
   json["junctions"] = json_of(result.junctions);
   json["searches"] = json_of(result.searches);
   json["equilibria"] = equilibria_json(result, equilibria_file);
+  json["threshold"] = threshold_json(result);
+  if (result.snap) json["snap"] = jumps_json(result);
   json["ways_not_followed"] = analysis::ways_not_followed(result);
   json["doubts"] = result.doubts;
   return json;

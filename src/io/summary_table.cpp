@@ -1,55 +1,27 @@
 // What was found, for people: one block of text per run.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "command_summary.hpp"
+#include "jump_access.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
+#include "springfold/io/start_text.hpp"
+#include "summary_line.hpp"
+#include "summary_start.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
-
 namespace {
-
 using analysis::Branch;
 using analysis::StudyResult;
 
-constexpr int digits = 10;
-constexpr std::size_t indent = 4;
-const std::string_view blank_label = "              ";  // width of the label column
+constexpr int digits = summary_digits;
+constexpr std::size_t indent = summary_indent;
+const std::string blank_label(summary_label_width, ' ');
 
-/// "    pose          text".
 std::string line(std::string_view label, const std::string& text) {
-  std::string padded{label};
-  padded.resize(std::max(padded.size(), blank_label.size()), ' ');
-  std::string whole = std::string(indent, ' ') + padded + text;
-  whole.erase(whole.find_last_not_of(' ') + 1);
-  return whole + "\n";
-}
-
-std::string counted(int count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-std::string start_lines(const analysis::StartReport& start) {
-  if (!start.found) {
-    const std::string tried =
-        start.attempts > 0 ? " after " + counted(start.attempts, "attempt") : "";
-    return line("start", "NOT FOUND" + tried + ": " + start.message);
-  }
-  std::string how = start.method.empty() ? "found" : start.method;
-  how += ", " + counted(start.attempts, "attempt") + ", " + counted(start.iterations, "iteration");
-  if (!start.chain_iterations.empty()) {
-    how += " (per chain:";
-    for (const int count : start.chain_iterations) how += " " + std::to_string(count);
-    how += ")";
-  }
-  std::string text = line("start", how + ", residual " + rounded(start.residual, 2));
-  if (start.moved > 1e-9)
-    text += line("", "moved by " + rounded(start.moved, 3) + " (" + start.moved_most +
-                         ") from the guess, whose residual is " + rounded(start.guess_residual, 2));
-  return text;
+  return summary_line(label, text);
 }
 
 /// Columns of the mechanism's bodies ("tool.x") or actuator commands ("leg.drive.rho").
@@ -112,74 +84,6 @@ std::string way_lines(const Case& the_case, const StudyResult& result) {
                          ", d/ds " + rates_text(the_case, result, start.ways[i].rates));
   }
   return text;
-}
-
-/// What symmetric theory cannot say here, and what closures say twice.
-std::string caution_lines(const StudyResult& result) {
-  std::string text;
-  if (!result.non_conservative.empty()) {
-    std::string loads;
-    for (const auto& load : result.non_conservative) loads += (loads.empty() ? "" : ", ") + load;
-    text += line("load", "NON-CONSERVATIVE: " + loads);
-    text += line("",
-                 "no potential: unstable modes are not counted; static bifurcations are zeros of "
-                 "det T");
-    text += line("",
-                 "(T: tangent stiffness, not symmetric); flutter is a matter of masses and not "
-                 "examined");
-    std::string values;
-    for (const auto& [real, imaginary] : result.start.tangent)
-      values += (values.empty() ? "" : ", ") + rounded(real, digits) +
-                (imaginary == 0 ? ""
-                                : (imaginary < 0 ? " - " : " + ") +
-                                      rounded(std::abs(imaginary), digits) + "i");
-    if (!values.empty()) text += line("", "eigenvalues of T: " + values);
-  }
-  const int zeros = result.start.zero_modes;
-  if (zeros > 0)
-    text += line("singular", "the stiffness is singular: " + counted(zeros, "motion") +
-                                 " without stiffness (neutral equilibrium)");
-  const analysis::RedundantClosures& redundant = result.start.redundant;
-  if (redundant.count == 0) return text;
-  std::string chains;
-  for (const auto& chain : redundant.chains) chains += (chains.empty() ? "" : ", ") + chain;
-  text +=
-      line("redundant", std::to_string(redundant.count) + " of " +
-                            counted(redundant.of, "closure equation") + ", among chains " + chains);
-  return text + line("",
-                     "statics does not determine their wrenches: those of smallest norm are "
-                     "shown; singular values " +
-                         rounded(redundant.largest_dropped, 2) + " dropped, " +
-                         rounded(redundant.smallest_kept, 2) + " kept");
-}
-
-/// A matrix under its name, and its eigenvalues.
-std::string matrix_lines(const std::string& name, const Matrix& matrix) {
-  const int shown = matrix.rows() <= 3 ? digits : 6;
-  // Eigenvalues of the symmetric part are real whatever rounding has left of asymmetry.
-  const Matrix symmetric = (matrix + matrix.transpose()) / 2;
-  std::vector<std::vector<std::string>> rows;
-  for (Index r = 0; r < matrix.rows(); ++r) {
-    auto& row = rows.emplace_back();
-    for (Index c = 0; c < matrix.cols(); ++c) row.push_back(rounded(matrix(r, c), shown));
-  }
-  const std::vector<Align> right(static_cast<std::size_t>(matrix.cols()), Align::right);
-  const std::string table = aligned(rows, right, indent + blank_label.size());
-  std::string text = "    " + name + table.substr(indent + name.size());
-  std::string values;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver{symmetric, Eigen::EigenvaluesOnly};
-  for (const double value : solver.eigenvalues())
-    values += (values.empty() ? "" : ", ") + rounded(value, shown);
-  return text + line("eigenvalues", values);
-}
-
-std::string stiffness_lines(const analysis::StartReport& start) {
-  if (start.stiffness.size() > 0) return matrix_lines("stiffness", start.stiffness);
-  if (start.compliance.size() == 0)
-    return line("stiffness",
-                "not defined here: rigid in some direction, or a chain is critical by itself");
-  return line("stiffness", "infinite in some direction: the body is rigid there; its compliance:") +
-         matrix_lines("compliance", start.compliance);
 }
 
 /// Empty where the quantity is not defined, as in the tables.
@@ -365,9 +269,12 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
 
 std::string run_block(const Case& the_case, const StudyResult& result) {
   if (const PlannedRun* planned = plan_of(the_case, result);
-      planned != nullptr && analysis::is_of_commands(planned->plan.kind))
+      planned != nullptr && has_summary_of_its_own(planned->plan.kind))
     return heading_of(result) + "\n" + command_lines(the_case, *planned, result);
-  std::string text = heading_of(result) + "\n" + start_lines(result.start);
+  std::string text =
+      heading_of(result) + "\n" + start_lines(result.start, plan_of(the_case, result));
+  if (!result.start.outside.empty())
+    text += line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
   if (!result.start.found || result.branches.empty()) return text;
   if (const PlannedRun* planned = plan_of(the_case, result))
@@ -378,21 +285,22 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += line("index", std::isnan(index) ? "not defined at this point" : rounded(index, digits));
   text += way_lines(the_case, result);
   text += caution_lines(result);
-  text += stiffness_lines(result.start);
+  text += stiffness_lines(result);
   for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
-  return text + diagram_lines(result, plan_of(the_case, result));
+  return text + jump_lines(result, the_case.units) +
+         diagram_lines(result, plan_of(the_case, result));
 }
 
 }  // namespace
 
 std::string summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
   std::string text;
-  if (!the_case.title.empty()) text += the_case.title + "\n";
+  if (!the_case.title.empty()) text += shown(the_case.title) + "\n";
   for (const auto& result : results)
     text += (text.empty() ? "" : "\n") + run_block(the_case, result);
   for (const auto& planned : the_case.runs)
     if (result_of(results, planned.study, planned.run) == nullptr)
-      text += "\n" + planned.study + ", run " + std::to_string(planned.run) + "\n" +
+      text += "\n" + shown(planned.study) + ", run " + std::to_string(planned.run) + "\n" +
               line("NOT RUN", "interrupted before");
   return text;
 }

@@ -21,11 +21,14 @@ void flatten(const Node& table, const std::string& prefix, const std::string& ke
 TableReader::TableReader(const Node& node, std::string key, const std::vector<std::string>& known,
                          Reading& reading)
     : node_{&node}, key_{std::move(key)}, reading_{&reading} {
+  constexpr std::size_t most_suggestions = 100;
+  std::size_t unknown = 0;
   for (const NodeEntry& entry : node.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    const bool is_one_of_many = ++unknown > most_suggestions;
     reading.problems.add(entry.place, key_of(entry.key),
-                         "unknown key" + suggestion(entry.key, known));
-    misspelt_.push_back(nearest(entry.key, known));
+                         "unknown key" + (is_one_of_many ? "" : suggestion(entry.key, known)));
+    if (!is_one_of_many) misspelt_.push_back(nearest(entry.key, known));
   }
 }
 
@@ -93,9 +96,9 @@ std::vector<Item> TableReader::list(const std::string& name, const std::string& 
   return found ? list_items({found, key_of(name)}, need, *reading_) : std::vector<Item>{};
 }
 
-std::vector<Item> TableReader::tables(const std::string& name) const {
+std::vector<Item> TableReader::tables(const std::string& name, const std::string& example) const {
   const Node* found = find(name);
-  return found ? list_of_tables({found, key_of(name)}, *reading_) : std::vector<Item>{};
+  return found ? list_of_tables({found, key_of(name)}, *reading_, example) : std::vector<Item>{};
 }
 
 std::vector<NumberId> read_numbers(const std::vector<Item>& items, const Rule& rule,
@@ -133,10 +136,18 @@ std::vector<Item> list_items(const Item& item, const std::string& need, Reading&
   return items;
 }
 
-std::vector<Item> list_of_tables(const Item& list, Reading& reading) {
-  const std::string name = list.key.substr(list.key.rfind('.') + 1);
-  const std::string need = "a list of tables: [[" + name + "]] with two brackets";
+std::vector<Item> list_of_tables(const Item& list, Reading& reading, const std::string& example) {
+  constexpr std::size_t most_tables = 10000;
+  const std::string need = example.empty()
+                               ? "a list of tables: [[" + list.key + "]] with two brackets"
+                               : "a list of tables such as " + example;
   std::vector<Item> items = list_items(list, need, reading);
+  if (items.size() > most_tables) {
+    reading.problems.add(items[most_tables].node->place, list.key,
+                         "got " + std::to_string(items.size()) + " tables, need at most " +
+                             std::to_string(most_tables));
+    items.resize(most_tables);
+  }
   std::erase_if(items, [&](const Item& item) { return !is_table(item, "a table", reading); });
   return items;
 }

@@ -62,7 +62,7 @@ class TableReader {
   std::vector<Item> list(const std::string& name, const std::string& need) const;
 
   /// Tables of a list of tables, `[[name]]` or `name = [{...}]`; reports anything else.
-  std::vector<Item> tables(const std::string& name) const;
+  std::vector<Item> tables(const std::string& name, const std::string& example = "") const;
 
  private:
   const Node* node_;
@@ -83,7 +83,9 @@ std::vector<std::string> read_texts(const std::vector<Item>& items, Reading& rea
 std::vector<Item> list_items(const Item& item, const std::string& need, Reading& reading);
 
 /// Tables of `[[name]]` or `name = [{...}]`, where `list.key` is the name; reports anything else.
-std::vector<Item> list_of_tables(const Item& list, Reading& reading);
+/// @param example  of such a list, for messages; empty: the list of a table of the file itself
+std::vector<Item> list_of_tables(const Item& list, Reading& reading,
+                                 const std::string& example = "");
 
 /// An entry of a table whose keys are names of the case.
 struct NamedItem {

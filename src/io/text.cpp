@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "springfold/io/shown_text.hpp"
+
 namespace springfold::io {
 
 namespace {
@@ -127,14 +129,15 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows,
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width_of(row[c]));
+    for (std::size_t c = 0; c < row.size(); ++c)
+      widths[c] = std::max(widths[c], width_of(shown(row[c])));
   }
   std::string text;
   for (const auto& row : rows) {
     std::string line(indent, ' ');
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (c > 0) line += "  ";
-      line += padded(row[c], widths[c], c < align.size() ? align[c] : Align::left);
+      line += padded(shown(row[c]), widths[c], c < align.size() ? align[c] : Align::left);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

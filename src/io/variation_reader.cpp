@@ -64,6 +64,11 @@ std::optional<VaryDraft> read_vary(const TableReader& study, const Redefinitions
   if (values && values->kind == Node::Kind::array && draft.values.empty())
     reading.problems.add(values->place, vary.key_of("values"),
                          "got an empty list, need " + values_need);
+  constexpr std::size_t most_runs = 10000;
+  if (draft.values.size() > most_runs)
+    reading.problems.add(
+        values->place, vary.key_of("values"),
+        "got " + described(*values) + ", need at most " + std::to_string(most_runs) + " values");
   draft.labels = read_labels(vary, draft.values.size(), reading);
   if (!name) return std::nullopt;
   const Place place = vary.find("parameter")->place;

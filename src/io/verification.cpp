@@ -7,6 +7,7 @@
 #include "comparison_text.hpp"
 #include "json_text.hpp"
 #include "result_access.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -70,7 +71,7 @@ std::string verification_table(const std::vector<VerifiedCase>& cases) {
       rows.push_back(std::move(row));
     }
     for (const std::string& fault : faults_of(verified))
-      faults += "NOT OK  " + verified.name + ": " + fault + "\n";
+      faults += "NOT OK  " + shown(verified.name + ": " + fault) + "\n";
     values += verified.comparisons.size();
     held += holding(verified);
     whole += holds(verified) ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include "atomic_file.hpp"
 #include "json_text.hpp"
+#include "jump_access.hpp"
 #include "manifest.hpp"
 #include "result_tables.hpp"
 #include "sha256.hpp"
@@ -47,6 +48,8 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   for (std::size_t i = 0; i < results.size(); ++i)
     if (results[i].equilibria) files.push_back({equilibria[i], equilibria_csv(results[i])});
   files.push_back({"events.csv", events_csv(results)});
+  if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
+    files.push_back({"jumps.csv", jumps_csv(results)});
   files.push_back({"steps.csv", steps_csv(results)});
   files.push_back({"summary.json", summary_json(the_case, results)});
   files.push_back({"timings.json", timings_json(results), false});
@@ -71,7 +74,7 @@ void remove_file(const fs::path& path) {
 }  // namespace
 
 std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case,
-                                    const std::vector<StudyResult>& results) {
+                                    const std::vector<StudyResult>& results, SetState state) {
   make_folder(folder / "branches");
   if (std::any_of(results.begin(), results.end(),
                   [](const StudyResult& result) { return result.equilibria.has_value(); }))
@@ -96,9 +99,14 @@ std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case
     written.push_back(folder / file.path);
   }
   for (const auto& file : leftovers) remove_file(folder / file.path);
-  write_file(manifest, manifest_text(the_case, SetState::whole, list));
+  write_file(manifest, manifest_text(the_case, state, list));
   written.push_back(manifest);
   return written;
+}
+
+void close_results(const fs::path& folder, SetState state,
+                   const std::vector<std::string>& pending) {
+  set_manifest_state(folder, state, pending);
 }
 
 }  // namespace springfold::io

@@ -1,10 +1,10 @@
 #include "springfold/model/coupled_spring.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::model {
 namespace {
@@ -53,9 +53,7 @@ std::string problem_in(const Matrix& m, Definiteness need) {
     for (Index j = i + 1; j < m.cols(); ++j)
       if (std::abs(unit(i, j) - unit(j, i)) > 1e-9)
         return entry(i, j, m(i, j)) + " and " + entry(j, i, m(j, i)) + ", need a symmetric matrix";
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (unit + unit.transpose()), Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
+  const double least = symmetric_eigenvalues(0.5 * (unit + unit.transpose()))[0];
   const std::string what =
       "its smallest eigenvalue is " + text_of(least) + " (with the diagonal scaled to 1)";
   if (need == Definiteness::semidefinite && least < -1e-10)
@@ -67,7 +65,7 @@ std::string problem_in(const Matrix& m, Definiteness need) {
 Matrix inverse_of(const Matrix& m) {
   const Vector s = scaling_of(m);
   const Matrix unit = s.asDiagonal() * (0.5 * (m + m.transpose())) * s.asDiagonal();
-  const Matrix inverse = unit.ldlt().solve(Matrix::Identity(m.rows(), m.cols()));
+  const Matrix inverse = solve_definite(unit, Matrix(Matrix::Identity(m.rows(), m.cols())));
   const Matrix result = s.asDiagonal() * inverse * s.asDiagonal();
   return 0.5 * (result + result.transpose());
 }

@@ -15,6 +15,24 @@ bool is_rotation(const Mat3<double>& R) {
          R.determinant() > 0;
 }
 
+void check_unique(const std::string& name, const std::string& where, std::set<std::string>& names,
+                  std::vector<std::string>& problems) {
+  if (!name.empty() && !names.insert(name).second)
+    problems.push_back(where + ": name: \"" + name + "\" is used twice");
+}
+
+/// Names are how results and messages speak of things.
+void check_name(const std::string& name, const std::string& where, std::set<std::string>& names,
+                std::vector<std::string>& problems) {
+  if (name.empty()) problems.push_back(where + ": name: is empty, need one");
+  check_unique(name, where, names, problems);
+}
+
+void check_mass(double mass, const std::string& where, std::vector<std::string>& problems) {
+  if (!(mass >= 0) || !std::isfinite(mass))
+    problems.push_back(where + ": mass: need a finite number >= 0");
+}
+
 void check_joint(const Joint& joint, bool coupled, const std::string& where,
                  std::vector<std::string>& problems) {
   const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
@@ -22,7 +40,7 @@ void check_joint(const Joint& joint, bool coupled, const std::string& where,
   if (!std::isfinite(joint.initial)) say("initial: need a finite number");
   if (!std::isfinite(joint.command)) say("value: need a finite number");
   const bool needs_spring =
-      joint.role == JointRole::preloaded || (joint.role == JointRole::compliant && !coupled);
+      !coupled && (joint.role == JointRole::preloaded || joint.role == JointRole::compliant);
   if (needs_spring && !joint.spring) say("spring: a joint with this role needs a spring");
   if (joint.role == JointRole::passive && joint.spring)
     say("spring: a passive joint has none; give it the role preloaded");
@@ -49,11 +67,18 @@ std::vector<bool> check_coupled(const Chain& chain, const std::string& where,
     if (problem.empty() && spring.stiffness != spring.stiffness.transpose())
       say("stiffness: need an exactly symmetric matrix");
     if (!spring.free.allFinite()) say("free: need finite numbers");
+    const Joint* first = nullptr;
     for (const std::size_t i : spring.elements) {
       const auto* joint =
           i < chain.elements.size() ? std::get_if<Joint>(&chain.elements[i]) : nullptr;
-      if (joint == nullptr || joint->role != JointRole::compliant || joint->spring || coupled[i])
-        say("stiffness: a coupled spring acts on virtual joints that have no other spring");
+      const bool elastic = joint != nullptr && (joint->role == JointRole::compliant ||
+                                                joint->role == JointRole::preloaded);
+      if (!elastic || joint->spring || coupled[i])
+        say("stiffness: a coupled spring acts on virtual or preloaded joints that have no other "
+            "spring");
+      else if (first != nullptr && first->role != joint->role)
+        say("stiffness: a coupled spring acts on virtual or on preloaded joints, not on both");
+      if (first == nullptr) first = joint;
       if (i < chain.elements.size()) coupled[i] = true;
     }
   }
@@ -69,8 +94,9 @@ void check_points(const Chain& chain, const std::string& where,
       problems.push_back(at + "lies behind the end of the chain");
     if (!point.name.empty() && !names.insert(point.name).second)
       problems.push_back(at + "the name is used twice");
-    if (!point.at.allFinite() || !std::isfinite(point.mass))
-      problems.push_back(at + "need finite numbers");
+    if (!point.at.allFinite()) problems.push_back(at + "at: need finite numbers");
+    if (!(point.mass >= 0) || !std::isfinite(point.mass))
+      problems.push_back(at + "mass: need a finite number >= 0");
   }
 }
 
@@ -92,8 +118,7 @@ void check_chain(const Mechanism& mechanism, const Chain& chain, const std::stri
     const std::string element = where + ".elements[" + std::to_string(i + 1) + "]";
     if (const auto* joint = std::get_if<Joint>(&chain.elements[i])) {
       check_joint(*joint, coupled[i], element, problems);
-      if (!names.insert(joint->name).second)
-        problems.push_back(element + ": name: \"" + joint->name + "\" is used twice");
+      check_name(joint->name, element, names, problems);
       continue;
     }
     const auto& T = std::get<RigidLink>(chain.elements[i]).transform;
@@ -159,11 +184,18 @@ void check_line_spring(const Mechanism& mechanism, const LineSpring& spring,
 
 void check_loads(const Mechanism& mechanism, std::vector<std::string>& problems) {
   if (!mechanism.gravity.allFinite()) problems.push_back("gravity: need finite numbers");
-  for (std::size_t i = 0; i < mechanism.loads.size(); ++i)
-    check_load(mechanism, mechanism.loads[i], "load[" + std::to_string(i + 1) + "]", problems);
-  for (std::size_t i = 0; i < mechanism.line_springs.size(); ++i)
-    check_line_spring(mechanism, mechanism.line_springs[i], "spring[" + std::to_string(i + 1) + "]",
-                      problems);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
+    const std::string where = "load[" + std::to_string(i + 1) + "]";
+    check_unique(mechanism.loads[i].name, where, names, problems);
+    check_load(mechanism, mechanism.loads[i], where, problems);
+  }
+  names.clear();
+  for (std::size_t i = 0; i < mechanism.line_springs.size(); ++i) {
+    const std::string where = "spring[" + std::to_string(i + 1) + "]";
+    check_unique(mechanism.line_springs[i].name, where, names, problems);
+    check_line_spring(mechanism, mechanism.line_springs[i], where, problems);
+  }
 }
 
 }  // namespace
@@ -176,14 +208,13 @@ std::vector<std::string> problems_in(const Mechanism& mechanism) {
   for (std::size_t b = 0; b < mechanism.bodies.size(); ++b) {
     const Body& body = mechanism.bodies[b];
     const std::string where = "body[" + std::to_string(b + 1) + "]";
-    if (!names.insert(body.name).second)
-      problems.push_back(where + ": name: \"" + body.name + "\" is used twice");
+    check_name(body.name, where, names, problems);
     if (body.pose.size() != dimension(body.task_space) || !body.pose.allFinite())
       problems.push_back(where + ": pose: need " + std::to_string(dimension(body.task_space)) +
                          " finite numbers");
-    if (!std::isfinite(body.mass) || !body.centre.allFinite())
-      problems.push_back(where + ": mass, com: need finite numbers");
-    if (body.mass != 0)
+    check_mass(body.mass, where, problems);
+    if (!body.centre.allFinite()) problems.push_back(where + ": com: need finite numbers");
+    if (body.mass != 0 && body.centre.allFinite())
       check_anchor(mechanism, {.body = static_cast<Index>(b + 1), .at = body.centre}, false,
                    where + ": com", problems);
   }
@@ -191,8 +222,7 @@ std::vector<std::string> problems_in(const Mechanism& mechanism) {
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
     const Chain& chain = mechanism.chains[i];
     const std::string where = "chain[" + std::to_string(i + 1) + "]";
-    if (!names.insert(chain.name).second)
-      problems.push_back(where + ": name: \"" + chain.name + "\" is used twice");
+    check_name(chain.name, where, names, problems);
     check_chain(mechanism, chain, where, problems);
   }
   check_loads(mechanism, problems);

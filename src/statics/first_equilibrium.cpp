@@ -1,6 +1,5 @@
 #include "springfold/statics/first_equilibrium.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "kinsol_newton.hpp"
 #include "minimum_norm.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
 #include "stage_newton.hpp"
 
@@ -185,7 +185,7 @@ double polish(Equations& equations, State& state, int& iterations) {
     best = size;
     best_state = state;
     if (stagnates || size == 0 || !equations.jacobian(state, J)) break;
-    const Vector step = J.partialPivLu().solve(r);
+    const Vector step = Lu(J).solve(r);
     if (!step.allFinite()) break;
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
@@ -276,10 +276,9 @@ void complete(const System& system, const StartProblem& problem, FirstEquilibriu
   Workspace work;
   Vector r;
   equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
-  result.inputs.W.segment(body.W, body.count) += load_columns(system, result.z)
-                                                     .block(body.t, body.W, body.count, body.count)
-                                                     .partialPivLu()
-                                                     .solve(-r.segment(body.t, body.count));
+  result.inputs.W.segment(body.W, body.count) +=
+      Lu(load_columns(system, result.z).block(body.t, body.W, body.count, body.count))
+          .solve(-r.segment(body.t, body.count));
 }
 
 }  // namespace

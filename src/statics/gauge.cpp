@@ -1,8 +1,7 @@
 #include "gauge.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "places.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -54,10 +53,10 @@ void add_gauge(const System& system, const Vector& z, Workspace& work, Vector& r
   for (Index i = 0; i < system.size; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) rows.push_back(i);
   const Vector F = z(rows);
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(J * J.transpose());
-  const Matrix N = solver.eigenvectors().leftCols(r);
-  const Matrix kept = solver.eigenvectors().rightCols(F.size() - r);
-  const Vector inverse = solver.eigenvalues().tail(F.size() - r).cwiseInverse();
+  const SymmetricEigen eigen = symmetric_eigen(J * J.transpose());
+  const Matrix N = eigen.vectors.leftCols(r);
+  const Matrix kept = eigen.vectors.rightCols(F.size() - r);
+  const Vector inverse = eigen.values.tail(F.size() - r).cwiseInverse();
   const Vector w = J.transpose() * (kept * inverse.cwiseProduct(kept.transpose() * F));
 
   Matrix g = Matrix::Zero(r, system.size), g_rho = Matrix::Zero(r, system.commands.size());

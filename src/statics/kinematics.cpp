@@ -1,13 +1,11 @@
 #include "springfold/statics/kinematics.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -136,11 +134,11 @@ bool close(Closures& closures, const std::vector<Index>& moving, const std::vect
     if (size > closed_enough && gradient.norm() <= 1e-9 * size) break;  // nearest approach
     Vector step;
     if (damping == 0) {
-      step = -J.completeOrthogonalDecomposition().solve(e);
+      step = -least_squares(J, e);
     } else {
       Matrix N = J.transpose() * J;
       N.diagonal().array() += damping;
-      step = -N.ldlt().solve(gradient);
+      step = -solve_definite(N, gradient);
     }
     const double length = step.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length) || length > longest_step) {
@@ -185,7 +183,13 @@ Vector at_rest(const System& system, Vector z) {
     if (!moves_freely(joint) && joint.spring)
       z[place] = rest_of(model::compile(*joint.spring), joint.initial);
   });
-  for (const CoordinateGroup& group : system.coupled) z(group.coordinates) = group.free;
+  std::vector<bool> free(static_cast<std::size_t>(system.size), false);
+  for_each_coordinate(system, [&](const model::Joint& joint, Index place) {
+    free[static_cast<std::size_t>(place)] = moves_freely(joint);
+  });
+  for (const CoordinateGroup& group : system.coupled)  // those of preloaded joints move freely
+    if (!free[static_cast<std::size_t>(group.coordinates.front())])
+      z(group.coordinates) = group.free;
   for (Index i = 0; i < system.size; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) z[i] = 0;
   return z;
@@ -217,7 +221,39 @@ KinematicInverse kinematic_inverse(const System& system, const CommandTask& task
     const Vector e = closures.e();
     result.elastic = (closures.by_z(elastic).transpose() * e).norm() > 1e-6 * e.norm();
   }
-  result.unique = J.colPivHouseholderQr().rank() == J.cols();
+  result.unique = rank_of(J) == J.cols();
+  return result;
+}
+
+NearestApproach nearest_approach(const System& system, const std::vector<Index>& moving,
+                                 const std::vector<Index>& commands, const Vector& z,
+                                 const Vector& rho) {
+  constexpr double visible = 1e-9;
+  KinematicInverse state;
+  state.z = z;
+  state.rho = rho;
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) state.z[i] = 0;
+  Closures closures(system);
+  NearestApproach result;
+  result.closed = close(closures, moving, commands, state);
+  closures.evaluate(state.z, state.rho);
+  const Vector e = closures.e();
+  Index first = 0;
+  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
+    const Index count = system.chain_slices[i].F_count;
+    const Index lengths = translations(system.chains[i].space);
+    const ChainGap gap{i, e.segment(first, lengths).norm(),
+                       e.segment(first + lengths, count - lengths).norm()};
+    if (std::max(gap.length, gap.angle) > visible) result.gaps.push_back(gap);
+    first += count;
+  }
+  std::stable_sort(result.gaps.begin(), result.gaps.end(),
+                   [](const ChainGap& a, const ChainGap& b) {
+                     return std::max(a.length, a.angle) > std::max(b.length, b.angle);
+                   });
+  result.z = std::move(state.z);
+  result.rho = std::move(state.rho);
   return result;
 }
 
@@ -236,13 +272,10 @@ Transmission transmission(const System& system, const CommandTask& task, const V
     to_twist.bottomRightCorner(3, 3) = model::left_jacobian(phi);
   }
   const auto solve = [](const Matrix& M, const Matrix& right) -> Matrix {
-    Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(M.rows(), M.cols());
-    decomposition.setThreshold(1e-11);  // before the factors are computed
-    decomposition.compute(M);
-    if (decomposition.rank() < M.cols()) return {};
-    const Matrix X = decomposition.solve(right);
-    const double miss = (M * X - right).cwiseAbs().maxCoeff();
-    return miss <= 1e-9 * std::max(1.0, right.cwiseAbs().maxCoeff()) ? X : Matrix();
+    const auto X = unique_least_squares(M, right, 1e-11);
+    if (!X) return {};
+    const double miss = (M * *X - right).cwiseAbs().maxCoeff();
+    return miss <= 1e-9 * std::max(1.0, right.cwiseAbs().maxCoeff()) ? *X : Matrix();
   };
   // | e_q  e_t | (q', t') = -e_rho rho'     and     | e_q  e_rho  e_other | (q', rho', ..) = -e_t t'
   std::vector<Index> entries = moving_entries(system, {});
@@ -260,15 +293,14 @@ Transmission transmission(const System& system, const CommandTask& task, const V
   M << closures.by_z(entries), closures.by_rho(full.commands);
   const Matrix backward = solve(M, -closures.by_z(pose));
   if (backward.size() > 0)
-    result.force =
-        to_twist.transpose().partialPivLu().solve(Matrix(backward.bottomRows(nr).transpose()));
+    result.force = Lu(to_twist.transpose()).solve(Matrix(backward.bottomRows(nr).transpose()));
   return result;
 }
 
 Factors factors_of(const Matrix& rows) {
   constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
   if (rows.size() == 0) return {undefined, undefined};
-  const Vector values = rows.jacobiSvd().singularValues();
+  const Vector values = jacobi_svd(rows).values;
   return {values[values.size() - 1], values[0]};
 }
 

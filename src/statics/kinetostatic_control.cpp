@@ -89,13 +89,27 @@ double& unknown(const System& system, ControlSolver& s, std::size_t k) {
   return at < system.size ? s.z[at] : s.inputs.rho[at - system.size];
 }
 
-/// Largest change of a coordinate or pose in a step; wrenches and commands may change at will.
+/// The step of the command of the drive whose spring has this coordinate; zero if it has none that is unknown.
+double step_of_command(const System& system, const ControlSolver& s, Index coordinate) {
+  for (const ChainSlice& chain : system.chain_slices)
+    for (std::size_t j = 0; j < chain.joint_coordinate.size(); ++j) {
+      if (chain.joint_coordinate[j] != coordinate || chain.joint_command[j] < 0) continue;
+      const Index command = system.size + chain.joint_command[j];
+      for (std::size_t k = 0; k < s.unknowns.size(); ++k)
+        if (s.unknowns[k] == command) return s.step[static_cast<Index>(k)];
+    }
+  return 0;
+}
+
+/// Largest motion of a joint or pose in a step; wrenches and commands may change at will, and so may the deflection of a
+/// drive against its command.
 double longest_move(const System& system, const ControlSolver& s) {
   double longest = 0;
   for (std::size_t k = 0; k < s.unknowns.size(); ++k) {
     const Index at = s.unknowns[k];
-    if (at < system.size && !system.is_wrench[static_cast<std::size_t>(at)])
-      longest = std::max(longest, std::abs(s.step[static_cast<Index>(k)]));
+    if (at >= system.size || system.is_wrench[static_cast<std::size_t>(at)]) continue;
+    const double move = s.step[static_cast<Index>(k)] + step_of_command(system, s, at);
+    longest = std::max(longest, std::abs(move));
   }
   return longest;
 }

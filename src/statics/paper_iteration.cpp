@@ -1,10 +1,10 @@
 // The paper's own scheme, kept to be compared with Newton's method: eq. (6) and Section 5.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <optional>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::statics {
@@ -43,8 +43,8 @@ std::optional<Split> split_of(const System& system, const ChainSlice& slice, con
   if (!split.theta.empty()) {
     const Matrix K_theta = K(split.theta, split.theta);
     const Vector size = K_theta.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::FullPivLU<Matrix> lu(size.asDiagonal() * K_theta * size.asDiagonal());
-    if (!lu.isInvertible()) return std::nullopt;
+    const FullPivotLu lu(size.asDiagonal() * K_theta * size.asDiagonal());
+    if (!lu.is_invertible()) return std::nullopt;
     split.compliance = size.asDiagonal() * lu.inverse() * size.asDiagonal();
   } else {
     split.compliance.resize(0, 0);
@@ -109,8 +109,8 @@ ChainIteration iterate_chain(const System& system, std::size_t chain, const Vect
     Vector right(d + nq);
     right.head(d) = residual.segment(s.F, d) + J_q * q + J_theta * (theta - split.rest);
     right.tail(nq) = split.constant_torque;
-    const Eigen::FullPivLU<Matrix> lu(M);
-    if (!lu.isInvertible()) return result;
+    const FullPivotLu lu(M);
+    if (!lu.is_invertible()) return result;
     const Vector solution = lu.solve(right);
     if (!solution.allFinite()) return result;
 
@@ -155,8 +155,8 @@ FirstEquilibrium first_equilibrium_paper(const System& system, const StartProble
       if (!surplus_wrench(system, problem, z, moved, other)) return result;
       S.col(k) = (other - surplus) / difference;
     }
-    const Eigen::FullPivLU<Matrix> lu(S);
-    if (!lu.isInvertible()) return result;
+    const FullPivotLu lu(S);
+    if (!lu.is_invertible()) return result;
     result.inputs.rho -= lu.solve(surplus);
   }
 
@@ -165,9 +165,7 @@ FirstEquilibrium first_equilibrium_paper(const System& system, const StartProble
   Vector r;
   if (!commands)
     result.inputs.W.segment(body.W, body.count) +=
-        load_columns(system, result.z)
-            .block(body.t, body.W, body.count, body.count)
-            .partialPivLu()
+        Lu(load_columns(system, result.z).block(body.t, body.W, body.count, body.count))
             .solve(-surplus);
   equilibrium_residual(system, result.piece, result.z, result.inputs, work, r);
   result.residual = r.lpNorm<Eigen::Infinity>();

@@ -1,12 +1,12 @@
 #include "springfold/statics/redundancy.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
 
 #include "minimum_norm.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 
 namespace springfold::statics {
@@ -97,8 +97,8 @@ struct Ranks {
 
 Ranks ranks_of(const Matrix& J) {
   Ranks ranks;
-  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeFullU);
-  const Vector values = svd.singularValues();
+  const Svd svd = jacobi_svd(J, SingularVectors::full);
+  const Vector& values = svd.values;
   const double largest = values.size() > 0 ? values[0] : 0;
   Index kept = 0;
   for (const double value : values) {
@@ -108,7 +108,7 @@ Ranks ranks_of(const Matrix& J) {
   }
   if (kept < values.size()) ranks.largest_dropped = values[kept] / largest;
   ranks.dropped = J.rows() - kept;
-  ranks.null = svd.matrixU().rightCols(ranks.dropped);
+  ranks.null = svd.U.rightCols(ranks.dropped);
   return ranks;
 }
 

@@ -1,10 +1,10 @@
 #include "springfold/statics/stage_stiffness.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::statics {
@@ -16,10 +16,6 @@ constexpr double rounding = 1e-13;
 /// Beside the largest entries of A a stiffness like this is that of a rigid chain, blurred by rounding: a
 /// straight one gives way along itself with the square of its bend.
 constexpr double rigidity = 1e12;
-
-Vector eigenvalues(const Matrix& K) {
-  return Eigen::SelfAdjointEigenSolver<Matrix>(K, Eigen::EigenvaluesOnly).eigenvalues();
-}
 
 Matrix symmetric_part(const Matrix& K) { return 0.5 * (K + K.transpose()); }
 
@@ -45,7 +41,7 @@ void by_compliance(const System& system, const StructuredMatrix& A, Index body,
   X.bottomRows(nt).setIdentity();
   if (!A.solve(none, X, false)) return;
   const Matrix C = symmetric_part(X.middleRows(t, nt));
-  const Vector c = eigenvalues(C);
+  const Vector c = symmetric_eigenvalues(C);
   Vector& values = result.condensed.platform.eigenvalues;
   values.resize(nt);
   for (Index i = 0; i < nt; ++i)
@@ -80,7 +76,7 @@ StagedStiffness stiffness_in_stages(const System& system, const StageJacobians& 
     return result;
   }
   const Matrix K = symmetric_part(-X.bottomRows(nt));
-  result.condensed.platform = {K, eigenvalues(K)};
+  result.condensed.platform = {K, symmetric_eigenvalues(K)};
   result.body = of_body(system, K, body);
   for (std::size_t i = 0; i < system.chains.size(); ++i)
     result.chains.push_back(stages.chain_stiffness(i, X.topRows(n)));

@@ -1,12 +1,10 @@
 #include "springfold/statics/stiffness.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/inertia.hpp"
 
@@ -28,9 +26,7 @@ std::optional<Index> block_index(const Matrix& A, const Matrix& J) {
   if (inertia->zero == 0) return inertia->negative - J.rows();
   Index rank = 0;
   if (J.cols() > 0) {
-    Eigen::ColPivHouseholderQR<Matrix> qr(J);
-    qr.setThreshold(1e-10);
-    rank = qr.rank();
+    rank = rank_of(J, 1e-10);
   }
   if (inertia->zero != J.rows() - rank) return std::nullopt;  // the block itself is critical
   return inertia->negative - rank;
@@ -64,21 +60,9 @@ std::optional<Index> chains_index(const System& system, const Matrix& A_full) {
   return block_index(A, A(split.wrenches, split.motions));
 }
 
-/// Ascending; M has N rows, or any number.
-template <int N>
-Vector symmetric_eigenvalues(const Matrix& M) {
-  using Square = Eigen::Matrix<double, N, N>;
-  const Square symmetric = 0.5 * (M + M.transpose());
-  return Eigen::SelfAdjointEigenSolver<Square>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
 Vector real_eigenvalues(const Matrix& M, bool symmetric) {
-  if (symmetric)  // one body: without memory from the heap
-    return M.rows() == 2   ? symmetric_eigenvalues<2>(M)
-           : M.rows() == 3 ? symmetric_eigenvalues<3>(M)
-           : M.rows() == 6 ? symmetric_eigenvalues<6>(M)
-                           : symmetric_eigenvalues<Eigen::Dynamic>(M);
-  Vector real = Eigen::EigenSolver<Matrix>(M, false).eigenvalues().real();
+  if (symmetric) return body_eigenvalues(M);
+  Vector real = eigenvalues(M).real();
   std::sort(real.begin(), real.end());
   return real;
 }
@@ -87,8 +71,8 @@ std::optional<Matrix> solve(const Matrix& A, const Matrix& B, bool symmetric) {
   if (symmetric) return solve_symmetric(A, B);
   if (!A.allFinite()) return std::nullopt;
   const Equilibration scale = equilibrate(A);
-  const Eigen::FullPivLU<Matrix> lu(scale.rows.asDiagonal() * A * scale.columns.asDiagonal());
-  if (!lu.isInvertible()) return std::nullopt;
+  const FullPivotLu lu(scale.rows.asDiagonal() * A * scale.columns.asDiagonal());
+  if (!lu.is_invertible()) return std::nullopt;
   return Matrix(scale.columns.asDiagonal() * lu.solve(scale.rows.asDiagonal() * B));
 }
 
@@ -200,32 +184,27 @@ std::optional<Matrix> body_compliance(const System& system, const Matrix& A_full
 Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work) {
   const Split split = split_of(system, system.size);
   const Matrix J = without_gauge(A_full, work)(split.wrenches, split.motions);
-  Eigen::ColPivHouseholderQR<Matrix> qr(J.transpose());
-  qr.setThreshold(1e-10);
-  const Index n = J.cols(), rank = J.rows() > 0 ? qr.rank() : 0;
-  const Matrix Q = qr.householderQ() * Matrix::Identity(n, n);
-  const Matrix Z = Q.rightCols(n - rank);
+  const Matrix Z = kernel_of(J, 1e-10);
   return Z.transpose() * without_gauge(A_full, work)(split.motions, split.motions) * Z;
 }
 
 Index zero_modes(const System& system, const Matrix& A_full) {
   const Matrix null = null_directions(A_full)(split_of(system, system.size).motions, Eigen::all);
   if (null.cols() == 0) return 0;
-  return (null.jacobiSvd().singularValues().array() > 1e-6).count();
+  return (jacobi_svd(null).values.array() > 1e-6).count();
 }
 
 std::vector<std::pair<double, double>> eigenvalues_of(const Matrix& T) {
   std::vector<std::pair<double, double>> values;
   if (T.rows() == 0 || !T.allFinite()) return values;
-  const Eigen::EigenSolver<Matrix> solver(T, false);
-  for (const auto& value : solver.eigenvalues()) values.emplace_back(value.real(), value.imag());
+  for (const auto& value : eigenvalues(T)) values.emplace_back(value.real(), value.imag());
   std::sort(values.begin(), values.end());
   return values;
 }
 
 double tangent_determinant(const System& system, const Matrix& A_full) {
   const double sign = system.closure_count() % 2 == 0 ? 1 : -1;
-  return sign * A_full.partialPivLu().determinant();
+  return sign * Lu(A_full).determinant();
 }
 
 Matrix in_world_axes(const System& system, const Vector& z, const Matrix& K, Index body) {
@@ -276,20 +255,20 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
   for (Index i = 0; i < s.x_count; ++i) (K(i, i) > 0 ? theta : q).push_back(i);
 
   const Matrix H = K - A.block(s.x, s.x, s.x_count, s.x_count);
-  Eigen::FullPivLU<Matrix> k_inverse;
-  if (!theta.empty() && !k_inverse.compute((K - H)(theta, theta)).isInvertible())
+  std::optional<FullPivotLu> k_inverse;
+  if (!theta.empty() && !k_inverse.emplace((K - H)(theta, theta)).is_invertible())
     return std::nullopt;
   const auto nq = static_cast<Index>(q.size());
   const Matrix J_theta = J(Eigen::all, theta), J_q = J(Eigen::all, q), H_theta_q = H(theta, q);
   Matrix M(s.F_count + nq, s.F_count + nq);
   const auto times_k = [&](const Matrix& right) -> Matrix {
-    return theta.empty() ? Matrix(0, right.cols()) : Matrix(k_inverse.solve(right));
+    return theta.empty() ? Matrix(0, right.cols()) : k_inverse->solve(right);
   };
   const Matrix corner = J_q + J_theta * times_k(H_theta_q);
   M << J_theta * times_k(J_theta.transpose()), corner, corner.transpose(),
       H(q, q) + H_theta_q.transpose() * times_k(H_theta_q);
-  const Eigen::FullPivLU<Matrix> lu(M);
-  if (!lu.isInvertible()) return std::nullopt;
+  const FullPivotLu lu(M);
+  if (!lu.is_invertible()) return std::nullopt;
   return Matrix(lu.inverse().topLeftCorner(s.F_count, s.F_count));
 }
 

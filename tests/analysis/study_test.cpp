@@ -33,6 +33,21 @@ TEST(Limits, OnWhoseEdgeTheStartLiesEndTheBranchThere) {
   EXPECT_GT(up.branches.front().samples.size(), 5u);
 }
 
+TEST(Limits, OnWhoseEdgeADiagramStartsMakeItAnOrdinaryStart) {
+  auto study = diagonal_study(-0.454);
+  study.control = analysis::ControlMode::load;
+  study.branches.depth = 1;
+  study.until.push_back({"lambda", 0, 0.5});  // the branch point at -0.97 lies beyond
+  const StudyResult result = run_study(planar_orthoglide(linear_knee(0)), study);
+  ASSERT_TRUE(complete(result));
+  EXPECT_EQ(result.branches.size(), 1u);
+  EXPECT_TRUE(result.junctions.empty());
+  EXPECT_TRUE(result.start.situation.empty());
+  EXPECT_EQ(result.branches.front().start_row, 0u);
+  EXPECT_EQ(result.branches.front().backward.reason,
+            "end of the range: lambda reaches its lower limit");
+}
+
 TEST(Limits, ThatAreInfiniteDoNotEndTheBranch) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const StudyResult result = within({{"deflection", -0.02, infinity}, {"force", -infinity, 0.12}});
@@ -47,8 +62,7 @@ TEST(Limits, OutsideOfWhichTheStartLiesMakeTheResultIncomplete) {
   const StudyResult result = within({{"tool.x", 0.5, 0.9}});
   EXPECT_TRUE(result.start.found);
   EXPECT_FALSE(complete(result));
-  EXPECT_NE(result.branches.front().forward.reason.find("outside the range of tool.x"),
-            std::string::npos);
+  EXPECT_NE(result.start.outside.find("tool.x"), std::string::npos) << result.start.outside;
 }
 
 TEST(Marks, AreLocatedExactlyAndDoNotEndTheBranch) {

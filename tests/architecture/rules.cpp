@@ -28,15 +28,15 @@ struct Library {
   std::string name;
   std::regex headers;
   Layers layers;          ///< whose .cpp files and private headers may include it
-  bool one_file = false;  ///< confined to one file, so that it can be replaced there
+  bool one_file = false;  ///< confined to one file of each layer, so that it can be replaced there
 };
 
 const std::vector<Library>& libraries() {
   static const std::vector<Library> all{
       {"LAPACK", std::regex{"lapacke\\.h|cblas\\.h"}, {"core"}, true},
-      {"SUNDIALS KINSOL",
-       std::regex{"(kinsol|nvector|sundials|sunlinsol|sunmatrix)/.*"},
-       {"statics"},
+      {"SUNDIALS",
+       std::regex{"(kinsol|cvode|nvector|sundials|sunlinsol|sunmatrix)/.*"},
+       {"statics", "analysis"},
        true},
       {"Boost.Odeint", std::regex{"boost/numeric/odeint.*"}, {"continuation"}, true},
       {"Boost", std::regex{"boost/.*"}, {"continuation", "analysis"}},
@@ -172,16 +172,16 @@ std::vector<std::string> forbidden_includes(const SourceFile& file) {
 }
 
 std::vector<std::string> scattered_libraries(const std::vector<SourceFile>& files) {
-  std::map<std::string, std::set<std::string>> users;
+  std::map<std::pair<std::string, std::string>, std::set<std::string>> users;  // library, layer
   for (const SourceFile& file : files)
     for (const std::string& include : includes_of(file))
       if (const Library* library = library_of(include); library && library->one_file)
-        users[library->name].insert(file.path);
+        users[{library->name, place_of(file).layer}].insert(file.path);
 
   std::vector<std::string> found;
-  for (const auto& [library, paths] : users) {
+  for (const auto& [user, paths] : users) {
     if (paths.size() == 1) continue;
-    std::string text = library + " is included by";
+    std::string text = user.first + " is included by";
     for (const std::string& path : paths) text += " " + path;
     found.push_back(text);
   }

@@ -264,7 +264,7 @@ TEST_F(Program, ClosesCleanlyWhenInterrupted) {
     EXPECT_EQ(summary()["complete"], false);
     EXPECT_EQ(summary()["runs"].size(), 1u);
     EXPECT_EQ(summary()["missing_runs"][0]["study"], "rest");
-    EXPECT_EQ(json::parse(text_in(folder() / "manifest.json"))["state"], "whole");
+    EXPECT_EQ(json::parse(text_in(folder() / "manifest.json"))["state"], "interrupted");
   }
 }
 

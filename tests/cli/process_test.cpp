@@ -81,7 +81,9 @@ TEST_F(Process, IsInterruptedCleanlyWhileGnuplotHangs) {
                              "> /dev/null 2> err.txt")),
             130);
   EXPECT_THAT(text("err.txt"), HasSubstr("stopped on request"));
-  EXPECT_THAT(text("err.txt"), HasSubstr("interrupted by SIGINT: 2 of 2 runs are complete"));
+  EXPECT_THAT(text("err.txt"), HasSubstr("interrupted by SIGINT after all runs were done"));
+  EXPECT_THAT(text("err.txt"), HasSubstr("not drawn: plots/push.png, plots/push.svg"));
+  EXPECT_THAT(text("out/manifest.json"), HasSubstr("\"pending\": [\n    \"plots/push.png\""));
   EXPECT_TRUE(fs::exists(scratch.path() / "out" / "summary.json"));
 }
 

@@ -105,7 +105,7 @@ TEST(BranchPoint, OfCurvesThatCrossWeaklyIsPlacedToRoundingOrSaidToBeInexact) {
       const Curve curve =
           follow(problem, {Vector::Zero(2), from, {}, {Vector::Zero(2), 1}}, {lambda_reaches(0.8)});
       const auto points = hits_of(curve, HitKind::branch_point);
-      const auto doubts = hits_of(curve, HitKind::unresolved);
+      const auto doubts = hits_of(curve, HitKind::inexact);
       ASSERT_EQ(points.size(), 1u) << weight;
       const double error =
           std::max(std::abs(points[0].point.lambda - 0.3), points[0].point.x.norm());

@@ -207,10 +207,9 @@ TEST_F(CaseMessages, OfTheAnalysisComeWithThePlaceOfTheKey) {
   EXPECT_THAT(after("solve = \"actuators\", solver = \"newton\"", "solver = \"fixed_point\""),
               ElementsAre(testing::StartsWith("case.toml:33:39: study[1].start.solver: the paper's "
                                               "fixed-point iteration works at a given pose")));
-  EXPECT_THAT(
-      after("maximum_step = 0.04", "maximum_step = 0.01"),
-      ElementsAre("case.toml:37:9: study[1].trace: need 0 < minimum_step <= initial_step <= "
-                  "maximum_step (study \"Q2\", run 1)"));
+  EXPECT_THAT(after("maximum_step = 0.04", "maximum_step = 0.01"),
+              ElementsAre("case.toml:37:26: study[1].trace.initial_step: got 0.02, need at most "
+                          "maximum_step, 0.01 (study \"Q2\", run 1)"));
 }
 
 TEST_F(CaseMessages, OfBranchesSayWhatIsNeeded) {
@@ -254,6 +253,10 @@ TEST_F(CaseMessages, ComeAllAtOnceInTheOrderOfTheFile) {
 }
 
 TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
+  const std::string neighbour =
+      "expected.toml: was read because it lies beside case.toml; if it belongs to another case, "
+      "write "
+      "expected = \"\" at the top of case.toml";
   write("expected.toml",
         "[[value]]\nname = \"a\"\nstudy = \"Q3\"\nquantity = \"force\"\nexpected = 1\ntolerance = "
         "-1\n"
@@ -261,23 +264,28 @@ TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
         "expected = \"1/0\"\ntolerance = 1\n");
   const std::vector<std::string> all = messages(orthoglide_text());
   EXPECT_THAT(
-      all, ElementsAre("expected.toml:3:9: value[1].study: no study \"Q3\", did you mean \"Q2\"?",
-                       "expected.toml:10:12: value[2].quantity: got \"count.XX\", need count. "
-                       "and one of \"branches\", \"equilibria\", \"LP\", \"BP\", \"SA\", \"CL\", "
-                       "\"KB\", \"KS\", "
-                       "\"TP\", \"FM\", \"UZ\", "
-                       "\"EP\", \"SC\" or \"UR\"",
-                       "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "
-                       "an event such as \"LP1\", or the code of an event or \"row\" and `near`",
-                       "expected.toml:12:7: value[2].run: got 3, need the number of a run of "
-                       "\"Q2\", which has 2",
-                       "expected.toml:13:12: value[2].expected: got \"1/0\" = inf, need a "
-                       "finite number (study \"Q2\", run 1)"));
+      all,
+      ElementsAre(
+          neighbour, "expected.toml:3:9: value[1].study: no study \"Q3\", did you mean \"Q2\"?",
+          "expected.toml:10:12: value[2].quantity: got \"count.XX\", need count. "
+          "and one of \"branches\", \"jumps\", \"equilibria\", \"LP\", \"BP\", \"SA\", \"CL\", "
+          "\"KB\", \"KS\", "
+          "\"TP\", \"FM\", \"UZ\", "
+          "\"EP\", \"SC\", \"UR\", \"CP\", \"IC\", \"CX\", \"HT\", \"BB\", \"C2\", "
+          "\"FA\", \"CR\", \"TA\", \"AA\", \"PT\", \"EX\" or \"TH\"",
+          "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "
+          "an event such as \"LP1\", \"target 2\" of a study of commands, or the code of "
+          "an event or \"row\" and `near`",
+          "expected.toml:12:7: value[2].run: got 3, need the number of a run of "
+          "\"Q2\", which has 2",
+          "expected.toml:13:12: value[2].expected: got \"1/0\" = inf, need a "
+          "finite number (study \"Q2\", run 1)"));
   write("expected.toml",
         "[[value]]\nname = \"a\"\nstudy = \"Q2\"\nquantity = \"forse\"\nexpected = 1\n"
         "tolerance = 1\n");
   EXPECT_THAT(messages(orthoglide_text()),
-              ElementsAre("expected.toml:4:12: value[1].quantity: no quantity \"forse\" in study "
+              ElementsAre(neighbour,
+                          "expected.toml:4:12: value[1].quantity: no quantity \"forse\" in study "
                           "\"Q2\", did you mean \"force\"?"));
 }
 

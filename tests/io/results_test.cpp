@@ -225,7 +225,16 @@ TEST(SummaryTable, SaysWhereTheIndexChanges) {
   EXPECT_THAT(table, HasSubstr("0.02023828896  0 > 1  lambda turns back"));
   EXPECT_THAT(table, HasSubstr("point.x = 0.454 m"));
   EXPECT_THAT(table, HasSubstr("leg_x.drive.rho = 1.345001684 m"));
-  EXPECT_THAT(table, HasSubstr("eigenvalues   0.25, 2.25"));
+}
+
+TEST(SummaryTable, ShowsTheEigenvaluesOfTheTablesUnderTheirName) {
+  auto results = sample::two_results();
+  for (auto& result : results) {
+    result.quantities.push_back({"K_eig1", analysis::Unit::stiffness});
+    for (auto& branch : result.branches)
+      for (auto& sample : branch.samples) sample.values.push_back(0.25);
+  }
+  EXPECT_THAT(summary_table(sample::two_runs(), results), HasSubstr("K_eig         0.25\n"));
 }
 
 Expectations expectations() {

@@ -64,6 +64,80 @@ TEST(MechanismProblems, WantNamesToBeUnique) {
               ElementsAre("chain[1].elements[4]: name: \"knee\" is used twice"));
 }
 
+TEST(MechanismProblems, WantBodiesChainsAndJointsToHaveNames) {
+  EXPECT_THAT(problems_after([](Mechanism& m) { m.bodies[0].name = ""; }),
+              ElementsAre("body[1]: name: is empty, need one"));
+  EXPECT_THAT(problems_after([](Mechanism& m) { m.chains[0].name = ""; }),
+              ElementsAre("chain[1]: name: is empty, need one"));
+  EXPECT_THAT(problems_after([](Mechanism& m) { joint(m, 1).name = ""; }),
+              ElementsAre("chain[1].elements[2]: name: is empty, need one"));
+}
+
+TEST(MechanismProblems, WantNamesOfLoadsAndLineSpringsToBeUniqueWhereTheyAreGiven) {
+  const Load load{.name = "push", .on = {.body = 1}, .vector = Vec3<double>::UnitX()};
+  EXPECT_THAT(problems_after([&](Mechanism& m) {
+                m.loads = {load, load};
+              }),
+              ElementsAre("load[2]: name: \"push\" is used twice"));
+  Load unnamed = load;
+  unnamed.name = "";
+  EXPECT_THAT(problems_after([&](Mechanism& m) { m.loads = {unnamed, unnamed}; }), IsEmpty());
+  const LineSpring spring{.name = "rope", .to = {.body = 1}};
+  EXPECT_THAT(problems_after([&](Mechanism& m) {
+                m.line_springs = {spring, spring};
+              }),
+              ElementsAre("spring[2]: name: \"rope\" is used twice"));
+}
+
+TEST(MechanismProblems, WantMassesThatAreFiniteAndNotNegative) {
+  for (const double mass : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THAT(problems_after([&](Mechanism& m) { m.bodies[0].mass = mass; }),
+                ElementsAre("body[1]: mass: need a finite number >= 0"));
+    EXPECT_THAT(problems_after([&](Mechanism& m) {
+                  m.chains[0].points = {ChainPoint{.name = "tip", .mass = mass}};
+                }),
+                ElementsAre("chain[1].points[\"tip\"]: mass: need a finite number >= 0"));
+  }
+}
+
+TEST(MechanismProblems, WantFiniteNumbersWhereverANumberStands) {
+  using Problems = std::vector<std::string>;
+  const auto wants_finite = [](const Problems& problems) {
+    return problems.size() == 1 && (problems[0].find("finite") != std::string::npos ||
+                                    problems[0].find("unit vector") != std::string::npos ||
+                                    problems[0].find("rigid motion") != std::string::npos);
+  };
+  const std::vector<void (*)(Mechanism&)> changes{
+      [](Mechanism& m) { m.gravity[1] = nan; },
+      [](Mechanism& m) { m.bodies[0].centre[0] = nan; },
+      [](Mechanism& m) { joint(m, 0).axis[2] = nan; },
+      [](Mechanism& m) { joint(m, 0).command = nan; },
+      [](Mechanism& m) { joint(m, 1).initial = nan; },
+      [](Mechanism& m) {
+        joint(m, 1).spring = LinearSpring{nan, 0};
+      },
+      [](Mechanism& m) {
+        joint(m, 1).spring = LinearSpring{1, nan};
+      },
+      [](Mechanism& m) {
+        joint(m, 1).spring = OneSidedSpring{1, nan};
+      },
+      [](Mechanism& m) { m.chains[0].from_attachment.p[0] = nan; },
+      [](Mechanism& m) { m.chains[0].to_attachment.R(0, 0) = nan; },
+      [](Mechanism& m) { std::get<RigidLink>(m.chains[0].elements[2]).transform.p[2] = nan; },
+      [](Mechanism& m) {
+        m.chains[0].points = {ChainPoint{.name = "tip", .at = Vec3<double>::Constant(nan)}};
+      },
+      [](Mechanism& m) {
+        m.loads = {Load{.on = {.body = 1}, .vector = {nan, 0, 0}}};
+      },
+      [](Mechanism& m) { m.line_springs = {LineSpring{.to = {.body = 1}, .stiffness = nan}}; },
+      [](Mechanism& m) { m.line_springs = {LineSpring{.to = {.body = 1}, .free = nan}}; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    EXPECT_PRED1(wants_finite, problems_after(changes[i])) << "change " << i;
+}
+
 TEST(MechanismProblems, WantAPoseThatFitsTheTaskSpace) {
   EXPECT_THAT(problems_after([](Mechanism& m) { m.bodies[0].pose = Vector::Zero(2); }),
               ElementsAre("body[1]: pose: need 3 finite numbers"));

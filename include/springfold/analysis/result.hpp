@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "springfold/core/types.hpp"
 
 namespace springfold::analysis {
+
+struct SnapReport;  // springfold/analysis/snap.hpp
 
 /// Dimension of a quantity, for labels.
 enum class Unit {
@@ -43,12 +46,37 @@ enum class EventKind {
   family,                 ///< FM: lambda stands still: a continuum of equilibria begins here
   user_value,             ///< UZ: a marked value
   end_of_range,           ///< EP: a limit of the study, or where tracing stopped
-  stability_change,       ///< SC: the commanded point loses or regains stability (kind control)
+  stability_change,       ///< SC: stability under dead load changes while commands or poses hold
   unresolved,             ///< UR: something happens here that could not be resolved
+  cusp,                   ///< CP: two limit points merge; the second parameter turns back
+  isola_centre,           ///< IC: a closed branch shrinks to a point
+  crossing,               ///< CX: two branches cross
+  hilltop,                ///< HT: a branch point on a limit point
+  branch_points_merge,    ///< BB: a pair of branch points is born
+  more_modes,             ///< C2: another mode vanishes at the same load
+  fold_meets_activation,  ///< FA: a limit or branch point reaches the threshold of a spring
+  corner_loses_reversal,  ///< CR: behind a corner the load no longer turns back
+  touches_activation,     ///< TA: the path touches the threshold of a spring
+  two_activations,        ///< AA: another spring switches at the same point
+  parameter_turns,        ///< PT: the second parameter turns back on a curve of zeros
+  extremum,               ///< EX: lambda is stationary along a critical curve
+  threshold,              ///< TH: the value that a threshold study looks for
 };
 
-/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR".
+/// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR", "CP", "IC", "CX", "HT", "BB",
+/// "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH".
 std::string code_of(EventKind kind);
+
+/// What a node of a map is.
+enum class NodeState {
+  none,            ///< not a node
+  stable,          ///< held, and stable under dead load
+  unstable,        ///< held, with unstable modes under dead load
+  critical,        ///< held; the number of its unstable modes is undefined
+  load_not_found,  ///< held and stable, but its critical load was not found
+  outside,         ///< not held
+  not_computed,
+};
 
 /// One row of the branch table: a point of the branch.
 struct Sample {
@@ -56,6 +84,20 @@ struct Sample {
   std::string piece{};           ///< segment number of every spring with breakpoints, "0.1.0"
   std::string event{};           ///< label of the event at this point ("LP1"), or empty
   std::string status{};  ///< targets and nodes: "ok", or what is wrong there; otherwise empty
+  NodeState state = NodeState::none;
+};
+
+/// Rows along which springs rest exactly at their thresholds: their state is stable if the quadratic form of
+/// the energy is positive on each of the cones in which other springs act (a strictly copositive form).
+struct RestingRows {
+  std::size_t first = 0, last = 0;  ///< rows
+  enum class Stable {
+    yes,
+    no,
+    undecided
+  } stable = Stable::undecided;  ///< under the study's control
+  int fewest = 0,
+      most = 0;  ///< unstable modes, if in all directions those springs acted that act in one cone
 };
 
 /// A special point. All values are those of the located point itself.
@@ -67,6 +109,7 @@ struct Event {
   std::size_t row = 0;   ///< its row in Branch::samples; a switching has the rows `row`, `row` + 1
   Matrix stiffness{};    ///< platform stiffness K_Sigma, d x d, world axes; empty if undefined
   Matrix compliance{};   ///< where the body is rigid in some directions: its compliance instead
+  Matrix stiffness_after{}, compliance_after{};  ///< a switching: behind it; otherwise empty
   std::vector<double> rates_before{};  ///< d(values)/ds along the branch, arriving; NaN: undefined
   std::vector<double> rates_after{};   ///< the same, leaving; differs at a switching only
 };
@@ -94,7 +137,8 @@ struct Branch {
   Stop backward{};
   Stop forward{};
   std::vector<StepNote> log{};
-  int depth = 0;          ///< special points between it and a start
+  std::vector<RestingRows> resting{};  ///< in the order of rows
+  int depth = 0;                       ///< special points between it and a start
   std::string origin{};   ///< label of the special point at which it begins; empty: a start point
   int origin_branch = 0;  ///< number (from 1) of the branch on which that point was met first;
                           ///< 0: the start itself is that point
@@ -137,29 +181,45 @@ struct RedundantClosures {
   double largest_dropped = 0;         ///< the gap between independent and dependent ones
 };
 
+/// The stiffness on one side of the thresholds on which springs rest at a start.
+struct StartSide {
+  std::string piece{};  ///< segments, as Sample::piece
+  Matrix stiffness{};   ///< as StartReport::stiffness
+  Matrix compliance{};  ///< where the body is rigid in some directions
+};
+
 /// How the start point was found.
 struct StartReport {
   bool found = false;
-  std::string method{};                 ///< in words
-  std::string message{};                ///< why not, if not found
-  int attempts = 0;                     ///< multi-start tries used
-  int iterations = 0;                   ///< of the solver in the successful attempt
+  std::string method{};   ///< in words
+  std::string message{};  ///< why not, if not found
+  std::string where{};    ///< what the message is about: "start.pose", "chain.leg_x", "body.tool",
+                          ///< "until.lambda"; empty: the study as a whole
+  std::string advice{};   ///< one thing to try, in words
+  std::string outside{};  ///< found, but outside of the study's limits: value and limits, in words
+  int attempts = 0;       ///< multi-start tries used
+  int iterations = 0;     ///< of the solver in the successful attempt
   std::vector<int> chain_iterations{};  ///< paper's iteration: per chain
   double residual = 0;  ///< largest scaled residual of the equilibrium equations [-]
   /// Stiffness of the study's body at the start, all other bodies free, d x d, world axes: K_Sigma
   /// where it is the only one; empty if undefined.
   Matrix stiffness{};
   Matrix compliance{};  ///< where the body is rigid in some directions: its compliance instead
+  std::vector<StartSide> sides{};  ///< springs rest on their thresholds: on all sides of these
   std::vector<Matrix> chain_stiffnesses{};  ///< K_ci, paper eq. (12); empty matrix if undefined
   double guess_residual = 0;   ///< the same residual at the guess, with the wrenches that suit best
   double moved = 0;            ///< largest change of a coordinate or pose from the guess [-]
   std::string moved_most{};    ///< name of that coordinate
   std::string situation{};     ///< "a branch point"; empty: an ordinary point of a curve
   std::vector<WayOut> ways{};  ///< all ways that leave it, where it is not an ordinary point
+  /// d(values)/ds at the start, arriving and leaving towards growing lambda, where one curve leads through
+  /// it; they differ at a switching. Otherwise empty.
+  std::vector<double> rates_before{}, rates_after{};
   /// Eigenvalues of the tangent stiffness reduced to the mechanism's freedoms, real and imaginary
   /// parts, ascending [force/length].
   std::vector<std::pair<double, double>> tangent{};
-  int zero_modes = 0;  ///< of them: zero to rounding, motions without stiffness
+  int zero_modes = 0;          ///< of them: zero to rounding, motions without stiffness
+  std::string free_motions{};  ///< which coordinates move in them, in words
   RedundantClosures redundant{};
 };
 
@@ -194,6 +254,16 @@ struct EquilibriaReport {
   MorseCount morse{};          ///< counts those out of range too
 };
 
+/// The answer of a threshold study.
+struct ThresholdReport {
+  bool found = false;  ///< false: no value within the range does
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string
+      decides{};  ///< the degeneracy at which the value lies, or the piece that is left, in words
+  bool verified = false;  ///< traced again on both sides, at value (1 -+ 1e-6)
+  std::string message{};  ///< the answer as a sentence
+};
+
 struct StudyResult {
   std::string study{};  ///< name of the study
   int run = 1;          ///< number among the study's varied values
@@ -208,6 +278,8 @@ struct StudyResult {
   std::vector<std::string> non_conservative{};
   std::vector<std::string> doubts{};             ///< what may be missing in the diagram, in words
   std::optional<EquilibriaReport> equilibria{};  ///< kind equilibria; it has no branches
+  std::optional<ThresholdReport> threshold{};    ///< kind threshold
+  std::shared_ptr<const SnapReport> snap{};      ///< if the study asks for jumps; otherwise null
   double seconds = 0;  ///< CPU time used; never part of reproducible output
 };
 

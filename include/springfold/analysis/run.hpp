@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "springfold/analysis/result.hpp"
 #include "springfold/analysis/study.hpp"
@@ -36,5 +37,10 @@ struct RunOptions {
 StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
                       const ParameterFamily* family = nullptr, const Observer& observer = {},
                       const RunOptions& options = {});
+
+/// Closes the chains and solves the start of a study as run_study does, and traces nothing; of a study
+/// of kind control its first target. @returns nothing for maps and workspaces, which have no start
+std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
+                                       const ParameterFamily* family = nullptr);
 
 }  // namespace springfold::analysis

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "springfold/analysis/control.hpp"
+#include "springfold/analysis/critical.hpp"
 #include "springfold/analysis/map.hpp"
 #include "springfold/analysis/situation.hpp"
+#include "springfold/analysis/snap_settings.hpp"
 #include "springfold/analysis/workspace.hpp"
 #include "springfold/core/types.hpp"
 #include "springfold/model/mechanism.hpp"
@@ -26,12 +28,21 @@ enum class StudyKind {
   control,           ///< commands along a path of targets
   map,               ///< quantities over a grid of poses or parameters
   workspace,         ///< the largest region within bounds of the transmission factors
+  critical_curve,    ///< a special point of the branch, followed in a second parameter
+  threshold,         ///< the value of a parameter from which on nothing unwanted happens
+  sensitivity,       ///< how special points move with the parameters of the case
 };
 
 /// Is it a study of commands and poses, not a curve or a point of one? These have settings and
 /// columns of their own.
 constexpr bool is_of_commands(StudyKind kind) {
   return kind == StudyKind::control || kind == StudyKind::map || kind == StudyKind::workspace;
+}
+
+/// Does it look at the special points of a branch in a second parameter?
+constexpr bool is_of_critical_points(StudyKind kind) {
+  return kind == StudyKind::critical_curve || kind == StudyKind::threshold ||
+         kind == StudyKind::sensitivity;
 }
 
 /// What lambda is.
@@ -143,10 +154,19 @@ struct Study {
   TraceSettings trace{};
   BranchSettings branches{};
   SearchSettings search{};
-  CommandSettings command{};      ///< kinds control and map
-  ControlPath targets{};          ///< kind control
-  MapSettings map{};              ///< kind map
-  WorkspaceSettings workspace{};  ///< kind workspace
+  std::optional<SnapSettings>
+      snap{};                        ///< traced studies: jumps from losses of stability are wanted
+  CommandSettings command{};         ///< kinds control and map
+  ControlPath targets{};             ///< kind control
+  MapSettings map{};                 ///< kind map
+  WorkspaceSettings workspace{};     ///< kind workspace
+  CriticalPointSettings critical{};  ///< kinds critical_curve, threshold and sensitivity
+};
+
+/// A mechanism with a study, as a case gives them for some values of its parameters.
+struct Variant {
+  model::Mechanism mechanism{};
+  Study study{};
 };
 
 /// The case as a function of one parameter; `value` is where the study starts.

@@ -46,6 +46,7 @@ enum class HitKind {
   family,          ///< lambda stands still from s_before to s_after: equilibria at one load
   user,            ///< an event of the caller
   unresolved,      ///< the number of negative eigenvalues changed and no event explains it
+  inexact,         ///< a remark on the special point before it: rounding places it worse than 1e-10
 };
 
 /// A located special point: plain data, always with the interval that proves it.
@@ -57,6 +58,11 @@ struct Hit {
   std::vector<Index> switches{};      ///< kinks: which ones are crossed
   int multiplicity = 1;               ///< branch points: how many eigenvalues vanish
   double s_before = 0, s_after = 0;   ///< on the branch, the event lies between these two
+  bool stops = false;                 ///< the curve ends here
+  int tag = 0;                        ///< of the caller's event
+  /// In a diagram: the junction at this place, and which of its ways lie on the two sides of it, that by
+  /// which the curve arrives and that by which it would go on. -1: none.
+  int junction = -1, way_back = -1, way_on = -1;
 };
 
 enum class StopReason {
@@ -95,6 +101,7 @@ struct Event {
   std::string name{};
   std::function<double(const CurvePoint&)> value{};
   EventAction action = EventAction::record;
+  int tag = 0;  ///< the caller's own: its hits carry it
 };
 
 }  // namespace springfold::continuation

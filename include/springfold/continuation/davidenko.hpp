@@ -28,7 +28,8 @@ namespace springfold::continuation {
 ///
 /// Something that changes sign twice within a quarter of a step is missed, but for switches, which
 /// are watched by their slopes as well.
-/// @pre problems_in(options).empty(); (x, lambda) satisfies F = 0 to the residual tolerance
+/// @pre (x, lambda) satisfies F = 0 to the residual tolerance
+/// @throws std::invalid_argument where sizes do not fit together, or problems_in(options) is not empty
 Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                 const std::vector<Event>& events, const TraceOptions& options,
                 const StepObserver& observer = {});

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,11 @@ struct DiagramOptions {
   /// Why the ways out of a special point are not searched for, in words; empty: they are. A point that
   /// is left out so is passed along the curve that meets it, and is a doubt.
   std::function<std::string(const CurvePoint&)> left_out{};
+  /// Why a curve that leaves this start or special point along the point's tangent ends right there, in words; empty: it
+  /// goes on. For points on the edge of the range that is wanted: a stopping event is not met where a curve begins.
+  std::function<std::string(const CurvePoint&)> ends_at{};
+  /// Is this special point outside of the range that is wanted? It is then no junction, and the branch goes no farther.
+  std::function<bool(const CurvePoint&)> outside{};
 };
 
 /// One way to leave a special point.
@@ -37,6 +44,7 @@ struct Junction {
   std::vector<Way> ways{};
   bool complete = true;  ///< false: ways may be missing; `why` says what went wrong
   std::string why{};
+  int start = -1;  ///< the caller's start that is this point
 };
 
 /// One curve of the diagram. It begins at a start of the caller or at a junction and ends where its
@@ -48,11 +56,34 @@ struct Branch {
   int depth = 0;
 };
 
+enum class DoubtKind {
+  ways_missing,   ///< not all ways out of a junction or a start could be found
+  no_such_way,    ///< a branch passes a junction in a direction that is none of its ways
+  not_attached,   ///< a branch could not be traced back to the junction at which it begins
+  stopped_early,  ///< a branch ended where it need not: `Branch::curve` says why
+  bounds,         ///< the options' bounds leave ways out
+};
+
+/// Something that may be missing or wrong.
+struct Doubt {
+  DoubtKind kind = DoubtKind::ways_missing;
+  std::string text{};                 ///< the same in words, without the place
+  std::optional<CurvePoint> place{};  ///< where; nothing: the diagram as a whole
+  int junction = -1;                  ///< of this junction
+  int branch = -1;                    ///< of this branch
+
+  const char* c_str() const { return text.c_str(); }
+  operator const std::string&() const { return text; }  // NOLINT: doubts were texts once
+  friend std::ostream& operator<<(std::ostream& out, const Doubt& doubt) {
+    return out << doubt.text;
+  }
+};
+
 struct Diagram {
   std::vector<Branch> branches{};
   std::vector<Junction> junctions{};
-  int not_followed = 0;               ///< ways left out because of the options' bounds
-  std::vector<std::string> doubts{};  ///< what may be missing, in words; empty: nothing known
+  int not_followed = 0;         ///< ways left out because of the options' bounds
+  std::vector<Doubt> doubts{};  ///< what may be missing; empty: nothing known
 };
 
 /// Where to begin: a solution and the piece it is on.
@@ -66,10 +97,13 @@ struct DiagramStart {
 /// branching kink that is met on the way, first in first out, to the options' depth and number. At
 /// each junction it is recorded which of its ways the curves passed so far run along, so that no way
 /// is traced twice and a branch ends where it would go on along one that was traced before. A start
-/// that lies on a branch is not traced again; a start that is singular is a junction itself.
+/// that lies on a branch is not traced again; a start that is singular, or on switching surfaces with more or
+/// fewer than two ways out, is a junction itself. An ordinary kink at a start is a junction of two ways, of kind
+/// `kink`; its branches belong to the start.
 ///
 /// Nothing is claimed about branches that are not connected to the starts: search.hpp looks for some.
 /// @pre each start satisfies F = 0 to the residual tolerance
+/// @throws std::invalid_argument as trace() does
 Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& starts,
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer = {});

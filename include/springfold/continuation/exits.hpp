@@ -1,6 +1,7 @@
 // All branches that leave a singular point.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,15 @@ struct Exits {
 /// @param at  the singular point (x, lambda, piece), located to about 1e-10
 /// @param corank  k = dim ker J0 - 1; 0 at a regular point, which has its two directions
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank);
+
+/// Is this point of a branch near enough to the singular point, of whose branch it has the limit
+/// direction `tangent`? Say, before the next switching surface.
+using NearEnough = std::function<bool(const CurvePoint& start, const Direction& tangent)>;
+
+/// The same with starts so near that `near_enough` holds; they are brought in by halves, to 1e-9 of max(1, |u0|)
+/// at most. The search itself does not depend on it: F of one piece is smooth beyond its surfaces.
+Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
+               const NearEnough& near_enough);
 
 /// Corank of [dF/dx dF/dlambda] at a point that is located to about 1e-9: how many of its singular
 /// values are below 1e-6 and separated from the others by a gap, after rows and columns have been

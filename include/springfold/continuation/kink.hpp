@@ -1,6 +1,7 @@
 // Where a piecewise-smooth curve meets its switching surfaces.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct Ray {
   Piece piece{};
   Direction tangent{};
   std::vector<Index> resting{};  ///< switches that stay zero along it
+  /// Where the piece is singular at the point itself: the first point of the curve beyond it, before
+  /// the next switching surface, with its own tangent; s is the distance. trace() goes on from there.
+  std::optional<CurvePoint> start{};
 };
 
 struct Rays {
@@ -31,8 +35,9 @@ struct Rays {
 /// Where dg_j . tau = 0, corrected points of the piece's own curve, up to 1e-2 away, decide: if the
 /// curve bends to the piece's side it is a way out, if to the other side it is none, and if it stays
 /// within the surface the switch rests: both pieces beside it share this ray, and it is given once,
-/// in `piece` if that is one of the two. Where the kernel of a piece is two-dimensional its tangents
-/// come from the algebraic bifurcation equation (branch point of a piece on a surface).
+/// in `piece` if that is one of the two and regular. A piece that is singular here (its branch point lies
+/// on the surface) is left by all its branches, see exits.hpp; none where its cone holds no direction of
+/// its kernel but those that all pieces share.
 ///
 /// The order is fixed: by pieces, counted in binary with the first active switch as the lowest
 /// digit. Without active switches these are the two directions of the curve.

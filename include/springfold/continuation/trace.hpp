@@ -23,12 +23,14 @@ using HitObserver = std::function<bool(const Hit&)>;
 /// surface the step is cut exactly there and the curve goes on in the piece that it enters. A
 /// refused step changes nothing but the step length and the log. A curve that comes back to its
 /// start in its first direction is closed there: its last point is the start once more.
-/// @pre problems_in(options).empty(); (x, lambda) satisfies F = 0 to the residual tolerance
+/// @pre (x, lambda) satisfies F = 0 to the residual tolerance
+/// @throws std::invalid_argument where sizes do not fit together, or problems_in(options) is not empty
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
             const StepObserver& observer = {}, const HitObserver& at_hit = {});
 
 /// All directions in which a curve leaves the point (x, lambda); piece: where no switch is active.
+/// @throws std::invalid_argument as trace() does
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                const TraceOptions& options);
 

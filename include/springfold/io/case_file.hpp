@@ -29,6 +29,13 @@ struct UnitLabels {
   std::string force = "N";
 };
 
+/// Where a part of the case stands: "start.pose", "until.lambda", "chain.leg_x", "body.tool" and
+/// "case.toml:40:9: study[1].start.pose".
+struct PartPlace {
+  std::string part{};
+  std::string place{};
+};
+
 /// One study with one set of parameter values.
 struct PlannedRun {
   std::string study{};
@@ -38,6 +45,8 @@ struct PlannedRun {
   analysis::Study plan{};
   std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
   std::map<std::string, double> parameters{};         ///< all named parameters as used
+  std::vector<PartPlace>
+      places{};  ///< of the study's keys, bodies and chains; "": the study itself
 };
 
 /// One curve (or several) of a figure.
@@ -98,19 +107,24 @@ struct MatrixEntry {
   Index row = 0, column = 0;
 };
 
+/// On which side of a special point a value is taken. Unsaid: slopes on leaving it, others at the point
+/// itself, which at a switching is the side on which the curve arrives.
+enum class Side { unsaid, before, after };
+
 /// A published or closed-form value that a run is compared with.
 struct ExpectedValue {
   std::string name{};   ///< as printed: "rho at Q1, Kv = 0.01"
   std::string group{};  ///< heading under which it is printed
   std::string study{};
   int run = 1;
-  std::string at = "start";  ///< "start", "end", an event label such as "LP1", or a code such as
-                             ///< "UZ" or "row": then `near` says which
+  std::string at =
+      "start";  ///< "start", "end", an event label such as "LP1", "target 5", or a code
+                ///< such as "UZ" or "row": then `near` says which
   std::vector<NearValue> near{};
   std::string quantity{};  ///< a quantity name, "count.LP", "K.x.y", "corank", "ways", ...
   std::optional<MatrixEntry> entry{};  ///< which one "K.x.y" or "C.x.y" means
   std::string per{};                   ///< not empty: the slope d(quantity)/d(per) along the branch
-  bool before = false;                 ///< slope: on arriving at the point, not on leaving it
+  Side side = Side::unsaid;            ///< of a special point
   double expected = 0;
   double tolerance = 0;  ///< absolute
   Agreement agreement = Agreement::equal;
@@ -133,6 +147,7 @@ struct Case {
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};
+  std::vector<std::string> hints{};  ///< what is allowed and seldom meant, each with its place
 };
 
 /// Reads and checks everything. `overrides` maps parameter names to numbers or formulas.

@@ -14,6 +14,7 @@ namespace springfold::io {
 struct PlotOutcome {
   std::vector<std::filesystem::path> files{};  ///< pictures written (.png and .svg)
   std::vector<std::string> warnings{};         ///< one per figure that failed, with the reason
+  std::vector<std::string> missing{};  ///< pictures wanted that are not there, "plots/a.png"
 };
 
 struct PlotOptions {

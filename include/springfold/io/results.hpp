@@ -30,11 +30,26 @@ std::string summary_table(const Case& the_case, const std::vector<analysis::Stud
 /// summary.json as text: schema version, runs, events, stop reasons. Same bytes for the same case.
 std::string summary_json(const Case& the_case, const std::vector<analysis::StudyResult>& results);
 
+/// What a manifest says of its files.
+enum class SetState {
+  being_written,  ///< files may be missing or of an earlier run: also what a killed program leaves
+  interrupted,    ///< all files are there; some runs were interrupted or not begun
+  whole,          ///< all files are there, and all runs were done
+};
+
 /// Writes branch CSVs, events.csv, steps.csv, summary.json, manifest.json and timings.json, each to
 /// a temporary name first, then renamed; returns the files written.
+/// @param state  what the manifest says at the end: being_written if figures follow
 /// @throws std::filesystem::filesystem_error or std::runtime_error when something cannot be written
 std::vector<std::filesystem::path> write_results(const std::filesystem::path& folder,
                                                  const Case& the_case,
-                                                 const std::vector<analysis::StudyResult>& results);
+                                                 const std::vector<analysis::StudyResult>& results,
+                                                 SetState state = SetState::whole);
+
+/// Says in the manifest that nothing more is written.
+/// @param pending  pictures that were wanted and are not there, "plots/push.png"
+/// @throws std::runtime_error when it cannot be written
+void close_results(const std::filesystem::path& folder, SetState state,
+                   const std::vector<std::string>& pending);
 
 }  // namespace springfold::io

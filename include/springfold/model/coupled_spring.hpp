@@ -1,4 +1,4 @@
-// Linear springs that couple several joints of one chain: the 6x6 virtual springs of links.
+// Linear springs that couple several joints of one chain: links (6x6), preloaded joints (eq. (3)).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace springfold::model {
 
-/// torques = stiffness (c - free), c the coordinates of some joints of a chain.
+/// torques = stiffness (c - free), c the coordinates of virtual or of preloaded joints of a chain.
 struct CoupledSpring {
   std::string name{};                   ///< "foot"; for messages
   std::vector<std::size_t> elements{};  ///< its joints' places in Chain::elements

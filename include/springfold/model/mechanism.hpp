@@ -63,7 +63,7 @@ struct Joint {
   JointKind kind = JointKind::revolute;
   Vec3<double> axis = Vec3<double>::UnitZ();  ///< unit vector in the frame before the joint
   JointRole role = JointRole::passive;
-  /// preloaded: needed; compliant: needed unless a coupled spring acts on it; actuated: drive stiffness
+  /// preloaded, compliant: needed unless a coupled spring acts on it; actuated: drive stiffness
   std::optional<SpringLaw> spring{};
   bool spring_from_start = false;  ///< coordinates of `spring` are counted from the coordinate that
                                    ///< the joint has in the study's start pose
@@ -91,7 +91,7 @@ struct Chain {
   Pose<double> from_attachment{};  ///< start of the chain in the frame of `from`
   Pose<double> to_attachment{};    ///< end of the chain in the frame of `to`
   std::vector<Element> elements{};
-  std::vector<CoupledSpring> coupled_springs{};  ///< of its compliant joints
+  std::vector<CoupledSpring> coupled_springs{};  ///< of its compliant or preloaded joints
   std::vector<ChainPoint> points{};
 };
 

@@ -42,6 +42,26 @@ struct KinematicInverse {
 KinematicInverse kinematic_inverse(const System& system, const CommandTask& task,
                                    const Vector& target, const Vector& z, const Vector& rho);
 
+/// How far one chain is from closing.
+struct ChainGap {
+  std::size_t chain = 0;  ///< number of the chain
+  double length = 0;      ///< distance of its end from where it belongs
+  double angle = 0;       ///< angle by which its end is turned against it [rad]
+};
+
+/// Where damped least squares on the closures ends in these unknowns, whatever springs say.
+struct NearestApproach {
+  bool closed = false;
+  Vector z{}, rho{};
+  std::vector<ChainGap> gaps{};  ///< of all chains that do not close, the largest first
+};
+
+/// @param moving    entries of z that may move, wrenches not among them
+/// @param commands  entries of rho that may move
+NearestApproach nearest_approach(const System& system, const std::vector<Index>& moving,
+                                 const std::vector<Index>& commands, const Vector& z,
+                                 const Vector& rho);
+
 /// How a body moves with the commands while all elastic coordinates rest:
 /// twist = velocity rho', wrench = force tau with force = velocity^-T.
 struct Transmission {

@@ -1,0 +1,100 @@
+#include "execution.hpp"
+
+#include <sys/time.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "cli/run_main.hpp"
+
+namespace springfold::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Said {
+  int code = 0;
+  std::string out{}, err{};
+};
+
+Said call(const std::vector<std::string>& words) {
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  std::ostringstream out, err;
+  Said said;
+  said.code = cli::run_main(static_cast<int>(arguments.size()), arguments.data(), out, err);
+  said.out = out.str();
+  said.err = err.str();
+  return said;
+}
+
+/// After so many seconds the process sends itself SIGINT, once; 0: not at all.
+void stop_after(double seconds) {
+  static constexpr auto handler = [](int) { ::raise(SIGINT); };
+  std::signal(SIGALRM, handler);
+  itimerval timer{};
+  timer.it_value.tv_usec = static_cast<suseconds_t>(seconds * 1e6);
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+bool is_control(char c) { return (static_cast<unsigned char>(c) < 32 && c != '\n') || c == 127; }
+
+void check_texts(const Said& said, std::vector<std::string>& broken) {
+  for (const std::string* text : {&said.out, &said.err})
+    if (std::any_of(text->begin(), text->end(), is_control))
+      broken.push_back("control characters reach the terminal");
+  if (said.code == 3 && said.err.find("nothing was") == std::string::npos)
+    broken.push_back("exit code 3 without saying that nothing was written");
+}
+
+bool is_one_of(int code, std::initializer_list<int> codes) {
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
+}  // namespace
+
+fs::path place_of(const Mutant& mutant, const fs::path& folder) {
+  return folder / mutant.of.parent_path() / "fuzz.toml";
+}
+
+void put(const Mutant& mutant, const fs::path& folder) {
+  const fs::path place = place_of(mutant, folder);
+  std::ofstream(place, std::ios::binary) << mutant.text;
+  const fs::path included = place.parent_path() / "fuzz-include.toml";
+  if (mutant.included)
+    std::ofstream(included, std::ios::binary) << *mutant.included;
+  else
+    fs::remove(included);
+}
+
+Outcome execute(Mode mode, const fs::path& case_file, const fs::path& out, bool draws) {
+  Outcome outcome;
+  const Said checked = call({"springfold", "check", case_file.string()});
+  outcome.code = checked.code;
+  outcome.accepted = checked.code == 0;
+  check_texts(checked, outcome.broken);
+  if (!is_one_of(checked.code, {0, 3, 6, 7})) outcome.broken.push_back("exit code of check");
+  if (mode == Mode::check) return outcome;
+
+  std::vector<std::string> words{"springfold", "run", case_file.string(), "--out", out.string()};
+  if (!draws) words.push_back("--no-plots");
+  if (mode == Mode::run) stop_after(0.2);
+  const Said said = call(words);
+  stop_after(0);
+  outcome.code = said.code;
+  check_texts(said, outcome.broken);
+  if (!is_one_of(said.code, {0, 3, 4, 5, 6, 7, 130})) outcome.broken.push_back("exit code of run");
+  if (outcome.accepted && said.code == 3)
+    outcome.broken.push_back("run refuses what check accepts");
+  if (!outcome.accepted && said.code != checked.code)
+    outcome.broken.push_back("run accepts what check refuses");
+  if (said.code == 3 && fs::exists(out)) outcome.broken.push_back("written with exit code 3");
+  const bool wrote = is_one_of(said.code, {0, 4, 5});
+  if (wrote && !fs::exists(out / "manifest.json")) outcome.broken.push_back("no manifest");
+  fs::remove_all(out);
+  return outcome;
+}
+
+}  // namespace springfold::fuzz

@@ -1,0 +1,32 @@
+// One execution of the program within this process, and what must hold of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mutate.hpp"
+
+namespace springfold::fuzz {
+
+enum class Mode {
+  check,     ///< `check` of wild mutants
+  run,       ///< `run` of gentle ones, which a signal stops after a fifth of a second
+  uncapped,  ///< `run` of gentle ones to their end, some with figures
+};
+
+struct Outcome {
+  int code = 0;                       ///< exit code
+  bool accepted = false;              ///< `check` has nothing to object to
+  std::vector<std::string> broken{};  ///< rules that do not hold
+};
+
+/// Writes the mutant beside the file that it comes from.
+/// @param folder  holds a copy of the corpus
+void put(const Mutant& mutant, const std::filesystem::path& folder);
+std::filesystem::path place_of(const Mutant& mutant, const std::filesystem::path& folder);
+
+/// @pre put(); `out` does not exist, and does not afterwards
+Outcome execute(Mode mode, const std::filesystem::path& case_file, const std::filesystem::path& out,
+                bool draws);
+
+}  // namespace springfold::fuzz

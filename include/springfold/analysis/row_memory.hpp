@@ -1,0 +1,17 @@
+// Bounds of memory: what is refused before work begins, and where a curve ends.
+#pragma once
+
+#include <cstddef>
+
+namespace springfold::analysis {
+
+/// The largest estimate of memory for one thing that a study asks for [byte]. A fixed number, so that
+/// a case means the same on every machine.
+inline constexpr double most_memory = 2e9;
+
+/// A row of a table: its values, and the texts beside them [byte].
+constexpr double bytes_of_row(std::size_t columns) {
+  return 160 + 8 * static_cast<double>(columns);
+}
+
+}  // namespace springfold::analysis

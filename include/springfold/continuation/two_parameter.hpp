@@ -1,0 +1,125 @@
+// Special points of curves, followed in a second parameter.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "springfold/continuation/curve.hpp"
+#include "springfold/continuation/options.hpp"
+#include "springfold/continuation/problem.hpp"
+
+namespace springfold::continuation {
+
+/// F(x, lambda; mu) = 0: for every mu a problem of the same size, with the same switches.
+struct Family {
+  /// The problem at mu, valid until the next call; nothing where the family is not defined.
+  std::function<std::optional<ProblemView>(double mu)> at{};
+  double step = 0x1p-8;  ///< of the six-point differences in mu
+};
+
+/// A function of the state that is zero at a point of kind `zero`; nothing outside its domain.
+using StateFunction =
+    std::function<std::optional<double>(const Vector& x, double lambda, double mu)>;
+
+enum class CriticalKind {
+  limit_point,   ///< dF/dx singular, dF/dlambda outside its range: F = 0, bordered function g = 0
+  branch_point,  ///< dF/dx singular on a branch that the parameters keep
+  surface,       ///< switching, corner: F = 0, g_j = 0
+  zero,          ///< F = 0, a function of the caller = 0
+};
+
+/// A special point of the curve at one mu, where the following begins.
+struct CriticalStart {
+  CriticalKind kind = CriticalKind::limit_point;
+  Vector x{};
+  double lambda = 0, mu = 0;
+  Piece piece{};          ///< of the arriving side
+  Piece behind{};         ///< kind surface: of the leaving side
+  Index switching = -1;   ///< kind surface: which switch is zero
+  int corank = 1;         ///< kind branch_point: how many eigenvalues vanish
+  StateFunction value{};  ///< kind zero
+};
+
+/// A point of a critical curve. Rates are by its arc length, in the problem's metric.
+struct CriticalPoint {
+  double s = 0;
+  Vector x{};
+  double lambda = 0, mu = 0;
+  Vector dx{};
+  double dlambda = 0, dmu = 0;
+};
+
+/// What happens on a critical curve.
+enum class Degeneracy {
+  cusp,                   ///< two limit points merge: mu turns back
+  isola_centre,           ///< a closed branch shrinks to a point: mu turns back
+  crossing,               ///< two branches cross: mu turns back
+  hilltop,                ///< branch point on a limit point
+  branch_points_merge,    ///< a pair of branch points is born: mu turns back
+  corank_two,             ///< a second eigenvalue vanishes
+  fold_meets_activation,  ///< the limit point, or the branch point, reaches a switching surface
+  corner_loses_reversal,  ///< the slope of lambda behind the surface passes zero
+  touches_surface,        ///< two crossings of the surface merge: mu turns back
+  two_switches,           ///< another switch is zero at the same point
+  turn,                   ///< mu turns back on a curve of zeros
+  extremum,               ///< lambda is stationary along the curve
+  user,                   ///< an event of the caller
+};
+
+struct CriticalHit {
+  Degeneracy kind = Degeneracy::user;
+  std::string name{};  ///< the caller's event, or the switch
+  CriticalPoint point{};
+};
+
+struct CriticalEvent {
+  std::string name{};
+  std::function<double(const CriticalPoint&)> value{};
+  EventAction action = EventAction::record;
+};
+
+struct CriticalCurve {
+  std::vector<CriticalPoint> points{};  ///< accepted points, the start first
+  std::vector<CriticalHit> hits{};      ///< in the order of s
+  StopReason stop = StopReason::bad_start;
+  std::string stop_detail{};
+  /// Kind branch_point: false where the second parameter does not keep the branch, so that
+  /// there is no curve of branch points.
+  bool kept = true;
+};
+
+/// Follows a special point in (lambda, mu) by `trace`, both being free, as the zero of a minimally
+/// augmented system (Govaerts 2000, chapter 4). With fixed borders B, C
+///
+///     | dF/dx  B | | V |   | 0 |
+///     |          | |   | = |   |,     G = 0  <=>  dF/dx is singular;
+///     | C^T    0 | | G |   | I |
+///
+/// limit points solve F = 0, G = 0 for (x, lambda). Branch points of any corank k solve
+///
+///     F + B beta = 0,     C^T (x - x0) = 0,     trace G = 0     for (x, lambda, beta),
+///
+/// which is regular there; beta = 0 all along says that the parameter keeps the branch, as symmetries do.
+/// Points on surfaces solve F = 0, g_j = 0. Derivatives of G need those of dF/dx along V only: differences of
+/// sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the equations: located points
+/// are as exact as F and dF/dx.
+///
+/// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may
+/// turn back; a caller's event ends the curve.
+/// @param growing  which way first: mu grows, or falls
+CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,
+                              const std::vector<CriticalEvent>& events, const TraceOptions& options,
+                              const std::function<bool(const CriticalPoint&)>& observer = {});
+
+/// The special point itself to rounding, at its mu; nothing when Newton's method does not converge nearby.
+std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start);
+
+/// How a special point moves with the parameter: dx/dmu and dlambda/dmu (dmu = 1), by the same equations.
+/// Nothing at degenerate points, and at branch points that the parameter does not keep.
+std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start);
+
+/// "cusp", "fold meets activation", ...
+std::string_view to_string(Degeneracy kind);
+
+}  // namespace springfold::continuation

@@ -1,0 +1,146 @@
+#include "base_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "branch_rows.hpp"
+#include "grow_diagram.hpp"
+#include "limits.hpp"
+#include "springfold/continuation/newton.hpp"
+#include "springfold/continuation/trace.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CriticalKind;
+using continuation::CriticalStart;
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::Hit;
+
+/// The special point of the engine that became this event: the same arc length on the same side.
+const Hit* hit_at(const Curve& curve, double s) {
+  for (const Hit& hit : curve.hits)
+    if (hit.point.s == s) return &hit;
+  return nullptr;
+}
+
+/// d(force)/ds on the curve through a state, the other way round where lambda falls.
+continuation::StateFunction force_rate_of(const CaseCurves& curves, Piece piece) {
+  return [&curves, piece = std::move(piece)](const Vector& x, double lambda,
+                                             double mu) -> std::optional<double> {
+    const Member* member = curves.at(mu);
+    if (member == nullptr) return std::nullopt;
+    continuation::Linearisation at;
+    const PathProblem& problem = *member->problem;
+    if (!linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
+    const auto tangent = tangent_at(at, problem.metric(), {Vector::Zero(x.size()), 1});
+    if (!tangent) return std::nullopt;
+    return member->evaluator->force_rate(
+        {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
+  };
+}
+
+/// A column less its value at the special point.
+continuation::StateFunction column_of(const CaseCurves& curves, const Member& member,
+                                      const SpecialPoint& point) {
+  const QuantityDefinition* quantity = member.quantity(point.hit.name);
+  if (quantity == nullptr) return {};
+  const auto value_at = [name = point.hit.name, piece = point.hit.point.piece](
+                            const Member& at, const Vector& x, double lambda) {
+    const QuantityDefinition& q = *at.quantity(name);
+    return at.evaluator->value(q, {.x = x, .lambda = lambda, .piece = piece}) / q.scale;
+  };
+  double wanted = value_at(member, point.hit.point.x, point.hit.point.lambda);
+  for (const Mark& mark : member.study.marks)  // the mark itself, not what was located
+    if (mark.quantity == quantity->name && std::abs(mark.value / quantity->scale - wanted) < 1e-9)
+      wanted = mark.value / quantity->scale;
+  return [&curves, value_at, wanted](const Vector& x, double lambda,
+                                     double mu) -> std::optional<double> {
+    const Member* at = curves.at(mu);
+    if (at == nullptr) return std::nullopt;
+    return value_at(*at, x, lambda) - wanted;
+  };
+}
+
+}  // namespace
+
+BasePath base_path(const Member& member, bool forward_only, const Observer& observer) {
+  BasePath path;
+  const PathProblem& problem = *member.problem;
+  const Evaluator& evaluator = *member.evaluator;
+  const CurvePoint start = member.start();
+  const continuation::TraceOptions options = options_of(member.study.trace);
+  continuation::Rays rays = rays_from(problem, start.x, start.lambda, start.piece, options);
+  if (rays.rays.size() != 2 || !rays.complete) {
+    path.problem = "the start is not an ordinary point of a curve";
+    return path;
+  }
+  if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
+    std::swap(rays.rays[0], rays.rays[1]);
+  const auto events = events_of(member.study, evaluator, member.quantities);
+  int points = 0;
+  const auto observe = [&](const CurvePoint& p) { return !observer || observer(++points, p.s); };
+  const auto follow = [&](const continuation::Ray& ray) {
+    auto ended = ended_at_start(member.study, evaluator, member.quantities, start, ray);
+    return ended ? *ended : trace(problem, start.x, start.lambda, ray, events, options, observe);
+  };
+  const Curve forward = follow(rays.rays[0]);
+  const Curve backward = forward_only || forward.stop == continuation::StopReason::closed
+                             ? nothing_behind(forward)
+                             : follow(rays.rays[1]);
+  BranchSource source{.backward = backward, .forward = forward};
+  source.forward_stop = stop_of(forward);
+  source.backward_stop = forward_only ? source.forward_stop : stop_of(backward);
+  std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities, problem)};
+  label_events(rows, 0, member.quantities);
+  path.branch = std::move(rows.front().branch);
+  for (const Event& event : path.branch.events) {
+    const double s = path.branch.samples[event.row].values.front();
+    const Hit* hit = s < 0 ? hit_at(backward, -s) : hit_at(forward, s);
+    if (hit != nullptr && event.kind != EventKind::end_of_range)
+      path.points.push_back({event.label, event.kind, event.row, *hit});
+  }
+  return path;
+}
+
+std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Member& member,
+                                            const SpecialPoint& point, std::string& why) {
+  const Hit& hit = point.hit;
+  CriticalStart start{
+      .x = hit.point.x, .lambda = hit.point.lambda, .mu = member.mu, .piece = hit.point.piece};
+  switch (point.kind) {
+    case EventKind::limit_point:
+      if (hit.kind == continuation::HitKind::limit_point) return start;
+      start.kind = CriticalKind::zero;
+      start.value = force_rate_of(curves, start.piece);
+      return start;
+    case EventKind::branch_point:
+      start.kind = CriticalKind::branch_point;
+      start.corank = hit.multiplicity;
+      return start;
+    case EventKind::switching:
+    case EventKind::corner_limit_point:
+      if (hit.switches.size() != 1 || hit.leaving.empty()) {
+        why = "several springs switch at " + point.label + " at once";
+        return std::nullopt;
+      }
+      start.kind = CriticalKind::surface;
+      start.switching = hit.switches.front();
+      start.behind = hit.leaving.front().piece;
+      return start;
+    case EventKind::user_value:
+      start.kind = CriticalKind::zero;
+      start.value = column_of(curves, member, point);
+      if (start.value) return start;
+      break;
+    default:
+      break;
+  }
+  why = point.label +
+        " is of a kind that is not followed: need a limit point, branch point, corner, " +
+        "activation or marked value";
+  return std::nullopt;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,33 @@
+// The traced curve of a study with its special points as the engine located them. Private to analysis.
+#pragma once
+
+#include "case_curves.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/continuation/curve.hpp"
+
+namespace springfold::analysis {
+
+struct SpecialPoint {
+  std::string label{};  ///< as in the study's table: "LP1"
+  EventKind kind = EventKind::limit_point;
+  std::size_t row = 0;      ///< in BasePath::branch
+  continuation::Hit hit{};  ///< walked away from the start
+};
+
+struct BasePath {
+  Branch branch{};
+  std::vector<SpecialPoint> points{};  ///< in the order of the branch
+  std::string problem{};               ///< why there is no path; empty: there is one
+};
+
+/// The branch through the start, both ways or only the one in which lambda grows. Special points that end it
+/// are left out.
+BasePath base_path(const Member& member, bool forward_only, const Observer& observer);
+
+/// How the engine follows this special point; nothing for kinds that cannot be followed (`why` says it).
+std::optional<continuation::CriticalStart> critical_start(const CaseCurves& curves,
+                                                          const Member& member,
+                                                          const SpecialPoint& point,
+                                                          std::string& why);
+
+}  // namespace springfold::analysis

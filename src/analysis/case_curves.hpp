@@ -1,0 +1,64 @@
+// The curve of a study for every value of one of the case's parameters. Private to analysis.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+
+#include "quantities.hpp"
+#include "setup.hpp"
+#include "springfold/analysis/result.hpp"
+#include "springfold/continuation/two_parameter.hpp"
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::analysis {
+
+/// The study for one value of the parameter, its start found.
+struct Member {
+  double mu = 0;  ///< dimensionless
+  Study study{};  ///< of kind force_deflection
+  Setup setup{};
+  StartReport report{};
+  statics::FirstEquilibrium first{};
+  std::unique_ptr<PathProblem> problem{};
+  std::unique_ptr<Evaluator> evaluator{};
+  std::vector<QuantityDefinition> quantities{};
+
+  continuation::CurvePoint start() const;
+  const QuantityDefinition* quantity(const std::string& name) const;
+};
+
+/// The study as a curve that is traced, whatever its kind: limits and marks of `parameter` left out.
+Study as_curve(const Study& study);
+
+/// Members share the scales of the first one, the case's own. Starts of the others are found from the nearest
+/// one that is known; where the settings do not tie them, commands stay those of the first.
+class CaseCurves {
+ public:
+  /// @param parameter  its number in study.critical.cases
+  CaseCurves(const Study& study, std::size_t parameter);
+
+  double scale() const { return scale_; }  ///< parameter = scale() * mu
+  double value() const { return value_; }  ///< of the parameter in the case
+  const std::string& name() const { return name_; }
+  const Member& base() const { return *base_; }  ///< base().report.found: can be used
+  /// Nothing where the case has no start. Valid for the next dozen calls.
+  const Member* at(double mu) const;
+  continuation::Family family() const;
+  /// A point of `member`'s curve on the given piece.
+  static continuation::CurvePoint point_of(const continuation::CriticalPoint& point,
+                                           const Piece& piece);
+
+ private:
+  std::unique_ptr<Member> make(double mu, const Member* near) const;
+  bool solve_near(Member& member, const Member& near) const;
+
+  Study study_;
+  std::size_t parameter_ = 0;
+  std::string name_{};
+  double value_ = 0, scale_ = 1;
+  std::unique_ptr<Member> base_{};
+  mutable std::list<std::unique_ptr<Member>> recent_{};
+};
+
+}  // namespace springfold::analysis

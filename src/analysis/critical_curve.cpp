@@ -1,0 +1,79 @@
+// The study kind `critical_curve`, and what the kinds of two parameters have in common.
+#include <algorithm>
+#include <ctime>
+
+#include "critical_rows.hpp"
+#include "critical_runs.hpp"
+#include "run_kinds.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+std::string list_of(const BasePath& path) {
+  std::string names;
+  for (const SpecialPoint& point : path.points) names += (names.empty() ? "" : ", ") + point.label;
+  return names.empty() ? "none" : names;
+}
+
+void run_curve(const CaseCurves& curves, const Study& study, const Observer& observer,
+               StudyResult& result) {
+  const Member& base = curves.base();
+  const BasePath path = base_path(base, false, observer);
+  const auto point =
+      std::find_if(path.points.begin(), path.points.end(),
+                   [&](const SpecialPoint& p) { return p.label == study.critical.point; });
+  std::string why = path.problem;
+  if (why.empty() && point == path.points.end())
+    why = "the curve has no " + study.critical.point + "; its special points: " + list_of(path);
+  std::optional<continuation::CriticalStart> start;
+  if (why.empty()) start = critical_start(curves, base, *point, why);
+  if (!start) {
+    result.start.found = false;
+    result.start.message = why;
+    return;
+  }
+  const FollowedCurve followed =
+      follow_both_ways(curves, base_study(study), *start, point->kind, observer);
+  result.branches.push_back(rows_of(curves, followed));
+  label_critical(result.branches);
+  if (result.branches.front().samples.empty()) {
+    result.branches.clear();
+    result.start.found = false;
+    result.start.message = point->label + ": " + critical_stop(followed.growing).reason;
+  }
+}
+
+}  // namespace
+
+Study base_study(const Study& study) {
+  Study curve = study;
+  curve.kind = StudyKind::force_deflection;
+  return curve;
+}
+
+StudyResult run_critical(const Study& study, const Observer& observer) {
+  const std::clock_t began = std::clock();
+  StudyResult result;
+  result.study = study.name;
+  if (study.kind == StudyKind::sensitivity) {
+    run_sensitivity(study, observer, result);
+  } else {
+    const auto& names = study.critical.cases->names;
+    const auto number = static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), study.critical.parameter) - names.begin());
+    const CaseCurves curves(study, number);
+    result.start = curves.base().report;
+    if (result.start.found) {
+      result.quantities = critical_quantities(curves);
+      result.lambda_unit = lambda_unit_of(curves.base().study, curves.base().setup.system);
+      if (study.kind == StudyKind::threshold)
+        run_threshold(curves, study, observer, result);
+      else
+        run_curve(curves, study, observer, result);
+    }
+  }
+  result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  return result;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,225 @@
+#include "critical_rows.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "branch_rows.hpp"
+#include "grow_diagram.hpp"
+#include "springfold/continuation/newton.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CriticalCurve;
+using continuation::CriticalEvent;
+using continuation::CriticalHit;
+using continuation::CriticalPoint;
+using continuation::Degeneracy;
+using continuation::EventAction;
+
+/// A row to be; `sign`: -1 on the side that is walked backwards.
+struct Row {
+  CriticalPoint point{};
+  const CriticalHit* hit = nullptr;
+};
+
+std::vector<Row> side_of(const CriticalCurve& curve, double sign) {
+  std::vector<Row> rows;
+  std::size_t h = 0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    while (h < curve.hits.size() && curve.hits[h].point.s <= curve.points[i].s) {
+      rows.push_back({curve.hits[h].point, &curve.hits[h]});
+      ++h;
+    }
+    rows.push_back({curve.points[i], nullptr});
+  }
+  for (; h < curve.hits.size(); ++h) rows.push_back({curve.hits[h].point, &curve.hits[h]});
+  // A range ends at its limit: the step that found it reached beyond.
+  if (curve.stop == continuation::StopReason::event && !curve.hits.empty())
+    while (rows.size() > 1 && rows.back().hit == nullptr) rows.pop_back();
+  for (Row& row : rows) row.point.s *= sign;
+  return rows;
+}
+
+std::string detail_of(const CriticalHit& hit) {
+  const std::string kind{to_string(hit.kind)};
+  if (hit.kind == Degeneracy::user) return hit.name;
+  return hit.name.empty() ? kind : kind + ": " + hit.name;
+}
+
+/// Where modes vanish the sign of their eigenvalues is rounding: they are not counted as unstable.
+void count_without_vanishing(const Member& member, const continuation::CurvePoint& point,
+                             std::vector<double>& values) {
+  constexpr double vanishing = 1e-9;
+  continuation::Linearisation at;
+  if (!member.problem->symmetric() ||
+      !linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
+    return;
+  const Vector spectrum =
+      Eigen::SelfAdjointEigenSolver<Matrix>(at.dF_dx, Eigen::EigenvaluesOnly).eigenvalues();
+  const double largest = spectrum.lpNorm<Eigen::Infinity>();
+  const auto count = static_cast<double>((spectrum.array() < -vanishing * largest).count() -
+                                         member.problem->closures());
+  using Kind = QuantityDefinition::Kind;
+  for (std::size_t i = 0; i < member.quantities.size(); ++i) {
+    const Kind kind = member.quantities[i].kind;
+    const bool same = kind == Kind::index_force && member.study.control == ControlMode::load;
+    if (kind == Kind::index || same) values[i] = count;
+  }
+}
+
+CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::string& quantity,
+                       double value, const Piece& piece, EventAction action) {
+  if (quantity == curves.name())
+    return {std::move(name),
+            [mu = value / curves.scale()](const CriticalPoint& p) { return p.mu - mu; }, action};
+  return {std::move(name),
+          [&curves, quantity, value, piece](const CriticalPoint& p) {
+            const Member* member = curves.at(p.mu);
+            if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
+            const QuantityDefinition& q = *member->quantity(quantity);
+            return (member->evaluator->value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
+          },
+          action};
+}
+
+}  // namespace
+
+continuation::TraceOptions critical_options(const Study& study) { return options_of(study.trace); }
+
+std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study& study,
+                                           const Piece& piece) {
+  std::vector<CriticalEvent> events;
+  const auto limit = [&](const std::string& quantity, double low, double high) {
+    if (std::isfinite(low))
+      events.push_back(at_value(curves, quantity + " reaches its lower limit", quantity, low, piece,
+                                EventAction::stop));
+    if (std::isfinite(high))
+      events.push_back(at_value(curves, quantity + " reaches its upper limit", quantity, high,
+                                piece, EventAction::stop));
+  };
+  limit(curves.name(), study.critical.low, study.critical.high);
+  for (const Limit& until : study.until) limit(until.quantity, until.low, until.high);
+  for (const Mark& mark : study.marks)
+    events.push_back(
+        at_value(curves, mark.quantity, mark.quantity, mark.value, piece, EventAction::record));
+  return events;
+}
+
+FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
+                               const continuation::CriticalStart& start, EventKind of,
+                               const Observer& observer) {
+  FollowedCurve followed{.start = start, .of = of};
+  const auto family = curves.family();
+  const auto events = critical_events(curves, study, start.piece);
+  int points = 0;
+  const auto observe = [&](const CriticalPoint& p) { return !observer || observer(++points, p.s); };
+  const auto options = critical_options(study);
+  followed.growing = follow_critical(family, start, true, events, options, observe);
+  followed.falling = follow_critical(family, start, false, events, options, observe);
+  return followed;
+}
+
+std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
+  std::vector<Quantity> columns;
+  for (const auto& q : curves.base().quantities) columns.push_back({q.name, q.unit});
+  columns.push_back({curves.name(), Unit::none});
+  return columns;
+}
+
+EventKind kind_of(Degeneracy kind, EventKind of) {
+  switch (kind) {
+    case Degeneracy::cusp:
+      return EventKind::cusp;
+    case Degeneracy::isola_centre:
+      return EventKind::isola_centre;
+    case Degeneracy::crossing:
+      return EventKind::crossing;
+    case Degeneracy::hilltop:
+      return EventKind::hilltop;
+    case Degeneracy::branch_points_merge:
+      return EventKind::branch_points_merge;
+    case Degeneracy::corank_two:
+      return EventKind::more_modes;
+    case Degeneracy::fold_meets_activation:
+      return of == EventKind::user_value ? EventKind::two_activations
+                                         : EventKind::fold_meets_activation;
+    case Degeneracy::corner_loses_reversal:
+      return EventKind::corner_loses_reversal;
+    case Degeneracy::touches_surface:
+      return EventKind::touches_activation;
+    case Degeneracy::two_switches:
+      return EventKind::two_activations;
+    case Degeneracy::turn:  // extrema of the force merge as limit points do
+      return of == EventKind::limit_point ? EventKind::cusp : EventKind::parameter_turns;
+    case Degeneracy::extremum:
+      return EventKind::extremum;
+    case Degeneracy::user:
+      return EventKind::user_value;
+  }
+  return EventKind::user_value;
+}
+
+Stop critical_stop(const CriticalCurve& curve) {
+  Stop stop;
+  stop.complete = (curve.stop == continuation::StopReason::event ||
+                   curve.stop == continuation::StopReason::closed) &&
+                  curve.kept;
+  stop.reason = curve.stop_detail.empty() ? std::string(to_string(curve.stop)) : curve.stop_detail;
+  return stop;
+}
+
+Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
+  Branch branch;
+  std::vector<Row> rows = side_of(followed.falling, -1);
+  std::reverse(rows.begin(), rows.end());
+  branch.start_row = rows.size();
+  const bool started = !followed.growing.points.empty();
+  if (started) rows.push_back({followed.growing.points.front(), nullptr});
+  for (Row& row : side_of(followed.growing, 1)) rows.push_back(std::move(row));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Member* member = curves.at(rows[i].point.mu);
+    if (member == nullptr) continue;
+    auto point = CaseCurves::point_of(rows[i].point, followed.start.piece);
+    Sample sample{member->evaluator->values(member->quantities, point),
+                  piece_text(member->setup.system, followed.start.piece), ""};
+    if (followed.start.kind == continuation::CriticalKind::limit_point ||
+        followed.start.kind == continuation::CriticalKind::branch_point)
+      count_without_vanishing(*member, point, sample.values);
+    sample.values.push_back(rows[i].point.mu * curves.scale());
+    branch.samples.push_back(std::move(sample));
+    const bool is_edge = i == 0 || i + 1 == rows.size();
+    if (rows[i].hit == nullptr && !is_edge) continue;
+    const Stop stop = critical_stop(i == 0 ? followed.falling : followed.growing);
+    Event event{.kind = stop.complete ? EventKind::end_of_range : EventKind::unresolved,
+                .detail = stop.reason,
+                .row = branch.samples.size() - 1};
+    if (rows[i].hit != nullptr && (!is_edge || rows[i].hit->kind != Degeneracy::user)) {
+      event.kind = kind_of(rows[i].hit->kind, followed.of);
+      event.detail = detail_of(*rows[i].hit);
+    }
+    event.rates_before.assign(branch.samples.back().values.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+    event.rates_after = event.rates_before;
+    branch.events.push_back(std::move(event));
+  }
+  branch.backward = critical_stop(followed.falling);
+  branch.forward = critical_stop(followed.growing);
+  return branch;
+}
+
+void label_critical(std::vector<Branch>& branches) {
+  std::map<std::string, int> counts;
+  for (Branch& branch : branches)
+    for (Event& event : branch.events) {
+      const std::string code = code_of(event.kind);
+      event.label = code + std::to_string(++counts[code]);
+      std::string& shown = branch.samples[event.row].event;
+      if (shown.empty()) shown = event.label;
+    }
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,41 @@
+// A critical curve as a branch of a result. Private to analysis.
+#pragma once
+
+#include "base_path.hpp"
+
+namespace springfold::analysis {
+
+/// A followed critical curve: both sides leave the same point.
+struct FollowedCurve {
+  continuation::CriticalStart start{};
+  EventKind of = EventKind::limit_point;             ///< what is followed
+  continuation::CriticalCurve falling{}, growing{};  ///< by the parameter, at first
+};
+
+/// Limits of the study and of the parameter end the curve, marks are recorded.
+std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curves,
+                                                         const Study& study, const Piece& piece);
+
+FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
+                               const continuation::CriticalStart& start, EventKind of,
+                               const Observer& observer);
+
+/// Columns of the study's curve, then the parameter.
+std::vector<Quantity> critical_quantities(const CaseCurves& curves);
+
+/// Rows from the falling end to the growing one, special points in rows of their own, without labels.
+Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed);
+
+/// Numbers the events of all branches: CP1, CP2, ...
+void label_critical(std::vector<Branch>& branches);
+
+/// What a degeneracy is called in results.
+EventKind kind_of(continuation::Degeneracy kind, EventKind of);
+
+/// Options of the engine for critical curves: those of the study.
+continuation::TraceOptions critical_options(const Study& study);
+
+/// What ends a curve, in words; complete where it was asked for or named.
+Stop critical_stop(const continuation::CriticalCurve& curve);
+
+}  // namespace springfold::analysis

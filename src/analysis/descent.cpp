@@ -1,0 +1,231 @@
+#include "descent.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "springfold/continuation/newton.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Longest step, in radians or sizes of the mechanism, and that as a part of the distance from zero.
+constexpr double longest_step = 0.1, longest_part = 0.1;
+/// A mode is taken as at least so stiff, relative to the stiffest: its step stays bounded.
+constexpr double softest_part = 1e-6;
+/// Newton's method is tried once the steps are so short.
+constexpr double nearly_there = 1e-3;
+/// Sizes of the mechanism, or turns, beyond which a state has run away.
+constexpr double lengths_away = 1e3, turns_away = 50;
+/// Newton's method must not lead away from the state of rest that it polishes.
+constexpr double polishing_reach = 0.05;
+/// An eigenvalue this small is zero: at a fold whose load is known to 1e-13 it is the root of that. Relative to
+/// the largest one, which counts as 1 to 10 units of the problem without dimensions: beside very stiff modes soft
+/// ones are soft, not zero. Their rounding is the last number times the largest one.
+constexpr double zero_part = 1e-6, least_unit = 1, largest_unit = 10, rounding_part = 1e-12;
+
+double reach_of(const Landscape& landscape, const Vector& x) {
+  double size = 0;
+  for (const Index i : landscape.moving())
+    if (landscape.periods()[i] == 0) size = std::max(size, std::abs(x[i]));
+  return std::max(longest_step, longest_part * size);
+}
+
+bool is_away(const Landscape& landscape, const Vector& x, const Vector& from) {
+  for (const Index i : landscape.moving()) {
+    const double limit =
+        landscape.periods()[i] > 0 ? 2 * std::numbers::pi * turns_away : lengths_away;
+    if (!(std::abs(x[i] - from[i]) <= limit)) return true;
+  }
+  return false;
+}
+
+struct Modes {
+  Vector curvatures{};
+  Matrix directions{};  ///< k x k, along the motions
+  Vector slopes{};
+  double floor = 0;
+};
+
+Modes modes_of(const Ground& at) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(at.hessian);
+  Modes modes{solver.eigenvalues(), solver.eigenvectors(), {}, 0};
+  modes.slopes = modes.directions.transpose() * at.slope;
+  modes.floor =
+      softest_part * modes.curvatures.cwiseAbs().maxCoeff() + std::numeric_limits<double>::min();
+  return modes;
+}
+
+/// Is the energy nowhere between two states above `bound`?
+bool stays_below(const Landscape& landscape, const Ground& from, const Vector& step, double bound) {
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const auto x = landscape.moved(from, part * step);
+    if (!x || !(landscape.energy(*x) <= bound)) return false;
+  }
+  return true;
+}
+
+class Walk {
+ public:
+  Walk(const Landscape& landscape, Vector x)
+      : landscape_{landscape}, from_{x}, reach_{reach_of(landscape, x)} {
+    result_.x = std::move(x);
+  }
+
+  Descent down() {
+    constexpr int most = 4000;
+    double energy = landscape_.energy(result_.x);
+    for (int k = 0; k < most && std::isfinite(energy); ++k) {
+      if (is_away(landscape_, result_.x, from_)) {
+        result_.end = Descent::End::runs_away;
+        return result_;
+      }
+      const auto at = landscape_.ground(result_.x);
+      if (!at) return result_;
+      if (at->motions.cols() == 0) return rests();
+      const double before = energy;
+      const Modes modes = modes_of(*at);
+      const Vector step = step_at(*at, modes);
+      const bool is_in_a_pit = modes.curvatures[0] > 0;
+      if (is_in_a_pit && step.norm() < nearly_there && rests().end == Descent::End::rest &&
+          result_.state.energy <= energy + rounding(energy))
+        return result_;
+      if (!advance(*at, step, energy)) return rests();
+      if (is_in_a_pit && before - energy <= rounding(energy) && step.norm() < nearly_there)
+        return rests();
+    }
+    return result_;
+  }
+
+ private:
+  static double rounding(double energy) { return 1e-14 * std::max(1.0, std::abs(energy)); }
+
+  Vector step_at(const Ground& at, const Modes& modes) const {
+    Vector y = -modes.slopes;
+    for (Index i = 0; i < y.size(); ++i)
+      y[i] /= std::max(modes.floor, std::abs(modes.curvatures[i]));
+    const double size = y.norm(), longest = reach_of(landscape_, at.x);
+    if (size > std::min(reach_, longest)) y *= std::min(reach_, longest) / size;
+    return modes.directions * y;
+  }
+
+  /// Shortens the step until the energy falls as it should.
+  bool advance(const Ground& at, Vector step, double& energy) {
+    constexpr int halvings = 40;
+    constexpr double enough = 1e-4;
+    for (int h = 0; h < halvings; ++h, step /= 2) {
+      const auto x = landscape_.moved(at, step);
+      const double e = x ? landscape_.energy(*x) : std::numeric_limits<double>::quiet_NaN();
+      if (!(e <= energy + enough * at.slope.dot(step)) ||
+          !stays_below(landscape_, at, step, energy))
+        continue;
+      energy = e;
+      result_.x = *x;
+      reach_ = h == 0 ? 2 * reach_ : std::max(step.norm(), nearly_there);
+      return true;
+    }
+    return false;
+  }
+
+  Descent& rests() {
+    if (auto state = rest_near(landscape_, result_.x)) {
+      result_.end = Descent::End::rest;
+      result_.state = std::move(*state);
+    } else {
+      result_.end = Descent::End::lost;
+    }
+    return result_;
+  }
+
+  const Landscape& landscape_;
+  Vector from_;
+  double reach_;
+  Descent result_{};
+};
+
+}  // namespace
+
+std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) {
+  const auto at = landscape.ground(x);
+  if (!at) return std::nullopt;
+  const Terrain& terrain = landscape.terrain();
+  continuation::NewtonOptions options;
+  options.maximum_iterations = 50;
+  const continuation::Direction only_lambda{Vector::Zero(x.size()), 1};
+  Piece piece = at->piece;
+  Vector from = at->x;
+  constexpr int pieces = 4;  // the solution may lie just beyond a switching surface
+  for (int k = 0; k < pieces; ++k) {
+    const auto solved = correct(terrain.problem, terrain.problem.metric(), from, terrain.lambda,
+                                piece, only_lambda, options);
+    if (!converged(solved)) return std::nullopt;
+    if ((solved.x - at->x)(landscape.moving()).lpNorm<Eigen::Infinity>() > polishing_reach)
+      return std::nullopt;
+    const auto there = landscape.piece_at(solved.x);
+    if (!there) return std::nullopt;
+    Vector g;
+    const bool on_surface = terrain.problem.switches(solved.x, terrain.lambda, g) && g.size() > 0 &&
+                            g.cwiseAbs().minCoeff() < 1e-10;
+    if (*there != piece && !on_surface) {
+      piece = *there;
+      from = solved.x;
+      continue;
+    }
+    const auto ground = landscape.ground_on(solved.x, *there);
+    if (!ground) return std::nullopt;
+    RestState state{solved.x, *there, landscape.energy(solved.x), 0, 0, true};
+    if (ground->hessian.size() > 0) {
+      const Vector k_i = Eigen::SelfAdjointEigenSolver<Matrix>(ground->hessian).eigenvalues();
+      const double stiffest = k_i.cwiseAbs().maxCoeff();
+      const double zero =
+          zero_part * std::clamp(stiffest, least_unit, largest_unit) + rounding_part * stiffest;
+      state.index = (k_i.array() < -zero).count();
+      state.softest = k_i[0];
+      state.is_clear = (k_i.array().abs() > zero).all();
+    }
+    return state;
+  }
+  return std::nullopt;
+}
+
+Descent descend(const Landscape& landscape, Vector x) {
+  return Walk(landscape, std::move(x)).down();
+}
+
+std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along) {
+  constexpr int rounds = 120;
+  constexpr double kick = 0.02;
+  const Vector from = x;
+  for (int k = 0; k < rounds; ++k) {
+    const auto at = landscape.ground(x);
+    if (!at || at->hessian.size() == 0 || is_away(landscape, x, from)) return std::nullopt;
+    const Modes modes = modes_of(*at);
+    Index up = 0;
+    if (along.size() > 0) {
+      const Vector seen = (modes.directions.transpose() * (at->motions.transpose() * along));
+      seen.cwiseAbs().maxCoeff(&up);
+      along = at->motions * (modes.directions.col(up) * (seen[up] < 0 ? -1 : 1));
+      if (modes.curvatures[up] < 0) up = 0, along.resize(0);
+    }
+    Vector y(modes.slopes.size());
+    for (Index i = 0; i < y.size(); ++i)
+      y[i] = (i == up ? 1 : -1) * modes.slopes[i] /
+             std::max(modes.floor, std::abs(modes.curvatures[i]));
+    // Along the way up from a minimum there is no slope at first.
+    if (along.size() > 0) {
+      const double forward = (modes.directions.col(up).dot(at->motions.transpose() * along));
+      y[up] = (forward < 0 ? -1 : 1) * std::max(kick, std::abs(y[up]));
+    }
+    const double size = y.norm(), longest = reach_of(landscape, x);
+    if (along.size() == 0 && size < nearly_there && modes.curvatures[0] < 0)
+      return rest_near(landscape, x);
+    if (size > longest) y *= longest / size;
+    const auto next = landscape.moved(*at, modes.directions * y);
+    if (!next) return std::nullopt;
+    x = *next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,166 @@
+#include "fall.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace springfold::analysis {
+namespace {
+
+/// A mode without stiffness, or of negative one, relative to the stiffest mode or to one unit of a problem
+/// without dimensions.
+constexpr double soft_part = 1e-6;
+/// Force along a mode that is above rounding, relative to the stiffest mode.
+constexpr double clear_force = 1e-12;
+/// Where the energy has not changed up to here, it is flat.
+constexpr double largest_push = 0.13;
+/// Difference of energies that is above rounding.
+constexpr double clear_energy = 1e-13;
+
+/// The state with amplitude `a` along a direction, all other motions at rest.
+struct Pushed {
+  Vector x{};
+  double force = 0;  ///< of the energy, along the direction
+};
+
+std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, const Vector& along,
+                             double a) {
+  constexpr int rounds = 20;
+  constexpr double arrived = 1e-11, longest = 0.05;
+  Vector x = from;
+  x(landscape.moving()) += a * along;
+  if (!landscape.close(x)) return std::nullopt;
+  for (int k = 0; k < rounds; ++k) {
+    const auto at = landscape.ground(x);
+    if (!at || at->hessian.size() == 0) return std::nullopt;
+    const Vector c = at->motions.transpose() * along;
+    const double norm = c.norm();
+    if (!(norm > 0.1)) return std::nullopt;
+    const double off = a - along.dot((x - from)(landscape.moving()));
+    const Matrix W = kernel_of(c.transpose());
+    Vector step = c * (off / (norm * norm));
+    if (W.cols() > 0) {
+      const Eigen::SelfAdjointEigenSolver<Matrix> modes(W.transpose() * at->hessian * W);
+      Vector y =
+          -modes.eigenvectors().transpose() * (W.transpose() * (at->slope + at->hessian * step));
+      const double floor = soft_part * at->hessian.norm();
+      for (Index i = 0; i < y.size(); ++i)
+        y[i] /= std::max(floor, std::abs(modes.eigenvalues()[i]));
+      step += W * (modes.eigenvectors() * y);
+    }
+    const double size = step.norm();
+    if (size < arrived) return Pushed{x, -at->slope.dot(c) / norm};
+    if (size > longest) step *= longest / size;
+    const auto next = landscape.moved(*at, step);
+    if (!next) return std::nullopt;
+    x = *next;
+  }
+  const auto at = landscape.ground(x);
+  if (!at) return std::nullopt;
+  const Vector c = at->motions.transpose() * along;
+  return Pushed{x, -at->slope.dot(c) / c.norm()};
+}
+
+/// Directions in which a critical state may be left, as seen from one piece.
+std::vector<Vector> soft_directions(const Landscape& landscape, const Vector& critical,
+                                    const Piece& piece) {
+  std::vector<Vector> list;
+  const auto at = landscape.ground_on(critical, piece);
+  if (!at || at->hessian.size() == 0) return list;
+  const Eigen::SelfAdjointEigenSolver<Matrix> modes(at->hessian);
+  const double soft = soft_part * std::max(1.0, modes.eigenvalues().cwiseAbs().maxCoeff());
+  // The softest mode of a critical state is the one that matters, whatever the size of the others.
+  const Index count = std::max<Index>(1, (modes.eigenvalues().array() < soft).count());
+  const Matrix V = at->motions * modes.eigenvectors().leftCols(count);
+  if (count == 1) list.push_back(V.col(0));
+  // Several modes at once: any combination may be the way out.
+  constexpr int around = 6;
+  for (Index i = 0; i + 1 < count; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double angle = std::numbers::pi * k / around;
+      list.push_back(std::cos(angle) * V.col(i) + std::sin(angle) * V.col(i + 1));
+    }
+  return list;
+}
+
+/// The largest entry is positive: eigenvectors have no sign of their own.
+Vector oriented(Vector v) {
+  Index largest = 0;
+  double size = 0;
+  for (Index i = 0; i < v.size(); ++i)
+    if (std::abs(v[i]) > size * (1 + 1e-6)) size = std::abs(v[i]), largest = i;
+  return v[largest] < 0 ? Vector(-v) : v;
+}
+
+}  // namespace
+
+Departures departures(const Landscape& landscape, const Vector& critical,
+                      const std::vector<Piece>& pieces) {
+  Departures result;
+  for (const Piece& piece : pieces) {
+    const auto ground = landscape.ground_on(critical, piece);
+    const double noise =
+        clear_force *
+        (ground && ground->hessian.size() > 0 ? std::max(1.0, ground->hessian.norm()) : 1.0);
+    for (const Vector& direction : soft_directions(landscape, critical, piece))
+      for (const int side : {1, -1}) {
+        const Vector along = side * oriented(direction);
+        const bool known =
+            std::any_of(result.list.begin(), result.list.end(),
+                        [&](const Departure& other) { return other.along.dot(along) > 0.999; });
+        if (known) continue;
+        bool decided = false;
+        for (double a = push_size; a < largest_push && !decided; a *= 2) {
+          const auto at = pushed(landscape, critical, along, a);
+          if (!at) break;
+          decided = std::abs(at->force) > noise;
+          if (decided && at->force > 0 && landscape.energy(at->x) < landscape.energy(critical))
+            result.list.push_back({side, along, at->x});
+        }
+        result.is_flat |= !decided;
+      }
+  }
+  return result;
+}
+
+Fall fall(StateBook& book, const Departure& departure, double energy) {
+  Fall result;
+  const WaysDown first = book.ways_down(departure.x);
+  const double bound = energy - clear_energy * std::max(1.0, std::abs(energy));
+  result.minima = first.minima;
+  result.may_run_away = first.away;
+  result.is_lost = first.lost;
+  // The connected part grows by every saddle below the critical energy that one of its minima is
+  // beside.
+  std::vector<bool> used(book.states().size(), false);
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t s = 0; s < book.states().size(); ++s) {
+      used.resize(book.states().size(), false);
+      if (used[s] || book.states()[s].index == 0 || !(book.states()[s].energy < bound)) continue;
+      const WaysDown ways = book.ways_from(s);
+      const bool touches = std::any_of(ways.minima.begin(), ways.minima.end(), [&](std::size_t m) {
+        return std::find(result.minima.begin(), result.minima.end(), m) != result.minima.end();
+      });
+      if (!touches && !(ways.away && result.may_run_away)) continue;
+      used[s] = grows = true;
+      result.saddles.push_back(s);
+      result.may_run_away |= ways.away;
+      for (const std::size_t m : ways.minima)
+        if (std::find(result.minima.begin(), result.minima.end(), m) == result.minima.end())
+          result.minima.push_back(m);
+    }
+  }
+  if (!first.minima.empty()) result.landing = first.minima.front();
+  if (result.minima.size() == 1 && !result.may_run_away && !result.is_lost)
+    result.verdict = SnapVerdict::unambiguous;
+  else if (!result.minima.empty())
+    result.verdict = SnapVerdict::depends;
+  else
+    result.verdict = result.may_run_away ? SnapVerdict::runs_away : SnapVerdict::no_stable_state;
+  return result;
+}
+
+}  // namespace springfold::analysis

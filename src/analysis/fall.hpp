@@ -1,0 +1,47 @@
+// From a critical state to where the mechanism comes to rest, at one lambda. Private to analysis.
+#pragma once
+
+#include "springfold/analysis/snap.hpp"
+#include "state_book.hpp"
+
+namespace springfold::analysis {
+
+/// One way to leave a critical state: a small push after which the energy is lower.
+struct Departure {
+  int side = 0;    ///< sign along `along`
+  Vector along{};  ///< unit direction of the moving unknowns, oriented outward
+  Vector x{};      ///< the state after the push, at rest but for the push
+};
+
+struct Departures {
+  std::vector<Departure> list{};
+  bool is_flat = false;  ///< in some direction the energy does not change beyond rounding
+};
+
+/// Amplitude of the push [-].
+inline constexpr double push_size = 1e-3;
+
+/// Leaves a critical state along its modes without stiffness, both ways; at a corner along the unstable
+/// modes of the pieces around it. For every amplitude along the mode all other motions are brought to
+/// rest; where the energy falls from there, the state is left. The sign is read where the force along
+/// the mode first exceeds rounding, from `push_size` on.
+/// @param pieces  those on both sides of the point
+Departures departures(const Landscape& landscape, const Vector& critical,
+                      const std::vector<Piece>& pieces);
+
+/// Where a departure leads, and whether anything but the energy decides that.
+struct Fall {
+  SnapVerdict verdict = SnapVerdict::no_stable_state;
+  std::optional<std::size_t> landing{};  ///< number in the book: at the end of the way down
+  std::vector<std::size_t> minima{};     ///< all in the connected part of {Pi < Pi(critical)}
+  std::vector<std::size_t> saddles{};    ///< in it
+  bool may_run_away = false;
+  bool is_lost =
+      false;  ///< a way down ended at no state that is known to be stable: the verdict is open
+};
+
+/// @param book  after its search
+/// @param energy  Pi of the critical state
+Fall fall(StateBook& book, const Departure& departure, double energy);
+
+}  // namespace springfold::analysis

@@ -1,0 +1,79 @@
+// Motions in a landscape: overdamped, and with masses. Private to analysis.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "descent.hpp"
+
+namespace springfold::analysis {
+
+/// A mass at a point that moves with the state: kinetic energy m |v|^2 / 2, v = jacobian x'.
+struct MassPoint {
+  double mass = 0;
+  Matrix jacobian{};  ///< rows: components of the velocity; columns: the moving unknowns
+};
+
+/// What moves: the landscape's damping, and masses if there are any.
+struct Motion {
+  const Landscape& landscape;
+  /// All masses in a state; empty: none, the overdamped motion.
+  std::function<std::vector<MassPoint>(const Vector& x)> masses{};
+  double damping_factor = 1;  ///< of the landscape's damping
+};
+
+struct FlowOptions {
+  double relative = 1e-8, absolute = 1e-11;  ///< error of a step
+  int most_steps = 20000;
+};
+
+struct Flow {
+  enum class End {
+    rest,       ///< at `state`
+    runs_away,  ///< a coordinate left all bounds
+    refused,    ///< some motion has no mass, or no damping
+    failed,     ///< the integrator gave up, or took too many steps
+  };
+  End end = End::failed;
+  RestState state{};
+  double time = 0;        ///< until it was near rest
+  double dissipated = 0;  ///< integral of x' . damping x'
+  double peak_speed = 0;  ///< largest |v| of a mass; overdamped: largest rate of a moving unknown
+  double peak_multiplier = 0;  ///< largest multiplier of a closure: a component of a chain's wrench
+  double closure = 0;          ///< largest gap of the closures on the way
+  std::vector<Index> switched{};  ///< switches that changed side, in order
+  int steps = 0;
+};
+
+/// Right-hand side of x' = f(x), or of (x, v)' with masses, on one piece.
+struct FlowRate {
+  Vector rate{};
+  Vector multipliers{};
+  double power = 0;  ///< dissipated
+};
+
+/// Equations of the overdamped motion on the closures e = 0, with J = de/dx and damping D,
+///
+///     D x' + J^T nu = -grad Pi,     J x' = -gamma e,
+///
+/// the last one in place of J x' = 0, so that rounding does not add up.
+std::optional<FlowRate> overdamped_rate(const Motion& motion, const Vector& x, const Piece& piece);
+
+/// d(rate)/dx, exact. @param at  as overdamped_rate gave it
+std::optional<Matrix> overdamped_jacobian(const Motion& motion, const Vector& x, const Piece& piece,
+                                          const FlowRate& at);
+
+/// With masses: M v' + J^T nu = -grad Pi - D v - (terms of the masses' curved ways), likewise closed.
+/// @returns v' and multipliers; nothing where a motion has no mass
+std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, const Vector& v,
+                                      const Piece& piece);
+
+/// By CVODE: backward differentiation formulas, the exact Jacobian (overdamped), roots where switches
+/// change sides and where a coordinate leaves all bounds.
+Flow flow_by_cvode(const Motion& motion, const Vector& from, const FlowOptions& options = {});
+
+/// Coordinates beyond this, in sizes of the mechanism or radians, have run away.
+inline constexpr double flow_bound = 1e3;
+
+}  // namespace springfold::analysis

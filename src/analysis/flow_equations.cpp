@@ -1,0 +1,157 @@
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
+#include "flow.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Rate at which gaps of closures fade [1/time]: faster than what moves, slow for the integrator.
+constexpr double fading = 50;
+/// A motion whose mass or damping is below this part of the largest has none.
+constexpr double none_part = 1e-9;
+
+/// Pi's gradient, the closures and their derivatives, without second order.
+struct First {
+  Vector gradient{}, gap{};
+  Matrix closing{};
+};
+
+struct Evaluated {
+  Vector r{};
+  Matrix A{};
+};
+
+std::optional<Evaluated> evaluate(const Landscape& landscape, const Vector& x, const Piece& piece) {
+  Evaluated at;
+  Vector b;
+  const Terrain& terrain = landscape.terrain();
+  if (!terrain.problem.residual(x, terrain.lambda, piece, at.r) ||
+      !terrain.problem.derivatives(x, terrain.lambda, piece, at.A, b))
+    return std::nullopt;
+  return at;
+}
+
+std::optional<First> first_order(const Landscape& landscape, const Vector& x, const Piece& piece) {
+  Vector plain = x;
+  plain(landscape.multipliers()).setZero();
+  const auto at = evaluate(landscape, plain, piece);
+  if (!at) return std::nullopt;
+  return First{at->r(landscape.moving()), at->r(landscape.multipliers()),
+               at->A(landscape.multipliers(), landscape.moving())};
+}
+
+Matrix damping_of(const Motion& motion) {
+  const Matrix& D = motion.landscape.terrain().damping;
+  const auto n = static_cast<Index>(motion.landscape.moving().size());
+  return motion.damping_factor * (D.size() > 0 ? D : Matrix(Matrix::Identity(n, n)));
+}
+
+/// Solves W a + J^T nu = p, J a = q for symmetric W, positive on the kernel of J.
+struct Balanced {
+  Vector a{}, nu{};
+};
+std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& p,
+                                const Vector& q) {
+  const Matrix Z = kernel_of(J);
+  Balanced result{Vector::Zero(W.rows()), Vector::Zero(J.rows())};
+  const Eigen::CompleteOrthogonalDecomposition<Matrix> closings(J);
+  if (J.rows() > 0) result.a = closings.solve(q);
+  if (Z.cols() > 0) {
+    const Matrix reduced = Z.transpose() * W * Z;
+    const Eigen::LDLT<Matrix> factors(reduced);
+    const Vector d = factors.vectorD();
+    if (!(d.minCoeff() > none_part * d.maxCoeff())) return std::nullopt;
+    result.a += Z * factors.solve(Z.transpose() * (p - W * result.a));
+  }
+  if (J.rows() > 0) {
+    const Matrix Jt = J.transpose();
+    result.nu = Jt.completeOrthogonalDecomposition().solve(p - W * result.a);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<FlowRate> overdamped_rate(const Motion& motion, const Vector& x, const Piece& piece) {
+  const auto at = first_order(motion.landscape, x, piece);
+  if (!at) return std::nullopt;
+  const Matrix D = damping_of(motion);
+  const auto solved = balance(D, at->closing, -at->gradient, -fading * at->gap);
+  if (!solved) return std::nullopt;
+  return FlowRate{solved->a, solved->nu, solved->a.dot(D * solved->a)};
+}
+
+std::optional<Matrix> overdamped_jacobian(const Motion& motion, const Vector& x, const Piece& piece,
+                                          const FlowRate& at) {
+  const auto& moving = motion.landscape.moving();
+  const auto& multipliers = motion.landscape.multipliers();
+  const auto n = static_cast<Index>(moving.size()), m = static_cast<Index>(multipliers.size());
+  Vector state = x;
+  state(multipliers).setZero();
+  const auto plain = evaluate(motion.landscape, state, piece);
+  state(multipliers) = at.multipliers;
+  const auto loaded = evaluate(motion.landscape, state, piece);
+  if (!plain || !loaded) return std::nullopt;
+  const Matrix J = plain->A(multipliers, moving);
+  // Second derivatives of every closure, contracted with the rate: the matrix is linear in the
+  // multipliers.
+  Matrix right(n + m, n);
+  right.topRows(n) = -loaded->A(moving, moving);
+  for (Index i = 0; i < m; ++i) {
+    state(multipliers).setZero();
+    state[multipliers[static_cast<std::size_t>(i)]] = 1;
+    const auto one = evaluate(motion.landscape, state, piece);
+    if (!one) return std::nullopt;
+    const Matrix second = one->A(moving, moving) - plain->A(moving, moving);
+    right.row(n + i) = -fading * J.row(i) - (second * at.rate).transpose();
+  }
+  Matrix left = Matrix::Zero(n + m, n + m);
+  left.topLeftCorner(n, n) = damping_of(motion);
+  left.topRightCorner(n, m) = J.transpose();
+  left.bottomLeftCorner(m, n) = J;
+  return Matrix(left.completeOrthogonalDecomposition().solve(right).topRows(n));
+}
+
+std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, const Vector& v,
+                                      const Piece& piece) {
+  const Landscape& landscape = motion.landscape;
+  const auto at = first_order(landscape, x, piece);
+  if (!at) return std::nullopt;
+  const std::vector<MassPoint> masses = motion.masses(x);
+  const Matrix D = damping_of(motion);
+  const auto n = static_cast<Index>(v.size());
+  Matrix M = Matrix::Zero(n, n);
+  Vector p = -at->gradient - D * v;
+  Vector bend = Vector::Zero(at->gap.size());
+  for (const MassPoint& mass : masses) M += mass.mass * mass.jacobian.transpose() * mass.jacobian;
+  // d/dt of J v and of every mass's velocity along the motion, by differences of fourth order.
+  const double speed = v.lpNorm<Eigen::Infinity>();
+  if (speed > 0) {
+    const double h = 1e-3 / speed;
+    std::vector<Vector> curved(masses.size());
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      curved[i] = Vector::Zero(masses[i].jacobian.rows());
+    for (const auto& [steps, weight] :
+         {std::pair{-2.0, 1.0 / 12}, {-1.0, -8.0 / 12}, {1.0, 8.0 / 12}, {2.0, -1.0 / 12}}) {
+      Vector beside = x;
+      beside(landscape.moving()) += steps * h * v;
+      const auto there = first_order(landscape, beside, piece);
+      if (!there) return std::nullopt;
+      const std::vector<MassPoint> moved = motion.masses(beside);
+      bend += weight / h * (there->closing * v);
+      for (std::size_t i = 0; i < masses.size(); ++i)
+        curved[i] += weight / h * (moved[i].jacobian * v);
+    }
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      p -= masses[i].mass * (masses[i].jacobian.transpose() * curved[i]);
+  }
+  const Vector q = -bend - 2 * fading * (at->closing * v) - fading * fading * at->gap;
+  const auto solved = balance(M, at->closing, p, q);
+  if (!solved) return std::nullopt;
+  return FlowRate{solved->a, solved->nu, v.dot(D * v)};
+}
+
+}  // namespace springfold::analysis

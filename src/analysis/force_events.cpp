@@ -1,0 +1,67 @@
+#include "force_events.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "springfold/core/equilibration.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::Hit;
+using continuation::HitKind;
+
+/// Hits closer than this in arc length are one point.
+constexpr double same_place = 1e-6;
+
+bool has_tag(const Hit& hit, EventTag tag) { return hit.kind == HitKind::user && hit.tag == tag; }
+
+template <class Test>
+bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test) {
+  return std::any_of(hits.begin(), hits.end(), [&](const Hit& hit) {
+    return std::abs(hit.point.s - place.point.s) <= same_place && test(hit);
+  });
+}
+
+}  // namespace
+
+continuation::Event dead_load_event(const Evaluator& evaluator) {
+  // The same factors all along the curve, so that the determinant is smooth; they keep it within the range of numbers.
+  const auto factors = std::make_shared<Vector>();
+  const auto value = [&problem = evaluator.problem(),
+                      factors](const continuation::CurvePoint& point) {
+    statics::Workspace work;
+    Vector z, r;
+    Matrix A;
+    const statics::System& system = problem.turned_to_pose(point.x, point.lambda, z);
+    if (!equilibrium_matrix(system, point.piece, z, problem.inputs(point.lambda), work, r, A))
+      return std::numeric_limits<double>::quiet_NaN();
+    if (factors->size() == 0) *factors = equilibrate(A).rows;
+    // Where nothing holds the body, as on cables that are all slack, it is zero all along.
+    constexpr double singular = 1e-14;
+    const Eigen::PartialPivLU<Matrix> lu(factors->asDiagonal() * A * factors->asDiagonal());
+    return lu.rcond() > singular ? lu.determinant() : 0.0;
+  };
+  return {dead_load_change_name, value, continuation::EventAction::record, dead_load_change};
+}
+
+continuation::Curve with_merged_force_events(continuation::Curve curve) {
+  const auto is_force_limit = [](const Hit& hit) { return has_tag(hit, force_limit); };
+  for (Hit& hit : curve.hits)
+    if (hit.kind == HitKind::branch_point && is_met_at(hit, curve.hits, is_force_limit))
+      hit.name += ", the force turns back";
+  const std::vector<Hit> all = curve.hits;
+  std::erase_if(curve.hits, [&](const Hit& hit) {
+    if (is_force_limit(hit))
+      return is_met_at(hit, all, [](const Hit& h) { return h.kind == HitKind::branch_point; });
+    return has_tag(hit, dead_load_change) && is_met_at(hit, all, [&](const Hit& h) {
+             return h.kind != HitKind::user || is_force_limit(h);
+           });
+  });
+  return curve;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,22 @@
+// Events of the reaction to a prescribed displacement: extrema of the force, and changes of stability under dead load.
+// Private to analysis.
+#pragma once
+
+#include "branch_rows.hpp"
+
+namespace springfold::analysis {
+
+/// Name of the engine's event where, the pose being held, the number of modes that dead loads would make unstable changes.
+inline constexpr const char* dead_load_change_name =
+    "under the same loads, not held, another number of modes is unstable";
+
+/// The second of these as an event: the determinant of the equilibrium matrix with all bodies free is zero. @pre the problem
+/// is symmetric; the evaluator outlives the event
+continuation::Event dead_load_event(const Evaluator& evaluator);
+
+/// Where a curve crosses another one at its tip, force and lambda turn back at the branch point itself: it says so, and
+/// the extremum of the force is no point of its own. Neither is a change of stability under dead load where the
+/// force has its extremum, or where another special point lies.
+continuation::Curve with_merged_force_events(continuation::Curve curve);
+
+}  // namespace springfold::analysis

@@ -1,0 +1,15 @@
+// Special points of the engine that say one thing together. Private to analysis.
+#pragma once
+
+#include "springfold/continuation/curve.hpp"
+
+namespace springfold::analysis {
+
+/// The curve with special points that belong to others put together with them:
+///  - an extremum of the force at a branch point, where the curve turns, is said by the branch point;
+///  - remarks on a special point are words of it;
+///  - a place where only the count of negative eigenvalues in the engine's own piece changes, beside springs
+///    at rest, is none: nothing switches there, and stability is decided on all pieces together.
+continuation::Curve with_hits_merged(continuation::Curve curve);
+
+}  // namespace springfold::analysis

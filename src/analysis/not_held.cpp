@@ -1,0 +1,89 @@
+#include "not_held.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "number_text.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Systems with more unknowns are not looked into.
+constexpr Index largest_matrix = 300;
+
+/// Rows of the equilibrium that no unknown can change, by the coordinates that they belong to: the left null
+/// vectors of the matrix of the solve at the state of plain kinematics.
+std::string untouched(const CommandSetup& setup, const statics::ControlResult& result) {
+  constexpr double none = 1e-9, visible = 0.3;
+  const statics::System& system = setup.system;
+  if (system.size > largest_matrix || !result.plain.closed) return {};
+  const statics::ControlSolver solver =
+      control_solver(system, setup.task, result.plain.z, result.plain.rho);
+  statics::Workspace work;
+  Vector r;
+  Matrix A, by_rho;
+  const statics::Inputs unloaded{result.plain.rho, Vector::Zero(system.load_size), {}};
+  if (!equilibrium_matrix(system, piece_at(system, result.plain.z), result.plain.z, unloaded, work,
+                          r, A, &by_rho))
+    return {};
+  Matrix M(system.size, static_cast<Index>(solver.unknowns.size()));
+  for (Index k = 0; k < M.cols(); ++k) {
+    const Index i = solver.unknowns[static_cast<std::size_t>(k)];
+    M.col(k) = i < system.size ? A.col(i) : by_rho.col(i - system.size);
+  }
+  const Eigen::BDCSVD<Matrix> svd(M, Eigen::ComputeFullU);
+  const Vector values = svd.singularValues();
+  const Index last = system.size - 1;
+  if (values.size() > last && values[last] > none * values[0]) return {};
+  const Vector u = svd.matrixU().col(last);
+  std::string names;
+  for (Index i = 0; i < system.size; ++i)
+    if (std::abs(u[i]) >= visible * u.cwiseAbs().maxCoeff() &&
+        !system.is_wrench[static_cast<std::size_t>(i)])
+      names += (names.empty() ? "" : ", ") + system.coordinate_names[static_cast<std::size_t>(i)];
+  return names;
+}
+
+/// The largest part of the load with which the target is held, from none on; nothing where it is not held
+/// without load.
+std::optional<double> held_part(const CommandSetup& setup, const Vector& target, const Vector& W,
+                                const statics::ControlResult& result) {
+  constexpr int steps = 20, halvings = 12;
+  statics::ControlSolver solver =
+      control_solver(setup.system, setup.task, result.plain.z, result.plain.rho);
+  if (!solve_control(setup.system, solver, target, Vector::Zero(W.size()))) return std::nullopt;
+  double held = 0, next = 1.0 / steps, step = 1.0 / steps;
+  for (int i = 0; i < steps + halvings && held < 1; ++i) {
+    statics::ControlSolver trial = solver;
+    if (solve_control(setup.system, trial, target, next * W)) {
+      solver = trial;
+      held = next;
+    } else {
+      step /= 2;
+    }
+    next = std::min(1.0, held + step);
+  }
+  return held;
+}
+
+}  // namespace
+
+std::string why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
+                         const statics::ControlResult& result) {
+  if (result.status != statics::ControlStatus::not_held) return shortage(setup, result);
+  if (const std::string names = untouched(setup, result); !names.empty())
+    return "not held: none of the chosen commands and no spring acts on " + names +
+           ", so nothing balances a load there";
+  if (!result.plain.closed) return shortage(setup, result);
+  const auto part = held_part(setup, target, W, result);
+  if (!part && W.isZero(0))
+    return shortage(setup, result) + "; the springs alone cannot be balanced here";
+  if (!part) return shortage(setup, result) + ", not even without the load";
+  if (*part < 1)
+    return "not held: only " + rounded(100 * *part, 3) +
+           " % of the load can be held here, found by raising it from zero";
+  return shortage(setup, result);
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "branches.hpp"
+#include "run_traced.hpp"
+#include "snap_jumps.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Traces all branches, then the jumps, until no landing is new.
+void trace_with_jumps(const Tracing& tracing, const Scales& scales,
+                      const continuation::CurvePoint& start, const SnapSettings& settings,
+                      StudyResult& result, SnapResult& snap) {
+  constexpr int rounds = 8;
+  std::vector<continuation::DiagramStart> landings;
+  const StudyResult before = result;
+  for (int k = 0; k < rounds; ++k) {
+    result = before;
+    trace_branches(tracing, start, result, landings);
+    std::vector<int> from_landings;
+    const int count = static_cast<int>(landings.size());
+    for (std::size_t b = 0; b < result.branches.size(); ++b) {
+      Branch& branch = result.branches[b];
+      if (branch.start == 0) continue;
+      if (branch.start <= count) from_landings.push_back(static_cast<int>(b) + 1);
+      branch.start = std::max(0, branch.start - count);
+    }
+    if (!tracing.problem.symmetric()) {
+      snap.report.refusals = {
+          "loads without potential act: there is no energy that decides where a jump ends"};
+      return;
+    }
+    SnapFindings findings = find_jumps(tracing, scales, settings, result);
+    snap.report = std::move(findings.report);
+    snap.report.landing_branches = std::move(from_landings);
+    if (findings.untraced.empty() || k + 1 == rounds) {
+      result.doubts.insert(result.doubts.end(), findings.doubts.begin(), findings.doubts.end());
+      return;
+    }
+    landings.insert(landings.end(), findings.untraced.begin(), findings.untraced.end());
+  }
+}
+
+}  // namespace
+
+std::string to_string(SnapVerdict verdict) {
+  switch (verdict) {
+    case SnapVerdict::unambiguous:
+      return "unambiguous";
+    case SnapVerdict::depends:
+      return "depends on damping and masses";
+    case SnapVerdict::runs_away:
+      return "runs away";
+    case SnapVerdict::no_stable_state:
+      return "no stable state";
+  }
+  return "";
+}
+
+SnapResult run_with_jumps(const model::Mechanism& mechanism, const Study& study,
+                          const ParameterFamily* family, const SnapSettings& settings,
+                          const Observer& observer) {
+  SnapResult snap;
+  snap.traced = run_from_start(mechanism, study, family, observer,
+                               [&](const Tracing& tracing, const Scales& scales,
+                                   const continuation::CurvePoint& start, StudyResult& result) {
+                                 trace_with_jumps(tracing, scales, start, settings, result, snap);
+                               });
+  return snap;
+}
+
+}  // namespace springfold::analysis

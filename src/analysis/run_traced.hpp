@@ -1,0 +1,19 @@
+// A study from its start, with another way to trace it. Private to analysis.
+#pragma once
+
+#include "grow_diagram.hpp"
+#include "scales.hpp"
+
+namespace springfold::analysis {
+
+/// Traces from the start point and writes branches and junctions.
+using TraceBy = std::function<void(const Tracing&, const Scales&,
+                                   const continuation::CurvePoint& start, StudyResult& result)>;
+
+/// As run_study, for studies that have a start point.
+/// @param trace_by  in place of the study's own way to trace; empty: that
+StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study,
+                           const ParameterFamily* family, const Observer& observer,
+                           const TraceBy& trace_by);
+
+}  // namespace springfold::analysis

@@ -1,0 +1,136 @@
+// The study kind `sensitivity`: how special points move with the parameters of the case.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base_path.hpp"
+#include "critical_runs.hpp"
+#include "run_kinds.hpp"
+#include "springfold/core/differences.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// Columns whose rates are given: loads, positions, energy.
+bool is_rated(const QuantityDefinition& q, const statics::System& system) {
+  using Kind = QuantityDefinition::Kind;
+  if (q.kind == Kind::unknown) return !system.is_wrench[static_cast<std::size_t>(q.entry)];
+  return q.kind == Kind::lambda || q.kind == Kind::force || q.kind == Kind::deflection ||
+         q.kind == Kind::energy;
+}
+
+std::string name_of(const std::string& column, const std::string& parameter) {
+  return "d(" + column + ")/d(" + parameter + ")";
+}
+
+std::vector<std::string> parameters_of(const Study& study) {
+  return study.critical.parameters.empty() ? study.critical.cases->names
+                                           : study.critical.parameters;
+}
+
+/// Total derivatives of the columns by the parameter of `curves`; NaN where the point has none.
+std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
+                             const SpecialPoint& point, const std::vector<std::size_t>& columns) {
+  std::vector<double> rates(columns.size(), undefined);
+  std::string why;
+  const auto start = critical_start(curves, base, point, why);
+  if (!start) return rates;
+  const auto rate = critical_rate(curves.family(), *start);
+  if (!rate) return rates;
+  const auto along = [&](double t) -> std::optional<Vector> {
+    const Member* member = curves.at(start->mu + t);
+    if (member == nullptr) return std::nullopt;
+    const continuation::CurvePoint there{.x = rate->x + t * rate->dx,
+                                         .lambda = rate->lambda + t * rate->dlambda,
+                                         .piece = start->piece};
+    Vector values(static_cast<Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      values[static_cast<Index>(i)] =
+          member->evaluator->value(member->quantities[columns[i]], there);
+    return values;
+  };
+  const double size = std::max({1.0, rate->dx.lpNorm<Eigen::Infinity>(), std::abs(rate->dlambda)});
+  const auto found = six_point_derivative(along, 0, 0x1p-9 / size);
+  for (std::size_t i = 0; found && i < columns.size(); ++i)
+    rates[i] = (*found)[static_cast<Index>(i)] / curves.scale();
+  return rates;
+}
+
+}  // namespace
+
+std::vector<std::string> sensitivity_columns(const std::vector<std::string>& rated,
+                                             const std::vector<std::string>& parameters) {
+  std::vector<std::string> names;
+  for (const std::string& parameter : parameters)
+    for (const std::string& column : rated) names.push_back(name_of(column, parameter));
+  return names;
+}
+
+std::vector<std::string> critical_columns(const Study& study, const model::Mechanism& mechanism) {
+  const statics::System system = statics::prepare(mechanism);
+  std::vector<std::string> names, rated;
+  for (const auto& q : quantities_of(as_curve(study), system, {}, 1, Unit::none)) {
+    names.push_back(q.name);
+    if (is_rated(q, system)) rated.push_back(q.name);
+  }
+  if (study.kind != StudyKind::sensitivity) {
+    names.push_back(study.critical.parameter);
+    return names;
+  }
+  if (!study.critical.cases) return names;
+  for (std::string& name : sensitivity_columns(rated, parameters_of(study)))
+    names.push_back(std::move(name));
+  return names;
+}
+
+void run_sensitivity(const Study& study, const Observer& observer, StudyResult& result) {
+  const auto& names = study.critical.cases->names;
+  BasePath path;
+  std::vector<std::size_t> columns;
+  for (const std::string& parameter : parameters_of(study)) {
+    const auto number =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
+    const CaseCurves curves(study, number);
+    const Member& base = curves.base();
+    if (result.quantities.empty()) {
+      result.start = base.report;
+      if (!base.report.found) return;
+      result.lambda_unit = lambda_unit_of(base.study, base.setup.system);
+      for (std::size_t i = 0; i < base.quantities.size(); ++i) {
+        const auto& q = base.quantities[i];
+        result.quantities.push_back({q.name, q.unit});
+        if (is_rated(q, base.setup.system)) columns.push_back(i);
+      }
+      path = base_path(base, false, observer);
+      if (!path.problem.empty()) {
+        result.start.found = false;
+        result.start.message = path.problem;
+        return;
+      }
+    }
+    for (const std::size_t i : columns)
+      result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
+    std::string lost;
+    for (const SpecialPoint& point : path.points) {
+      auto rates = rates_of(curves, base, point, columns);
+      if (std::isnan(rates.front())) lost += (lost.empty() ? "" : ", ") + point.label;
+      auto& values = path.branch.samples[point.row].values;
+      values.insert(values.end(), rates.begin(), rates.end());
+    }
+    for (SpecialPoint& point : path.points)
+      for (Event& event : path.branch.events)
+        if (event.label == point.label && lost.find(point.label) != std::string::npos)
+          event.detail += "; no rate by " + parameter;
+  }
+  for (Sample& sample : path.branch.samples)
+    sample.values.resize(result.quantities.size(), undefined);
+  for (Event& event : path.branch.events) {
+    event.rates_before.resize(result.quantities.size(), undefined);
+    event.rates_after.resize(result.quantities.size(), undefined);
+  }
+  result.branches.push_back(std::move(path.branch));
+}
+
+}  // namespace springfold::analysis

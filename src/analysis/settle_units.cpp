@@ -1,0 +1,150 @@
+#include "settle_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "springfold/continuation/newton.hpp"
+#include "springfold/continuation/response.hpp"
+#include "springfold/core/scaling.hpp"
+#include "start.hpp"
+#include "units.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CurvePoint;
+
+/// Largest wrench of a chain and load of the study at the start; zero where they are nothing but rounding.
+double largest_force(const PathProblem& problem, const statics::FirstEquilibrium& first,
+                     const CurvePoint& start) {
+  const statics::System& system = problem.layout();
+  double largest = 0;
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)])
+      largest = std::max(largest, std::abs(first.z[i]));
+  if (first.inputs.W.size() > 0)
+    largest = std::max(largest, first.inputs.W.lpNorm<Eigen::Infinity>());
+  continuation::Linearisation at;
+  if (!linearise(problem, start.x, start.lambda, start.piece, at)) return 0;
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  const Vector sizes = magnitudes(at, start.x);
+  return largest > rounding * sizes.lpNorm<Eigen::Infinity>() ? largest : 0;
+}
+
+double stiffest_spring(const model::Mechanism& mechanism, const Setup& setup) {
+  const auto springs = spring_forces(mechanism, setup.scales.length);
+  return springs.empty() ? 0 : *std::max_element(springs.begin(), springs.end());
+}
+
+/// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a large
+/// value, and no longer than the range that is asked for.
+double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& start, double unit) {
+  constexpr double largest_lambda = 64;
+  unit = std::max(unit, std::abs(start.lambda) / largest_lambda);
+  for (const Limit& limit : study.until)
+    if (limit.quantity == "lambda" && limit.high > limit.low &&
+        std::isfinite(limit.high - limit.low))
+      unit = std::min(unit, (limit.high - limit.low) / setup.lambda_scale);
+  return power_of_two_near(unit);
+}
+
+/// Wrenches of the start in another unit of force.
+void change_force_unit(const statics::System& system, double factor,
+                       statics::FirstEquilibrium& first) {
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) first.z[i] /= factor;
+  first.inputs.W /= factor;
+}
+
+/// What a study is made of.
+struct Given {
+  const model::Mechanism& mechanism;
+  const Study& study;
+  const ParameterFamily* family;
+};
+
+/// @returns whether anything has changed
+bool change_units(const Given& given, const Units& units, statics::FirstEquilibrium& first,
+                  Setup& setup) {
+  const double factor = units.force / setup.scales.force;
+  const bool same = factor == 1 && units.lambda.value_or(setup.lambda_scale) == setup.lambda_scale;
+  if (same || !std::isfinite(factor) || !(factor > 0)) return false;
+  setup = set_up(given.mechanism, given.study, given.family, units);
+  change_force_unit(setup.system, factor, first);
+  return true;
+}
+
+/// @returns false where there is no response in the units at hand
+bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) {
+  // Once more where the first units were so far off that rounding may have spoilt the response.
+  constexpr int rounds = 3;
+  for (int i = 0; i < rounds; ++i) {
+    Setup begun = setup;
+    begin_at(given.study, first, begun);
+    const PathProblem problem(begun.system, begun.rule);
+    const CurvePoint start = start_point(problem, begun, first);
+    const auto response = continuation::response_at(problem, start.x, start.lambda, start.piece);
+    if (!response) return i > 0;
+    // Where nothing is loaded no force shows its size: that of the least stiffness against loads, as far as springs are
+    // as stiff.
+    const double stiffness =
+        std::min(response->stiffness, stiffest_spring(given.mechanism, setup) / setup.scales.force);
+    const double force =
+        std::max({largest_force(problem, first, start), response->multiplier, stiffness});
+    Units units{setup.scales.force * power_of_two_near(force), {}};
+    if (response->lambda)
+      units.lambda = setup.lambda_scale * lambda_unit(given.study, setup, start, *response->lambda);
+    if (!change_units(given, units, first, setup)) return true;
+  }
+  return true;
+}
+
+}  // namespace
+
+void begin_at(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
+  const auto b = static_cast<std::size_t>(study.body - 1);
+  const auto& body = setup.system.body_slices[b];
+  PathRule& rule = setup.rule;
+  rule.rho_start = first.inputs.rho;
+  if (study.kind == StudyKind::equilibria)
+    rule.t_start = Vector::Zero(rule.t_rate.size());
+  else
+    rule.t_start = first.z.segment(body.t, body.count);
+  hold_free_part(study, first, setup);
+}
+
+CurvePoint start_point(const PathProblem& problem, const Setup& setup,
+                       const statics::FirstEquilibrium& first) {
+  CurvePoint start;
+  start.x = problem.reduce(first.z);
+  start.lambda = setup.lambda_start;
+  start.piece = first.piece;
+  const continuation::NewtonOptions options;
+  Vector F;
+  const double scale = std::max(1.0, start.x.lpNorm<Eigen::Infinity>());
+  if (!problem.residual(start.x, start.lambda, start.piece, F) || F.size() == 0 ||
+      F.lpNorm<Eigen::Infinity>() <= options.residual_tolerance * scale)
+    return start;
+  constexpr double far = 1e-6;
+  const continuation::Direction across{Vector::Zero(start.x.size()), 1};
+  const auto solved =
+      correct(problem, problem.metric(), start.x, start.lambda, start.piece, across, options);
+  double moved = 0;
+  for (const double step : solved.corrections) moved += step;
+  if (converged(solved) && moved < far) start.x = solved.x;
+  return start;
+}
+
+void settle_units(const model::Mechanism& mechanism, const Study& study,
+                  const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
+  const Given given{mechanism, study, family};
+  if (settle(given, first, setup)) return;
+  // Units that are off by the whole range of numbers hide what is regular: those of the stiffest spring may not.
+  const double stiffest = power_of_two_near(stiffest_spring(mechanism, setup));
+  const Units before{setup.scales.force, {}};
+  if (change_units(given, {stiffest, {}}, first, setup) && !settle(given, first, setup))
+    change_units(given, before, first, setup);
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,31 @@
+// Units of force and lambda from how the curve of a study responds at its start. Private to analysis.
+#pragma once
+
+#include "setup.hpp"
+#include "springfold/continuation/curve.hpp"
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::analysis {
+
+/// Lets a study begin at an equilibrium: pose and commands are counted from there, and a start that was held by a wrench
+/// stays held in the directions that the study leaves free.
+void begin_at(const Study& study, const statics::FirstEquilibrium& first, Setup& setup);
+
+/// The start of the study's curve. Where the residual is not at tolerance in the units at hand, a few Newton steps bring
+/// it there.
+continuation::CurvePoint start_point(const PathProblem& problem, const Setup& setup,
+                                     const statics::FirstEquilibrium& first);
+
+/// The same setup in units in which the curve leaves its start with a slope of order one:
+///
+///   lambda   some times |dlambda| for |dx| = 1, bounded by what K and dK/dlambda promise of the first critical load, and
+///            by the range of lambda that is asked for;
+///   force    the largest wrench of a chain at the start, its change while x moves by 1 or lambda by its unit, or the
+///            least stiffness, whichever is largest.
+///
+/// They are powers of two times those before, so that the equilibrium is carried over exactly. Where the curve has no
+/// slope at the start (limit and branch points), or nothing to be measured, the units stay as they are.
+void settle_units(const model::Mechanism& mechanism, const Study& study,
+                  const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup);
+
+}  // namespace springfold::analysis

@@ -1,0 +1,325 @@
+#include "snap_jumps.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "branch_rows.hpp"
+#include "fall.hpp"
+#include "flow.hpp"
+#include "frozen.hpp"
+#include "leg_angles.hpp"
+#include "limits.hpp"
+#include "start.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CurvePoint;
+using Kind = QuantityDefinition::Kind;
+
+/// Where neighbouring rows of one switching stand for its two sides.
+bool has_two_rows(const Event& event) {
+  return event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point ||
+         event.kind == EventKind::branching_kink;
+}
+
+bool may_lose_stability(const Event& event) {
+  switch (event.kind) {
+    case EventKind::limit_point:
+    case EventKind::branch_point:
+    case EventKind::switching:
+    case EventKind::corner_limit_point:
+    case EventKind::branching_kink:
+    case EventKind::touch:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// States of rest of all traced branches at one lambda.
+class Jumper {
+ public:
+  Jumper(const Tracing& t, const Scales& scales, const SnapSettings& settings,
+         const StudyResult& result, SnapFindings& findings)
+      : t_{t},
+        scales_{scales},
+        settings_{settings},
+        result_{result},
+        findings_{findings},
+        lambda_{column_of(Kind::lambda, t.quantities)},
+        size_{t.problem.layout().size} {}
+
+  void jump(const Loss& loss) {
+    const Branch& branch = result_.branches[loss.branch];
+    const Event& event = branch.events[loss.event];
+    const std::vector<double>& at = branch.samples[event.row].values;
+    const double lambda = at[lambda_] / t_.lambda_scale;
+    const Frozen frozen(t_.problem, scales_, lambda, settings_.damping);
+    const Landscape& landscape = frozen.landscape();
+    Vector critical = frozen.reduced(unknowns_in(at, t_.quantities, size_));
+    if (!landscape.close(critical)) return doubt(event, "its closures do not hold");
+    const Departures ways = departures(landscape, critical, pieces_beside(frozen, branch, event));
+    if (ways.is_flat)
+      doubt(event, "the energy is flat there to rounding: whether it jumps is not decided");
+    if (ways.list.empty()) return;
+    const double energy = landscape.energy(critical);
+    StateBook book(landscape);
+    for (const Departure& way : ways.list) book.ways_down(way.x);
+    add_traced(frozen, critical, book);
+    book.search({.starts = settings_.starts, .seed = settings_.seed, .bound = energy});
+    for (const Departure& way : ways.list) {
+      Jump jump;
+      jump.label = "J" + std::to_string(findings_.report.jumps.size() + 1);
+      jump.from = event.label;
+      jump.branch = static_cast<int>(loss.branch) + 1;
+      jump.loading = loss.loading;
+      jump.side = way.side;
+      jump.towards = towards(frozen, way.along);
+      jump.critical = {
+          at,       branch.samples[event.row].piece, scales_.moment() * energy, 0, jump.branch,
+          event.row};
+      Fall down = fall(book, way, energy);
+      if (down.is_lost)
+        doubt(event,
+              "a way down ended at no state that is known to be stable: the verdict is open");
+      settle(frozen, event, way, down, book);
+      write(frozen, critical, down, book, jump);
+      findings_.report.jumps.push_back(std::move(jump));
+    }
+  }
+
+ private:
+  void doubt(const Event& event, const std::string& why) {
+    findings_.doubts.push_back("the jump from " + event.label + ": " + why);
+  }
+
+  /// Where several states may be reached, the landing is that of the overdamped motion; where one, that
+  /// motion has to confirm it.
+  void settle(const Frozen& frozen, const Event& event, const Departure& way, Fall& down,
+              StateBook& book) {
+    if (!down.landing) return;
+    const Flow flow = flow_by_cvode({frozen.landscape()}, way.x);
+    if (flow.end != Flow::End::rest) {
+      if (down.verdict == SnapVerdict::unambiguous)
+        doubt(event, "the overdamped motion was not integrated to a state of rest");
+      return;
+    }
+    const std::size_t reached = book.add(flow.state);
+    if (reached == *down.landing || flow.state.index > 0) return;
+    if (down.verdict == SnapVerdict::unambiguous)
+      doubt(event, "the overdamped motion comes to rest somewhere else than the way down");
+    if (std::find(down.minima.begin(), down.minima.end(), reached) == down.minima.end())
+      down.minima.push_back(reached);
+    down.landing = reached;
+  }
+
+  std::vector<Piece> pieces_beside(const Frozen& frozen, const Branch& branch,
+                                   const Event& event) const {
+    std::vector<Piece> pieces;
+    const auto add = [&](std::size_t row) {
+      if (row >= branch.samples.size()) return;
+      const Vector x =
+          frozen.reduced(unknowns_in(branch.samples[row].values, t_.quantities, size_));
+      if (const auto piece = frozen.landscape().piece_at(x);
+          piece && std::find(pieces.begin(), pieces.end(), *piece) == pieces.end())
+        pieces.push_back(*piece);
+    };
+    if (!has_two_rows(event)) {
+      add(event.row);
+      return pieces;
+    }
+    // The rows of the switching itself lie on the surface: its neighbours tell the sides.
+    if (event.row > 0) add(event.row - 1);
+    add(event.row + 2);
+    if (pieces.size() == 1) {
+      // Branches that end there: the other side has the active switches' signs changed.
+      const Vector x =
+          frozen.reduced(unknowns_in(branch.samples[event.row].values, t_.quantities, size_));
+      Vector g;
+      Piece other = pieces.front();
+      if (frozen.problem().switches(x, 0, g))
+        for (Index j = 0; j < g.size(); ++j)
+          if (std::abs(g[j]) < 1e-9) {
+            auto& sign = other[static_cast<std::size_t>(j)];
+            sign = static_cast<std::int8_t>(-sign);
+          }
+      pieces.push_back(other);
+    }
+    return pieces;
+  }
+
+  struct Traced {
+    Vector x{};
+    std::size_t branch = 0, row = 0;
+  };
+
+  /// All states of the traced branches at this lambda, polished.
+  void add_traced(const Frozen& frozen, const Vector& critical, StateBook& book) {
+    constexpr double beside_critical = 1e-4;
+    traced_.clear();
+    for (std::size_t b = 0; b < result_.branches.size(); ++b) {
+      const auto& samples = result_.branches[b].samples;
+      for (std::size_t r = 0; r + 1 < samples.size(); ++r) {
+        const double from = samples[r].values[lambda_] / t_.lambda_scale - frozen.lambda();
+        const double to = samples[r + 1].values[lambda_] / t_.lambda_scale - frozen.lambda();
+        if (from * to > 0 || from == to) continue;
+        const Vector p = unknowns_in(samples[r].values, t_.quantities, size_);
+        const Vector q = unknowns_in(samples[r + 1].values, t_.quantities, size_);
+        const Vector x = frozen.reduced(p + from / (from - to) * (q - p));
+        const auto state = rest_near(frozen.landscape(), x);
+        if (!state || distance(frozen, state->x, critical) < beside_critical) continue;
+        book.add(*state);
+        traced_.push_back({state->x, b, r});
+      }
+    }
+  }
+
+  static double distance(const Frozen& frozen, const Vector& a, const Vector& b) {
+    return (a - b)(frozen.landscape().moving()).lpNorm<Eigen::Infinity>();
+  }
+
+  /// "+apex.y": the pose coordinate that moves most, or the joint where no pose moves.
+  std::string towards(const Frozen& frozen, const Vector& along) const {
+    const auto& moving = frozen.landscape().moving();
+    Vector step = Vector::Zero(frozen.problem().size());
+    step(moving) = along;
+    const Vector z = frozen.unknowns(step) - frozen.unknowns(Vector::Zero(step.size()));
+    const statics::System& system = frozen.problem().layout();
+    const auto largest = [&](Index from, Index to) {
+      Index found = -1;
+      double size = 0.1;
+      for (Index i = from; i < to; ++i)
+        if (!system.is_wrench[static_cast<std::size_t>(i)] && std::abs(z[i]) > size * (1 + 1e-6))
+          size = std::abs(z[i]), found = i;
+      return found;
+    };
+    Index i = largest(system.first_pose, system.size);
+    if (i < 0) i = largest(0, system.first_pose);
+    if (i < 0) return "";
+    return (z[i] < 0 ? "-" : "+") + system.coordinate_names[static_cast<std::size_t>(i)];
+  }
+
+  SnapState written(const Frozen& frozen, const RestState& state) const {
+    CurvePoint point;
+    point.x = t_.problem.reduce(frozen.unknowns(state.x));
+    point.lambda = frozen.lambda();
+    point.piece = state.piece;
+    count_negative(t_.problem, point);
+    Branch single = single_point(point, t_.evaluator, t_.quantities, t_.problem);
+    SnapState result{std::move(single.samples.front().values),
+                     single.samples.front().piece,
+                     scales_.moment() * state.energy,
+                     static_cast<int>(state.index),
+                     0,
+                     0};
+    for (const Traced& on : traced_)
+      if (frozen.landscape().same(on.x, state.x)) {
+        result.branch = static_cast<int>(on.branch) + 1;
+        result.row = on.row;
+        break;
+      }
+    return result;
+  }
+
+  void write(const Frozen& frozen, const Vector& critical, const Fall& fall, const StateBook& book,
+             Jump& jump) {
+    jump.verdict = fall.verdict;
+    jump.may_run_away = fall.may_run_away;
+    for (const std::size_t m : fall.minima)
+      if (m != fall.landing) jump.others.push_back(written(frozen, book.states()[m]));
+    for (const std::size_t s : fall.saddles)
+      jump.saddles.push_back(written(frozen, book.states()[s]));
+    if (!fall.landing) return;
+    const RestState& landing = book.states()[*fall.landing];
+    jump.landing = written(frozen, landing);
+    jump.released = jump.critical.energy - jump.landing.energy;
+    jump.time_scale = time_scale(frozen, landing);
+    const auto before = frozen.landscape().piece_at(critical);
+    for (std::size_t j = 0; before && j < landing.piece.size(); ++j)
+      if ((*before)[j] != landing.piece[j])
+        jump.switches.push_back(t_.problem.switch_name(static_cast<Index>(j)));
+    const Vector start =
+        unknowns_in(result_.branches.front().samples[result_.branches.front().start_row].values,
+                    t_.quantities, size_);
+    jump.warnings = leg_warnings(frozen.problem().layout(), frozen.problem().inputs(0).rho, start,
+                                 frozen.unknowns(landing.x));
+    if (jump.landing.branch == 0) offer_to_trace(frozen, landing);
+  }
+
+  /// Reciprocal of the slowest rate of the overdamped motion.
+  double time_scale(const Frozen& frozen, const RestState& state) const {
+    const auto at = frozen.landscape().ground_on(state.x, state.piece);
+    if (!at || at->hessian.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> rates(
+        at->hessian, frozen.landscape().damping(*at), Eigen::EigenvaluesOnly);
+    return 1 / rates.eigenvalues()[0];
+  }
+
+  void offer_to_trace(const Frozen& frozen, const RestState& landing) {
+    CurvePoint point;
+    point.x = t_.problem.reduce(frozen.unknowns(landing.x));
+    point.lambda = frozen.lambda();
+    point.piece = landing.piece;
+    if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return;
+    findings_.untraced.push_back({point.x, point.lambda, point.piece});
+  }
+
+  const Tracing& t_;
+  const Scales& scales_;
+  const SnapSettings& settings_;
+  const StudyResult& result_;
+  SnapFindings& findings_;
+  std::size_t lambda_;
+  Index size_;
+  std::vector<Traced> traced_{};
+};
+
+}  // namespace
+
+std::vector<Loss> losses_of(const StudyResult& result,
+                            const std::vector<QuantityDefinition>& quantities) {
+  const std::size_t index = column_of(Kind::index, quantities);
+  const std::size_t lambda = column_of(Kind::lambda, quantities);
+  std::vector<Loss> losses;
+  std::set<std::string> seen;
+  for (std::size_t b = 0; b < result.branches.size(); ++b) {
+    const Branch& branch = result.branches[b];
+    const auto value = [&](std::size_t row, std::size_t column) {
+      return row < branch.samples.size() ? branch.samples[row].values[column]
+                                         : std::numeric_limits<double>::quiet_NaN();
+    };
+    for (std::size_t e = 0; e < branch.events.size(); ++e) {
+      const Event& event = branch.events[e];
+      if (!may_lose_stability(event) || event.row == 0) continue;
+      const std::size_t last = event.row + (has_two_rows(event) ? 1 : 0);
+      const double before = value(event.row - 1, index), after = value(last + 1, index);
+      const bool ends = last + 1 >= branch.samples.size();
+      const bool from_before = before == 0 && (after > 0 || ends);
+      const bool from_after = after == 0 && before > 0;
+      if (!from_before && !from_after) continue;
+      const double here = value(event.row, lambda);
+      const double stable = from_before ? value(event.row - 1, lambda) : value(last + 1, lambda);
+      const bool is_junction = event.kind == EventKind::branch_point ||
+                               event.kind == EventKind::branching_kink ||
+                               event.kind == EventKind::touch;
+      if (is_junction && !seen.insert(event.label).second) continue;
+      losses.push_back({b, e, here >= stable ? 1 : -1});
+    }
+  }
+  return losses;
+}
+
+SnapFindings find_jumps(const Tracing& tracing, const Scales& scales, const SnapSettings& settings,
+                        const StudyResult& result) {
+  SnapFindings findings;
+  Jumper jumper(tracing, scales, settings, result, findings);
+  for (const Loss& loss : losses_of(result, tracing.quantities)) jumper.jump(loss);
+  close_loops(tracing.quantities, result, findings.report);
+  return findings;
+}
+
+}  // namespace springfold::analysis

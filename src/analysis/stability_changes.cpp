@@ -1,0 +1,154 @@
+#include "stability_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/newton.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::Direction;
+using continuation::Hit;
+using continuation::HitKind;
+
+class Watcher {
+ public:
+  explicit Watcher(const Tracing& tracing)
+      : t_{tracing},
+        weights_{tracing.problem.metric()},
+        options_{options_of(tracing.study.trace).newton} {
+    for (const QuantityDefinition& q : t_.quantities)
+      if (q.kind == QuantityDefinition::Kind::index_force) force_ = &q;
+  }
+
+  void watch(Curve& curve) {
+    if (force_ == nullptr) return;
+    std::vector<CurvePoint> stations = curve.points;
+    for (const Hit& hit : curve.hits)
+      for (const CurvePoint& side : hit.leaving) {
+        if (hit.leaving.size() != 1) continue;  // there the trace ended
+        stations.push_back(hit.point);
+        stations.push_back(side);
+      }
+    std::stable_sort(stations.begin(), stations.end(),
+                     [](const CurvePoint& a, const CurvePoint& b) { return a.s < b.s; });
+    const CurvePoint* before = nullptr;
+    std::optional<int> count;
+    for (const CurvePoint& station : stations) {
+      const auto next = count_at(station);
+      if (next && before != nullptr && count && before->piece == station.piece && *next != *count)
+        search(*before, station, *count, *next, curve);
+      if (!next && before != nullptr && before->piece == station.piece) continue;
+      before = &station;
+      count = next;
+    }
+    std::stable_sort(curve.hits.begin(), curve.hits.end(),
+                     [](const Hit& a, const Hit& b) { return a.point.s < b.point.s; });
+  }
+
+ private:
+  std::optional<int> count_at(const CurvePoint& point) const {
+    const double value = t_.evaluator.value(*force_, point);
+    return std::isnan(value) ? std::nullopt : std::optional{static_cast<int>(std::lround(value))};
+  }
+
+  /// The curve's point on the plane across the chord at a part of the way.
+  std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part) const {
+    Direction chord{b.x - a.x, b.lambda - a.lambda};
+    const double length = std::sqrt(continuation::metric_product(weights_, chord, chord));
+    if (!(length > 0)) return std::nullopt;
+    const Direction border{chord.dx / length, chord.dlambda / length};
+    const auto solved = correct(t_.problem, weights_, a.x + part * chord.dx,
+                                a.lambda + part * chord.dlambda, a.piece, border, options_);
+    continuation::Linearisation at;
+    if (!converged(solved) || !linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
+      return std::nullopt;
+    const auto tangent = tangent_at(at, weights_, a.tangent);
+    if (!tangent) return std::nullopt;
+    CurvePoint point = a;
+    point.x = solved.x;
+    point.lambda = solved.lambda;
+    point.s = a.s + part * (b.s - a.s);
+    point.tangent = *tangent;
+    return point;
+  }
+
+  /// All places between two points at which the count goes from one value to the other.
+  void search(const CurvePoint& a, const CurvePoint& b, int from, int to, Curve& curve) const {
+    constexpr int most_places = 8, halvings = 60;
+    double begin = 0;
+    for (int places = 0; places < most_places && from != to; ++places) {
+      double low = begin, high = 1;
+      int reached = to;
+      std::optional<CurvePoint> at;
+      for (int i = 0; i < halvings && high - low > 1e-15; ++i) {
+        const double middle = low + (high - low) / 2;
+        const auto trial = point_at(a, b, middle);
+        if (!trial) break;
+        const auto count = count_at(*trial);
+        at = trial;
+        if (!count) break;  // singular to rounding: the place itself
+        if (*count == from) {
+          low = middle;
+        } else {
+          high = middle;
+          reached = *count;
+        }
+      }
+      if (!at) return;
+      add(*at, from, reached, curve);
+      begin = high;
+      from = reached;
+    }
+  }
+
+  /// Arc lengths are those of chords here: places are compared, not their s.
+  bool is_at(const CurvePoint& a, const CurvePoint& b) const {
+    constexpr double same_place = 1e-6;
+    const Direction way{a.x - b.x, a.lambda - b.lambda};
+    return std::sqrt(continuation::metric_product(weights_, way, way)) <=
+           same_place * std::max({1.0, a.x.lpNorm<Eigen::Infinity>(), std::abs(a.lambda)});
+  }
+
+  /// A curve may begin or end at a special point, which then is none of its hits.
+  bool is_explained(const Curve& curve, const CurvePoint& point) const {
+    if (is_at(point, curve.points.front()) || is_at(point, curve.points.back())) return true;
+    return std::any_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
+      const bool special =
+          hit.kind != HitKind::user || hit.tag == force_limit || hit.tag == dead_load_change;
+      return special && is_at(point, hit.point);
+    });
+  }
+
+  void add(const CurvePoint& point, int from, int to, Curve& curve) const {
+    if (is_explained(curve, point)) return;
+    Hit hit;
+    hit.kind = HitKind::user;
+    hit.tag = dead_load_change;
+    hit.name = stability_mark + std::to_string(from) + " to " + std::to_string(to);
+    hit.point = point;
+    hit.s_before = hit.s_after = point.s;
+    curve.hits.push_back(std::move(hit));
+  }
+
+  const Tracing& t_;
+  Vector weights_;
+  continuation::NewtonOptions options_;
+  const QuantityDefinition* force_ = nullptr;
+};
+
+}  // namespace
+
+void add_stability_changes(const Tracing& tracing, BranchSource& source) {
+  const ControlMode control = tracing.study.control;
+  const bool holds = control == ControlMode::pose || control == ControlMode::mixed;
+  if (!holds || !tracing.problem.symmetric()) return;
+  Watcher watcher(tracing);
+  watcher.watch(source.forward);
+  watcher.watch(source.backward);
+}
+
+}  // namespace springfold::analysis

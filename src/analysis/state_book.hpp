@@ -1,0 +1,58 @@
+// States of rest at one lambda, each listed once, and how the ways down from saddles join minima.
+// Private to analysis.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "descent.hpp"
+
+namespace springfold::analysis {
+
+struct StateSearch {
+  int starts = 16;         ///< random first states; every second one is led to a saddle
+  std::uint64_t seed = 1;  ///< of these
+  int modes = 6;           ///< softest modes along which every minimum is left uphill, both ways
+  int maximum = 2000;      ///< the search ends when it has found as many states
+  /// Minima as high as this are not left uphill: what is beside them lies higher still.
+  double bound = std::numeric_limits<double>::infinity();
+};
+
+/// Where the ways down from a state lead.
+struct WaysDown {
+  std::vector<std::size_t> minima{};  ///< numbers in the book, each once
+  bool away = false;                  ///< one of them has no end
+  bool lost = false;                  ///< one of them ended nowhere
+};
+
+class StateBook {
+ public:
+  explicit StateBook(const Landscape& landscape) : landscape_{landscape} {}
+
+  const std::vector<RestState>& states() const { return states_; }
+  const Landscape& landscape() const { return landscape_; }
+  /// @returns its number, that of the same state if it is known
+  std::size_t add(const RestState& state);
+  /// The minima below a state that is not at rest; saddles that are met head on are left both ways.
+  WaysDown ways_down(const Vector& x, int depth = 3);
+  /// The minima beside a saddle, both ways along its unstable modes.
+  const WaysDown& ways_from(std::size_t saddle);
+  /// Looks for further states from random ones of a box around all known ones, and uphill from every
+  /// minimum that was found. A search by samples: nothing is proved about others.
+  void search(const StateSearch& options);
+
+ private:
+  void climb_from_minima(const StateSearch& options);
+  void search_box(const StateSearch& options);
+  void leave(const RestState& state, WaysDown& ways, int depth);
+
+  const Landscape& landscape_;
+  std::vector<RestState> states_{};
+  std::vector<std::optional<WaysDown>> ways_{};  ///< per state
+  std::size_t climbed_ = 0;                      ///< states from which uphill ways have been taken
+};
+
+/// A state of rest whose motions all have positive stiffness.
+inline bool is_minimum(const RestState& state) { return state.index == 0 && state.is_clear; }
+
+}  // namespace springfold::analysis

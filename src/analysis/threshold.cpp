@@ -1,0 +1,238 @@
+// The study kind `threshold`: from which value of a parameter on does nothing unwanted happen?
+#include <algorithm>
+#include <cmath>
+
+#include "critical_rows.hpp"
+#include "critical_runs.hpp"
+#include "number_text.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CriticalCurve;
+using continuation::CriticalHit;
+using continuation::CriticalPoint;
+using continuation::Degeneracy;
+
+/// Relative distance at which an answer is traced again, on both sides.
+constexpr double beside = 1e-6;
+/// Pieces of the boundary that are followed one after the other.
+constexpr int most_pieces = 40;
+
+/// Where the end of the piece is in the parameter: there the unwanted point is gone.
+bool ends_piece(Degeneracy kind) {
+  switch (kind) {
+    case Degeneracy::cusp:
+    case Degeneracy::isola_centre:
+    case Degeneracy::crossing:
+    case Degeneracy::branch_points_merge:
+    case Degeneracy::fold_meets_activation:
+    case Degeneracy::corner_loses_reversal:
+    case Degeneracy::touches_surface:
+    case Degeneracy::two_switches:
+    case Degeneracy::turn:
+      return true;
+    case Degeneracy::hilltop:
+    case Degeneracy::corank_two:
+    case Degeneracy::extremum:
+    case Degeneracy::user:
+      return false;
+  }
+  return false;
+}
+
+class Threshold {
+ public:
+  Threshold(const CaseCurves& curves, const Study& study, const Observer& observer,
+            StudyResult& result)
+      : curves_{curves},
+        study_{study},
+        observer_{observer},
+        result_{result},
+        report_{result.threshold.emplace()},
+        towards_{study.critical.smallest ? 1.0 : -1.0} {}
+
+  void run() {
+    const CriticalPointSettings& s = study_.critical;
+    const double begin = (s.smallest ? s.low : s.high) / curves_.scale();
+    const double end = (s.smallest ? s.high : s.low) / curves_.scale();
+    double mu = begin;
+    bool any = false;
+    for (int piece = 0; piece < most_pieces; ++piece) {
+      if (towards_ * (mu - end) > 0) return none("");
+      const auto bad = unwanted_at(mu);
+      if (!why_.empty()) return doubt(mu);
+      if (!bad) return found(any ? last_ : begin, any);
+      if (!follow(*bad, mu)) return;
+      any = true;
+      mu = last_ + towards_ * beside * std::max(std::abs(last_), 1e-3);
+      // What ends beside where it began is taken up again a little farther on.
+    }
+    why_ = "the boundary has more pieces than are followed";
+    doubt(mu);
+  }
+
+ private:
+  bool is_unwanted(const Member& member, const BasePath& path, const SpecialPoint& point) const {
+    const bool only_turns = study_.critical.unwanted == Unwanted::limit_point;
+    const bool of_force = point.hit.kind == continuation::HitKind::user;
+    const bool dead = study_.critical.stability == StabilityOf::dead_load;
+    switch (point.kind) {
+      case EventKind::limit_point:
+        return only_turns || !of_force || dead;
+      case EventKind::corner_limit_point:
+        return only_turns || dead || point.hit.kind == continuation::HitKind::corner;
+      case EventKind::branch_point:
+      case EventKind::branching_kink:
+      case EventKind::unresolved:
+        return !only_turns;
+      case EventKind::switching: {
+        const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
+        if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
+          return false;
+        const auto column = static_cast<std::size_t>(index - member.quantities.data());
+        return path.branch.samples[point.row + 1].values[column] > 0;
+      }
+      default:
+        return false;
+    }
+  }
+
+  /// The first unwanted point on the path from the start at this value.
+  std::optional<SpecialPoint> unwanted_at(double mu) {
+    const Member* member = curves_.at(mu);
+    if (member == nullptr) {
+      why_ = "there is no start";
+      return std::nullopt;
+    }
+    const BasePath path = base_path(*member, true, observer_);
+    if (!path.problem.empty() || !path.branch.forward.complete)
+      why_ = path.problem.empty() ? path.branch.forward.reason : path.problem;
+    for (const SpecialPoint& point : path.points) {
+      if (!is_unwanted(*member, path, point)) continue;
+      why_.clear();
+      return point;
+    }
+    return std::nullopt;
+  }
+
+  /// Follows an unwanted point to where it is gone. @returns false where the search is over
+  bool follow(const SpecialPoint& bad, double mu) {
+    std::string why;
+    const Member& member = *curves_.at(mu);
+    const auto start = critical_start(curves_, member, bad, why);
+    if (!start) {
+      why_ = why;
+      doubt(mu);
+      return false;
+    }
+    // Beyond its end the piece runs back: a little of it shows what it is.
+    constexpr int more = 10;
+    int back = 0;
+    const auto observe = [&](const CriticalPoint& p) {
+      back += towards_ * p.dmu < 0 ? 1 : 0;
+      return back < more && (!observer_ || observer_(0, p.s));
+    };
+    Study limits = base_study(study_);
+    std::erase_if(limits.marks, [](const Mark&) { return true; });
+    const auto events = critical_events(curves_, limits, start->piece);
+    FollowedCurve followed{.start = *start, .of = bad.kind};
+    CriticalCurve& curve = followed.growing;
+    curve = follow_critical(curves_.family(), *start, towards_ > 0, events,
+                            critical_options(study_), observe);
+    const auto end = std::find_if(curve.hits.begin(), curve.hits.end(),
+                                  [](const CriticalHit& hit) { return ends_piece(hit.kind); });
+    const bool left = end == curve.hits.end() && curve.stop == continuation::StopReason::event;
+    if (curve.points.empty() || (end == curve.hits.end() && !left)) {
+      why_ = "the piece of " + bad.label + " could not be followed: " + curve.stop_detail;
+      doubt(mu);
+      return false;
+    }
+    if (curve.stop == continuation::StopReason::observer)
+      curve.stop = continuation::StopReason::event;
+    const CriticalPoint& last = end == curve.hits.end() ? curve.hits.back().point : end->point;
+    decides_ = end == curve.hits.end() ? curve.stop_detail : std::string{to_string(end->kind)};
+    if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
+    followed.falling.points = {curve.points.front()};
+    followed.falling.stop = continuation::StopReason::event;
+    followed.falling.stop_detail = "begins at " + bad.label;
+    result_.branches.push_back(rows_of(curves_, followed));
+    last_ = last.mu;
+    ended_on_ = bad;
+    const bool at_range = end == curve.hits.end() &&
+                          curve.stop_detail.starts_with(study_.critical.parameter + " reaches");
+    if (at_range) none(bad.label);
+    return !at_range;
+  }
+
+  void none(const std::string& piece) {
+    report_.found = false;
+    report_.decides = piece.empty() ? decides_ : "the piece of " + piece;
+    report_.message = "no value of " + study_.critical.parameter +
+                      " within the range removes it: " + report_.decides +
+                      " is still there at the end";
+    label_critical(result_.branches);
+  }
+
+  void doubt(double mu) {
+    report_.message = "unresolved at " + study_.critical.parameter + " = " +
+                      rounded(mu * curves_.scale()) + ": " + why_;
+    result_.doubts.push_back(report_.message);
+    label_critical(result_.branches);
+  }
+
+  void found(double mu, bool any) {
+    report_.found = true;
+    report_.value = mu * curves_.scale();
+    report_.decides = any ? decides_ : "the range begins beyond it";
+    report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
+                      ", decided by: " + report_.decides;
+    if (any) {
+      why_.clear();
+      const double side = towards_ * beside * std::max(std::abs(mu), 1e-3);
+      report_.verified =
+          unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
+      if (!report_.verified)
+        result_.doubts.push_back("traced again beside " + study_.critical.parameter + " = " +
+                                 rounded(report_.value) + ", the path does not confirm it");
+      mark();
+    }
+    label_critical(result_.branches);
+  }
+
+  /// The deciding row of the last piece carries the answer.
+  void mark() {
+    Branch& branch = result_.branches.back();
+    for (std::size_t i = 0; i < branch.events.size(); ++i) {
+      const Event& event = branch.events[i];
+      if (std::abs(branch.samples[event.row].values.back() - report_.value) >
+          1e-12 * std::max(1.0, std::abs(report_.value)))
+        continue;
+      if (event.kind == EventKind::extremum) continue;
+      Event answer = event;
+      answer.kind = EventKind::threshold;
+      answer.detail = report_.message;
+      branch.events.insert(branch.events.begin() + static_cast<std::ptrdiff_t>(i + 1), answer);
+      return;
+    }
+  }
+
+  const CaseCurves& curves_;
+  const Study& study_;
+  const Observer& observer_;
+  StudyResult& result_;
+  ThresholdReport& report_;
+  double towards_ = 1;
+  double last_ = 0;  ///< where the last piece ended
+  std::string decides_{}, why_{};
+  std::optional<SpecialPoint> ended_on_{};
+};
+
+}  // namespace
+
+void run_threshold(const CaseCurves& curves, const Study& study, const Observer& observer,
+                   StudyResult& result) {
+  Threshold(curves, study, observer, result).run();
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,87 @@
+// Minimally augmented systems of special points, F~(X; mu) = 0 with X = (x, lambda, ...). Private to the engine.
+#pragma once
+
+#include <Eigen/LU>
+#include <optional>
+
+#include "springfold/continuation/two_parameter.hpp"
+
+namespace springfold::continuation {
+
+/// The equations at one place of one member of the family.
+struct BaseTerms {
+  Vector F{};
+  Matrix J{};  ///< [dF/dx dF/dlambda], n x (n + 1)
+};
+
+/// False outside the domain.
+bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
+                BaseTerms& terms);
+
+/// M = [dF/dx B; C^T 0].
+Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C);
+
+/// What M defines at one place.
+struct BorderedPlace {
+  BaseTerms base{};
+  Matrix V{}, W{};  ///< n x k
+  Matrix G{};       ///< k x k
+  double largest()
+      const;  ///< norm of the longest column of V and W: beyond a few the borders are poor
+};
+
+std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
+                                            double mu, const Piece& piece, const Matrix& B,
+                                            const Matrix& C);
+
+/// Left and right singular vectors of the k smallest singular values of dF/dx; for symmetric problems the same
+/// eigenvectors for both.
+struct NullVectors {
+  Matrix left{}, right{};
+};
+std::optional<NullVectors> null_vectors(const Family& family, const CriticalStart& at, int k);
+
+/// w^T D^2F [V, .] by (x, lambda), n + 1 entries: differences of J along V. @param V  n + 1 entries
+std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
+                                   const Piece& piece, const Vector& w, const Vector& V);
+
+/// All kinds as one SmoothProblem with the parameter mu.
+class Augmented {
+ public:
+  Augmented(const Family& family, const CriticalStart& start, NullVectors borders);
+
+  Index size() const { return n_ + 1 + k_; }
+  bool residual(const Vector& X, double mu, Vector& F) const;
+  bool derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
+  Vector metric() const;
+  Vector periods() const;
+  std::vector<Index> double_covers() const { return covers_; }
+
+  Vector state(const Vector& X) const { return X.head(n_); }
+  double lambda(const Vector& X) const { return X[n_]; }
+  /// Coefficients beta of a branch point: zero where the parameter keeps the branch.
+  double unfolding(const Vector& X) const;
+  Vector start_unknowns() const;
+  Index n() const { return n_; }
+  const CriticalStart& start() const { return start_; }
+  const Family& family() const { return family_; }
+  const NullVectors& borders() const { return borders_; }
+  std::optional<BorderedPlace> place(const Vector& X, double mu) const;
+  /// The switch, or the caller's function.
+  std::optional<double> surface(const Vector& x, double lambda, double mu) const;
+  std::optional<Vector> surface_gradient(const Vector& x, double lambda, double mu) const;
+
+ private:
+  bool is_bordered() const;
+  /// The last equation: G, its trace, or the surface.
+  std::optional<double> test(const Vector& X, double mu, BaseTerms& base) const;
+
+  const Family& family_;
+  CriticalStart start_;
+  NullVectors borders_;  ///< B = left, C = right
+  Index n_ = 0, k_ = 0;  ///< k: unfolding coefficients, of branch points only
+  Vector weights_{}, periods_{};
+  std::vector<Index> covers_{};
+};
+
+}  // namespace springfold::continuation

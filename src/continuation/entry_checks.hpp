@@ -1,0 +1,18 @@
+// What is checked once where a problem enters the engine, so that nothing inside needs to ask. Private to the engine.
+#pragma once
+
+#include "springfold/continuation/kink.hpp"
+#include "springfold/continuation/problem.hpp"
+
+namespace springfold::continuation {
+
+/// Sizes of all that the problem gives at (x, lambda), of x and of the piece; options that can be used.
+/// @throws std::invalid_argument with what is wrong and what is needed
+void check_entry(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                 const TraceOptions& options);
+
+/// The same of the ray along which a curve is to be followed.
+/// @throws std::invalid_argument
+void check_ray(ProblemView problem, const Ray& ray);
+
+}  // namespace springfold::continuation

@@ -1,0 +1,88 @@
+#include "springfold/core/decompositions.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace springfold {
+
+void Lu::compute(const Matrix& A) { factors_.compute(A); }
+
+Vector Lu::solve_vector(const Vector& right) const { return factors_.solve(right); }
+
+Matrix Lu::solve_matrix(const Matrix& right) const { return factors_.solve(right); }
+
+void Lu::solve(const Vector& right, Eigen::Ref<Vector> x) const { x = factors_.solve(right); }
+
+Matrix Lu::solve_transposed(const Matrix& right) const { return factors_.transpose().solve(right); }
+
+Matrix Lu::inverse() const { return factors_.inverse(); }
+
+double Lu::determinant() const { return factors_.determinant(); }
+
+double Lu::smallest_pivot() const {
+  return factors_.matrixLU().size() > 0 ? factors_.matrixLU().diagonal().cwiseAbs().minCoeff() : 0;
+}
+
+double Lu::largest_pivot() const {
+  return factors_.matrixLU().size() > 0 ? factors_.matrixLU().diagonal().cwiseAbs().maxCoeff() : 0;
+}
+
+int Lu::sign() const {
+  const Index negative = (factors_.matrixLU().diagonal().array() < 0).count();
+  return static_cast<int>(factors_.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+}
+
+FullPivotLu::FullPivotLu(const Matrix& A) : factors_(A) {}
+
+bool FullPivotLu::is_invertible() const { return factors_.isInvertible(); }
+
+Matrix FullPivotLu::inverse() const { return factors_.inverse(); }
+
+Vector FullPivotLu::solve_vector(const Vector& right) const { return factors_.solve(right); }
+
+Matrix FullPivotLu::solve_matrix(const Matrix& right) const { return factors_.solve(right); }
+
+Vector solve_definite(const Matrix& A, const Vector& right) { return A.ldlt().solve(right); }
+
+Matrix solve_definite(const Matrix& A, const Matrix& right) { return A.ldlt().solve(right); }
+
+SymmetricEigen symmetric_eigen(const Matrix& A) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Vector symmetric_eigenvalues(const Matrix& A) {
+  return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+namespace {
+
+template <int N>
+Vector fixed_size_eigenvalues(const Matrix& A) {
+  using Square = Eigen::Matrix<double, N, N>;
+  const Square symmetric = 0.5 * (A + A.transpose());
+  return Eigen::SelfAdjointEigenSolver<Square>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+}  // namespace
+
+Vector body_eigenvalues(const Matrix& A) {
+  return A.rows() == 2   ? fixed_size_eigenvalues<2>(A)
+         : A.rows() == 3 ? fixed_size_eigenvalues<3>(A)
+         : A.rows() == 6 ? fixed_size_eigenvalues<6>(A)
+                         : symmetric_eigenvalues(0.5 * (A + A.transpose()));
+}
+
+Eigen::VectorXcd eigenvalues(const Matrix& A) {
+  return Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
+}
+
+double spectral_radius(const SmallMatrix& A) {
+  const Eigen::EigenSolver<SmallMatrix> solver(A, false);
+  double largest = 0;
+  for (Index i = 0; i < A.rows(); ++i)
+    largest = std::max(largest, std::abs(solver.eigenvalues()[i]));
+  return largest;
+}
+
+}  // namespace springfold

@@ -1,0 +1,31 @@
+// Settings of studies of special points in a second parameter, numbers still formulas.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/study.hpp"
+#include "table_reader.hpp"
+
+namespace springfold::io {
+
+struct CriticalPointDraft {
+  std::string point{}, parameter{};
+  std::vector<std::string> parameters{};
+  std::vector<NumberId> range{};  ///< low and high, or none
+  analysis::Unwanted unwanted = analysis::Unwanted::limit_point;
+  analysis::StabilityOf stability = analysis::StabilityOf::control;
+  bool smallest = true, tied = true;
+};
+
+/// The table that has the name of the study's kind; reports a missing one.
+CriticalPointDraft read_critical(analysis::StudyKind kind, const TableReader& study,
+                                 NumberTable& numbers, Reading& reading);
+
+/// The key of that table.
+std::vector<std::string> critical_keys();
+
+void build_critical(const CriticalPointDraft& draft, const std::vector<double>& numbers,
+                    analysis::CriticalPointSettings& settings);
+
+}  // namespace springfold::io

@@ -1,0 +1,126 @@
+#include "critical_draft.hpp"
+#include "study_reader.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyKind;
+
+const std::vector<std::string> unwanted_words{"limit_point", "loss_of_stability"};
+const std::vector<std::string> stability_words{"control", "dead_load"};
+const std::vector<std::string> value_words{"smallest", "largest"};
+
+std::vector<std::string> known_keys(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::critical_curve:
+      return {"of", "parameter", "range", "tied"};
+    case StudyKind::threshold:
+      return {"of", "parameter", "range", "tied", "index", "value"};
+    default:
+      return {"parameters", "tied"};
+  }
+}
+
+std::string example(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::critical_curve:
+      return "a table such as { of = \"LP1\", parameter = \"k\", range = [0, 1] }";
+    case StudyKind::threshold:
+      return "a table such as { of = \"limit_point\", parameter = \"k\", range = [0, 1] }";
+    default:
+      return "a table such as { parameters = [\"k\"] }";
+  }
+}
+
+bool read_flag(const TableReader& table, const std::string& name, bool otherwise,
+               Reading& reading) {
+  const Node* node = table.find(name);
+  if (node == nullptr) return otherwise;
+  if (node->kind == Node::Kind::boolean) return node->number != 0;
+  reading.problems.add(node->place, table.key_of(name),
+                       "got " + described(*node) + ", need true or false");
+  return otherwise;
+}
+
+std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, NumberTable& numbers,
+                                 Reading& reading) {
+  const Node* node =
+      kind == StudyKind::threshold ? table.require("range", "[low, high]") : table.find("range");
+  if (node == nullptr) return {};
+  if (node->kind != Node::Kind::array || node->items.size() != 2) {
+    reading.problems.add(node->place, table.key_of("range"),
+                         "got " + described(*node) + ", need [low, high]");
+    return {};
+  }
+  const Range rule = kind == StudyKind::threshold ? Range::finite : Range::maybe_infinite;
+  auto ids = read_numbers(table.list("range", "[low, high]"), {rule, ""}, numbers, reading);
+  numbers.require_less(ids[0], ids[1], "low < high");
+  return ids;
+}
+
+}  // namespace
+
+std::vector<std::string> critical_keys() { return {"critical_curve", "threshold", "sensitivity"}; }
+
+CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, NumberTable& numbers,
+                                 Reading& reading) {
+  CriticalPointDraft draft;
+  const std::string name{to_string(kind)};
+  for (const std::string& other : critical_keys())
+    if (const Node* node = study.find(other); node != nullptr && other != name)
+      reading.problems.add(node->place, study.key_of(other),
+                           "has no meaning here, need kind = \"" + other + "\" with it");
+  if (!analysis::is_of_critical_points(kind)) return draft;
+  static const Node nothing;
+  const bool needed = kind != StudyKind::sensitivity;
+  const Node* node = needed ? study.require(name, example(kind)) : study.find(name);
+  const Item item{node ? node : &nothing, study.key_of(name)};
+  const bool usable = node != nullptr && is_table(item, example(kind), reading);
+  const TableReader table{usable ? *node : nothing, item.key, known_keys(kind), reading};
+  draft.tied = read_flag(table, "tied", true, reading);
+  if (kind == StudyKind::sensitivity) {
+    draft.parameters =
+        read_texts(table.list("parameters", "a list of names of parameters"), reading);
+    for (std::size_t i = 0; i < draft.parameters.size(); ++i)
+      parameter_number(draft.parameters[i], table.find("parameters")->place,
+                       table.key_of("parameters"), reading.book, reading.problems);
+    return draft;
+  }
+  if (!usable) return draft;
+  if (const auto parameter = table.required_text("parameter", "the name of a parameter")) {
+    draft.parameter = *parameter;
+    parameter_number(*parameter, table.find("parameter")->place, table.key_of("parameter"),
+                     reading.book, reading.problems);
+  }
+  draft.range = read_range(kind, table, numbers, reading);
+  if (kind == StudyKind::critical_curve) {
+    draft.point = table.required_text("of", "a special point such as \"LP1\"").value_or("");
+    return draft;
+  }
+  table.require("of", "\"limit_point\" or \"loss_of_stability\"");
+  draft.unwanted = table.choice("of", unwanted_words, 0) == 0
+                       ? analysis::Unwanted::limit_point
+                       : analysis::Unwanted::loss_of_stability;
+  draft.stability = table.choice("index", stability_words, 0) == 0
+                        ? analysis::StabilityOf::control
+                        : analysis::StabilityOf::dead_load;
+  draft.smallest = table.choice("value", value_words, 0) == 0;
+  return draft;
+}
+
+void build_critical(const CriticalPointDraft& draft, const std::vector<double>& numbers,
+                    analysis::CriticalPointSettings& settings) {
+  settings.point = draft.point;
+  settings.parameter = draft.parameter;
+  settings.parameters = draft.parameters;
+  if (draft.range.size() == 2) {
+    settings.low = numbers[draft.range[0]];
+    settings.high = numbers[draft.range[1]];
+  }
+  settings.tied = draft.tied;
+  settings.unwanted = draft.unwanted;
+  settings.stability = draft.stability;
+  settings.smallest = draft.smallest;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,96 @@
+#include "critical_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "result_access.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::Branch;
+using analysis::StudyResult;
+
+constexpr int digits = 10;
+constexpr std::size_t indent = 4;
+
+std::string line(std::string label, const std::string& text) {
+  label.resize(std::max<std::size_t>(label.size(), 14), ' ');
+  return std::string(indent, ' ') + label + text + "\n";
+}
+
+std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, digits); }
+
+/// The special points of a critical curve, with the parameter.
+std::string point_table(const StudyResult& result, const Branch& branch,
+                        const std::string& parameter) {
+  std::vector<std::string> columns{parameter};
+  for (const char* name : {"lambda", "deflection", "force"})
+    if (column_of(result, name)) columns.emplace_back(name);
+  std::vector<std::vector<std::string>> rows{{"points"}};
+  rows[0].insert(rows[0].end(), columns.begin(), columns.end());
+  for (const auto& event : branch.events) {
+    auto& row = rows.emplace_back(std::vector<std::string>{event.label});
+    for (const std::string& name : columns)
+      row.push_back(cell(value_at(result, branch, event.row, name)));
+    const bool unresolved = event.kind == analysis::EventKind::unresolved;
+    row.push_back((unresolved ? "UNRESOLVED: " : "") + event.detail);
+  }
+  std::vector<Align> align(1 + columns.size(), Align::right);
+  align.front() = Align::left;
+  align.push_back(Align::left);
+  return aligned(rows, align, indent);
+}
+
+/// d(lambda)/d(parameter) of every special point, one row per parameter.
+std::string rate_table(const StudyResult& result, const Branch& branch) {
+  std::vector<std::vector<std::string>> rows{{"d(lambda)/d()"}};
+  std::vector<const analysis::Event*> points;
+  for (const auto& event : branch.events) {
+    if (event.kind == analysis::EventKind::end_of_range) continue;
+    points.push_back(&event);
+    rows[0].push_back(event.label);
+  }
+  const std::string prefix = "d(lambda)/d(";
+  for (const auto& quantity : result.quantities) {
+    if (!quantity.name.starts_with(prefix)) continue;
+    auto& row = rows.emplace_back(std::vector<std::string>{
+        quantity.name.substr(prefix.size(), quantity.name.size() - prefix.size() - 1)});
+    for (const auto* event : points) {
+      const double rate = value_at(result, branch, event->row, quantity.name);
+      row.push_back(std::isnan(rate) ? "-" : rounded(rate, digits));
+    }
+  }
+  std::vector<Align> align(rows[0].size(), Align::right);
+  align.front() = Align::left;
+  std::string text = aligned(rows, align, indent);
+  for (const auto* event : points) text += line(event->label, event->detail);
+  return text;
+}
+
+}  // namespace
+
+std::string critical_lines(const PlannedRun& planned, const StudyResult& result) {
+  if (!result.start.found) return line("start", "NOT FOUND: " + result.start.message);
+  std::string text;
+  if (result.threshold)
+    text += line("threshold", result.threshold->message +
+                                  (result.threshold->verified ? "; traced again beside it" : ""));
+  const std::string& parameter = planned.plan.critical.parameter;
+  const bool is_curve = planned.plan.kind != analysis::StudyKind::sensitivity;
+  for (const Branch& branch : result.branches) {
+    if (!is_curve) {
+      text += rate_table(result, branch);
+      continue;
+    }
+    text += line("curve", std::to_string(branch.samples.size()) + " points");
+    text += point_table(result, branch, parameter);
+    for (const auto* stop : {&branch.backward, &branch.forward})
+      if (!stop->complete) text += line("STOPPED", stop->reason);
+  }
+  for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
+  return text;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,205 @@
+// Jumps in the summary, as JSON and as a table.
+#include <algorithm>
+#include <cmath>
+
+#include "jump_access.hpp"
+#include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using analysis::Jump;
+using analysis::SnapState;
+using analysis::StudyResult;
+
+constexpr int digits = 10;
+constexpr std::size_t label_width = 14;  // of the label column of the summary
+
+std::string line(std::string label, const std::string& text) {
+  label.resize(std::max(label.size(), label_width), ' ');
+  return "    " + label + text + "\n";
+}
+
+double value_of(const StudyResult& result, const SnapState& state, std::string_view name) {
+  const auto column = column_of(result, name);
+  return column && *column < state.values.size() ? state.values[*column]
+                                                 : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// "apex.x = 0, apex.y = -1.5": poses of the bodies, which come behind the study's own columns.
+std::string pose_text(const StudyResult& result, const SnapState& state) {
+  std::string text;
+  for (std::size_t i = 0; i < result.quantities.size() && i < state.values.size(); ++i) {
+    const std::string& name = result.quantities[i].name;
+    const std::size_t dot = name.find('.');
+    const bool is_pose = dot != std::string::npos && name.find('.', dot + 1) == std::string::npos;
+    static const std::vector<std::string> coordinates{"x", "y", "z", "phi", "rx", "ry", "rz"};
+    if (!is_pose || std::find(coordinates.begin(), coordinates.end(), name.substr(dot + 1)) ==
+                        coordinates.end())
+      continue;
+    text += (text.empty() ? "" : ", ") + name + " = " + rounded(state.values[i], digits);
+  }
+  return text;
+}
+
+std::string place_of(const SnapState& state) {
+  return state.branch > 0 ? "on branch " + std::to_string(state.branch) : "outside of the branches";
+}
+
+std::string warning_text(const analysis::SnapWarning& warning) {
+  constexpr double degree = 0.017453292519943295;
+  const std::string angle = rounded(warning.angle / degree, digits) + " degrees";
+  return warning.kind == analysis::SnapWarning::Kind::dead_point
+             ? "WARNING: leg " + warning.coordinate + " lands at a dead point: " + angle
+             : "WARNING: leg " + warning.coordinate + " lands beyond 90 degrees: " + angle;
+}
+
+std::string lines_of(const StudyResult& result, const Jump& jump, const std::string& energy) {
+  const double lambda = value_of(result, jump.critical, "lambda");
+  std::string text =
+      line(jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
+                           ", lambda = " + rounded(lambda, digits) +
+                           (jump.loading > 0 ? " (rising): " : " (falling): ") +
+                           to_string(jump.verdict));
+  if (!jump.landing.values.empty()) {
+    text += line("", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
+    text += line("", "released " + rounded(jump.released, digits) + energy +
+                         ", overdamped time scale " + rounded(jump.time_scale, 4));
+  }
+  for (const SnapState& other : jump.others)
+    text +=
+        line("", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
+                     rounded(jump.critical.energy - other.energy, digits) + energy);
+  if (jump.may_run_away && jump.verdict == analysis::SnapVerdict::depends)
+    text += line("", "or it runs away");
+  for (const std::string& name : jump.switches) text += line("", "switches: " + name);
+  for (const auto& warning : jump.warnings) text += line("", warning_text(warning));
+  if (jump.back > 0) {
+    const Jump& back = result.snap->jumps[static_cast<std::size_t>(jump.back - 1)];
+    text +=
+        line("", "leaves it again at " + back.from +
+                     ", lambda = " + rounded(value_of(result, back.critical, "lambda"), digits) +
+                     " (" + back.label + ")" +
+                     (std::isnan(jump.loop) ? ""
+                                            : "; the loop closes, " + rounded(jump.loop, digits) +
+                                                  energy + " lost in each"));
+  }
+  return text;
+}
+
+Json by_quantity(const StudyResult& result, const SnapState& state) {
+  if (state.values.empty()) return nullptr;
+  Json named = Json::object();
+  for (std::size_t i = 0; i < std::min(state.values.size(), result.quantities.size()); ++i)
+    named[result.quantities[i].name] = state.values[i];
+  return {{"energy", state.energy}, {"index", state.index}, {"branch", state.branch},
+          {"row", state.row},       {"piece", state.piece}, {"values", named}};
+}
+
+Json list_of(const StudyResult& result, const std::vector<SnapState>& states) {
+  Json list = Json::array();
+  for (const SnapState& state : states) list.push_back(by_quantity(result, state));
+  return list;
+}
+
+Json json_of(const StudyResult& result, const Jump& jump) {
+  Json warnings = Json::array();
+  for (const auto& warning : jump.warnings)
+    warnings.push_back(
+        {{"kind",
+          warning.kind == analysis::SnapWarning::Kind::dead_point ? "dead_point" : "turned_beyond"},
+         {"coordinate", warning.coordinate},
+         {"angle", warning.angle}});
+  return {{"label", jump.label},
+          {"from", jump.from},
+          {"branch", jump.branch},
+          {"loading", jump.loading},
+          {"side", jump.side},
+          {"towards", jump.towards},
+          {"verdict", to_string(jump.verdict)},
+          {"released", jump.released},
+          {"critical", by_quantity(result, jump.critical)},
+          {"landing", by_quantity(result, jump.landing)},
+          {"others", list_of(result, jump.others)},
+          {"saddles", list_of(result, jump.saddles)},
+          {"may_run_away", jump.may_run_away},
+          {"time_scale", jump.time_scale},
+          {"switches", jump.switches},
+          {"warnings", warnings},
+          {"back", jump.back},
+          {"loop", jump.loop}};
+}
+
+}  // namespace
+
+std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
+  if (!result.snap) return "";
+  const analysis::SnapReport& report = *result.snap;
+  const std::string energy = " " + unit_label(analysis::Unit::energy, result.lambda_unit, units);
+  std::string text;
+  for (const std::string& refusal : report.refusals) text += line("jumps", "REFUSED: " + refusal);
+  if (report.jumps.empty() && report.refusals.empty())
+    text += line("jumps", "none: stability is nowhere lost to a jump");
+  for (const Jump& jump : report.jumps) text += lines_of(result, jump, energy);
+  for (const auto& handover : report.handovers)
+    text += line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
+                                  " hands over to branch " + std::to_string(handover.next) +
+                                  (handover.towards.empty() ? "" : ", " + handover.towards));
+  return text;
+}
+
+Json jumps_json(const StudyResult& result) {
+  if (!result.snap) return nullptr;
+  Json jumps = Json::array(), handovers = Json::array();
+  for (const Jump& jump : result.snap->jumps) jumps.push_back(json_of(result, jump));
+  for (const auto& handover : result.snap->handovers)
+    handovers.push_back({{"at", handover.at},
+                         {"branch", handover.branch},
+                         {"next", handover.next},
+                         {"towards", handover.towards}});
+  return {{"jumps", jumps},
+          {"handovers", handovers},
+          {"landing_branches", result.snap->landing_branches},
+          {"refusals", result.snap->refusals}};
+}
+
+std::string jumps_csv(const std::vector<StudyResult>& results) {
+  std::vector<std::string> names;
+  for (const auto& result : results)
+    for (const auto& quantity : result.quantities)
+      if (result.snap && std::find(names.begin(), names.end(), quantity.name) == names.end())
+        names.push_back(quantity.name);
+  std::string csv =
+      "study,run,label,jump,from,branch,loading,side,towards,verdict,state,to_branch,potential,"
+      "released,time_scale,back,loop";
+  for (const auto& name : names) csv += "," + csv_text(name);
+  csv += "\n";
+  for (const auto& result : results) {
+    if (!result.snap) continue;
+    for (const Jump& jump : result.snap->jumps) {
+      const auto add = [&](const std::string& what, const SnapState& state) {
+        csv += csv_text(result.study) + "," + std::to_string(result.run) + "," +
+               csv_text(result.label) + "," + jump.label + "," + csv_text(jump.from) + "," +
+               std::to_string(jump.branch) + "," + std::to_string(jump.loading) + "," +
+               std::to_string(jump.side) + "," + csv_text(jump.towards) + "," +
+               csv_text(to_string(jump.verdict)) + "," + what + "," + std::to_string(state.branch) +
+               "," + csv_number(state.energy) + "," +
+               csv_number(jump.critical.energy - state.energy) + "," + csv_number(jump.time_scale) +
+               "," + (jump.back > 0 ? "J" + std::to_string(jump.back) : "") + "," +
+               csv_number(jump.loop);
+        for (const auto& name : names) csv += "," + csv_number(value_of(result, state, name));
+        csv += "\n";
+      };
+      add("critical", jump.critical);
+      if (!jump.landing.values.empty()) add("landing", jump.landing);
+      for (const SnapState& other : jump.others) add("other", other);
+      for (const SnapState& saddle : jump.saddles) add("saddle", saddle);
+    }
+  }
+  return csv;
+}
+
+}  // namespace springfold::io

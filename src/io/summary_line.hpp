@@ -1,0 +1,30 @@
+// Lines of the summary for people. Private to io.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "springfold/io/shown_text.hpp"
+
+namespace springfold::io {
+
+inline constexpr int summary_digits = 10;
+inline constexpr std::size_t summary_indent = 4;
+inline constexpr std::size_t summary_label_width = 14;
+
+/// "    pose          text".
+inline std::string summary_line(std::string_view label, const std::string& text) {
+  std::string padded{label};
+  padded.resize(std::max(padded.size(), summary_label_width), ' ');
+  std::string whole = std::string(summary_indent, ' ') + padded + shown(text);
+  whole.erase(whole.find_last_not_of(' ') + 1);
+  return whole + "\n";
+}
+
+/// "1 point", "2 points".
+inline std::string counted(int count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,326 @@
+// Curves of special points in two parameters, against closed forms.
+#include "springfold/continuation/two_parameter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "problems.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// F = dV/dx of any number of unknowns, with closed forms.
+struct Given {
+  std::function<Vector(const Vector&, double)> F{};
+  std::function<Matrix(const Vector&, double)> J{};
+  std::function<Vector(const Vector&, double)> by_lambda{};
+  Index n = 1;
+  Index size() const { return n; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, Vector& value) const {
+    value = F(x, lambda);
+    return value.allFinite();
+  }
+  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
+    dF_dx = J(x, lambda);
+    dF_dlambda = by_lambda(x, lambda);
+    return true;
+  }
+};
+
+template <class P>
+Family family_of(std::function<P(double)> make) {
+  const auto held = std::make_shared<std::optional<P>>();
+  return {.at = [=](double mu) -> std::optional<ProblemView> {
+    held->emplace(make(mu));
+    return ProblemView(**held);
+  }};
+}
+
+/// lambda = h(x; mu).
+Family graphs(std::function<double(double, double)> h,
+              std::function<double(double, double)> slope) {
+  return family_of<ScalarProblem>([=](double mu) {
+    return graph([=](double x) { return h(x, mu); }, [=](double x) { return slope(x, mu); });
+  });
+}
+
+CriticalStart at(CriticalKind kind, Vector x, double lambda, double mu) {
+  return {.kind = kind, .x = std::move(x), .lambda = lambda, .mu = mu};
+}
+Vector one(double x) { return Vector::Constant(1, x); }
+
+CriticalEvent end_at(double low, double high) {
+  return {"end", [=](const CriticalPoint& p) { return (p.mu - low) * (high - p.mu); },
+          EventAction::stop};
+}
+
+std::vector<CriticalHit> of_kind(const CriticalCurve& curve, Degeneracy kind) {
+  std::vector<CriticalHit> list;
+  for (const auto& hit : curve.hits)
+    if (hit.kind == kind) list.push_back(hit);
+  return list;
+}
+
+TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
+  const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
+                               [](double x, double mu) { return 3 * x * x - mu; });
+  const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(-1), 2, 3), false,
+                                     {end_at(-1, 4)}, {});
+  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  ASSERT_EQ(cusps.size(), 1U);
+  EXPECT_NEAR(cusps[0].point.mu, 0, 1e-12);
+  EXPECT_NEAR(cusps[0].point.lambda, 0, 1e-12);
+  EXPECT_NEAR(cusps[0].point.x[0], 0, 1e-10);
+  EXPECT_EQ(curve.stop_detail, "end");
+  EXPECT_NEAR(curve.points.back().mu, 4, 0.1);
+  EXPECT_TRUE(of_kind(curve, Degeneracy::extremum).empty());
+  for (const auto& p : curve.points) EXPECT_NEAR(p.mu, 3 * p.x[0] * p.x[0], 1e-11);
+}
+
+TEST(TwoParameters, AClosedBranchThatShrinksIsAnIsolaCentreAndSaddlesAreCrossings) {
+  for (const double sign : {1.0, -1.0}) {
+    const Family family = family_of<ScalarProblem>([=](double mu) {
+      return ScalarProblem{[=](double x, double l) { return x * x + sign * (l * l - mu); },
+                           [](double x, double) { return 2 * x; },
+                           [=](double, double l) { return 2 * sign * l; }};
+    });
+    const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(0), 1, 1), false,
+                                       {end_at(-1, 2)}, {});
+    const auto kind = sign > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
+    ASSERT_EQ(of_kind(curve, kind).size(), 1U) << sign;
+    EXPECT_NEAR(of_kind(curve, kind)[0].point.mu, 0, 1e-12);
+    EXPECT_NEAR(of_kind(curve, kind)[0].point.lambda, 0, 1e-10);
+  }
+}
+
+TEST(TwoParameters, SwallowtailHasTwoCusps) {
+  const double c = -0.7;
+  const Family family =
+      graphs([=](double x, double b) { return -(x * x * (x * x + c) + b * x); },
+             [=](double x, double b) { return -(4 * x * x * x + 2 * c * x + b); });
+  const double x0 = -1, b0 = -4 * x0 * x0 * x0 - 2 * c * x0;
+  const double a0 = -(x0 * x0 * (x0 * x0 + c) + b0 * x0);
+  const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(x0), a0, b0), false,
+                                     {end_at(-5, 5)}, {});
+  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  ASSERT_EQ(cusps.size(), 2U);
+  for (const auto& cusp : cusps) EXPECT_NEAR(std::abs(cusp.point.x[0]), std::sqrt(-c / 6), 1e-9);
+}
+
+/// V = (q1 - e)^2/2 + 8 q2^2 + S^2/4 + p q1 + m q2, S = q1^2 - e^2 + 4 q2^2.
+Given arch(double e, double m) {
+  return {[=](const Vector& q, double p) {
+            const double S = q[0] * q[0] - e * e + 4 * q[1] * q[1];
+            return Vector{{q[0] - e + S * q[0] + p, 16 * q[1] + 4 * S * q[1] + m}};
+          },
+          [=](const Vector& q, double) {
+            const double S = q[0] * q[0] - e * e + 4 * q[1] * q[1];
+            return Matrix{{1 + S + 2 * q[0] * q[0], 8 * q[0] * q[1]},
+                          {8 * q[0] * q[1], 16 + 4 * S + 32 * q[1] * q[1]}};
+          },
+          [](const Vector&, double) {
+            return Vector{{1, 0}};
+          },
+          2};
+}
+
+TEST(TwoParameters, ImperfectArchesLoseStabilityAsPublished) {
+  const double e = 3;
+  const Family family = family_of<Given>([=](double m) { return arch(e, m); });
+  // From a rough guess beside the limit point at m = 0.5 down to m = 1e-4.
+  std::vector<CriticalEvent> events{end_at(1e-5, 1)};
+  const std::vector<std::pair<double, double>> known{
+      {1e-4, 9.7051770421122}, {0.01, 9.6430193096047}, {0.1, 9.4062121678254}};
+  for (const auto& [m, p] : known)
+    events.push_back({"mark", [m = m](const CriticalPoint& at) { return at.mu - m; }});
+  const auto start =
+      polish_critical(family, at(CriticalKind::limit_point, Vector{{2.2, -0.34}}, 8.8306, 0.5));
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(start->lambda, 8.8306070701784, 1e-10);
+  const auto curve = follow_critical(
+      family, at(CriticalKind::limit_point, start->x, start->lambda, 0.5), false, events, {});
+  std::size_t seen = 0;
+  for (const auto& hit : curve.hits)
+    if (hit.name == "mark")
+      for (const auto& [m, p] : known)
+        if (std::abs(hit.point.mu - m) < 1e-9) {
+          EXPECT_NEAR(hit.point.lambda, p, 1e-9);
+          ++seen;
+        }
+  EXPECT_EQ(seen, known.size());
+}
+
+TEST(TwoParameters, ButterflyColumnHasCuspsAtItsTripleRoots) {
+  const double b = 2;
+  const Family family = family_of<ScalarProblem>([=](double H) {
+    return ScalarProblem{
+        [=](double t, double P) { return b * t + std::sin(2 * t) / 2 - P * std::sin(t) - H; },
+        [=](double t, double P) { return b + std::cos(2 * t) - P * std::cos(t); },
+        [](double t, double) { return -std::sin(t); }};
+  });
+  const double t = -0.3, P = (b + std::cos(2 * t)) / std::cos(t);
+  const double H = b * t + std::sin(2 * t) / 2 - P * std::sin(t);
+  for (const bool growing : {false, true}) {
+    std::vector<CriticalEvent> events{
+        {"end", [](const CriticalPoint& p) { return 3.05 - p.lambda; }, EventAction::stop}};
+    const auto curve =
+        follow_critical(family, at(CriticalKind::limit_point, one(t), P, H), growing, events, {});
+    for (const auto& cusp : of_kind(curve, Degeneracy::cusp)) {
+      const bool upper = std::abs(cusp.point.lambda - 3) < 1e-3;
+      EXPECT_NEAR(cusp.point.lambda, upper ? 3 : 2.8284271247462, 1e-9);
+      EXPECT_NEAR(std::abs(cusp.point.mu), upper ? 0 : 0.070796326794897, 1e-9);
+    }
+    EXPECT_FALSE(of_kind(curve, Degeneracy::cusp).empty());
+  }
+}
+
+/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.
+Given hill(double mu) {
+  return {
+      [=](const Vector& u, double l) {
+        return Vector{{u[0] * (mu - u[1]), l - u[1] + u[1] * u[1] * u[1] / 3 - u[0] * u[0] / 2}};
+      },
+      [=](const Vector& u, double) {
+        return Matrix{{mu - u[1], -u[0]}, {-u[0], -1 + u[1] * u[1]}};
+      },
+      [](const Vector&, double) {
+        return Vector{{0, 1}};
+      },
+      2};
+}
+
+TEST(TwoParameters, BranchPointOnALimitPointIsAHilltopSeenFromBothCurves) {
+  const Family family = family_of<Given>(hill);
+  const double y = 0.5;
+  for (const auto kind : {CriticalKind::branch_point, CriticalKind::limit_point}) {
+    const bool is_branch = kind == CriticalKind::branch_point;
+    const Vector x{{0, is_branch ? y : 1.0}};
+    const double lambda = is_branch ? y - y * y * y / 3 : 2.0 / 3;
+    const auto curve = follow_critical(family, at(kind, x, lambda, y), true, {end_at(0, 1.5)}, {});
+    EXPECT_TRUE(curve.kept);
+    ASSERT_EQ(of_kind(curve, Degeneracy::hilltop).size(), 1U) << is_branch;
+    EXPECT_NEAR(of_kind(curve, Degeneracy::hilltop)[0].point.mu, 1, 1e-9);
+    EXPECT_NEAR(of_kind(curve, Degeneracy::hilltop)[0].point.lambda, 2.0 / 3, 1e-10);
+  }
+}
+
+TEST(TwoParameters, PairsOfBranchPointsAreBornWhereMuTurnsBack) {
+  const Family family = family_of<ScalarProblem>([](double mu) {
+    return ScalarProblem{[=](double x, double l) { return x * (mu - l * l - x * x); },
+                         [=](double x, double l) { return mu - l * l - 3 * x * x; },
+                         [](double x, double l) { return -2 * l * x; }};
+  });
+  const auto curve = follow_critical(family, at(CriticalKind::branch_point, one(0), 1, 1), false,
+                                     {end_at(-1, 2)}, {});
+  const auto births = of_kind(curve, Degeneracy::branch_points_merge);
+  ASSERT_EQ(births.size(), 1U);
+  EXPECT_NEAR(births[0].point.mu, 0, 1e-12);
+}
+
+TEST(TwoParameters, AnImperfectionDoesNotKeepABranchPoint) {
+  const Family family = family_of<ScalarProblem>([](double mu) {
+    return ScalarProblem{[=](double x, double l) { return x * (l - x * x) + mu; },
+                         [](double x, double l) { return l - 3 * x * x; },
+                         [](double x, double) { return x; }};
+  });
+  const auto start = at(CriticalKind::branch_point, one(0), 0, 0);
+  EXPECT_FALSE(follow_critical(family, start, true, {end_at(-1, 1)}, {}).kept);
+  EXPECT_FALSE(critical_rate(family, start));
+}
+
+/// lambda = q^3 - 3 a q + k max(0, q - g).
+struct Stopped {
+  double a = 1, k = 4, g = 0.3;
+  static Index size() { return 1; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
+    const double q = x[0];
+    F = one(q * q * q - 3 * a * q + (piece[0] > 0 ? k * (q - g) : 0) - lambda);
+    return true;
+  }
+  bool derivatives(const Vector& x, double, const Piece& piece, Matrix& dF_dx,
+                   Vector& dF_dlambda) const {
+    dF_dx = Matrix::Constant(1, 1, 3 * x[0] * x[0] - 3 * a + (piece[0] > 0 ? k : 0));
+    dF_dlambda = one(-1);
+    return true;
+  }
+  static Index switch_count() { return 1; }
+  bool switches(const Vector& x, double, Vector& value) const {
+    value = one(x[0] - g);
+    return true;
+  }
+  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
+    dg_dx = Matrix::Ones(1, 1);
+    dg_dlambda = one(0);
+    return true;
+  }
+  static const char* switch_name(Index) { return "stop"; }
+};
+
+TEST(TwoParameters, AFoldEndsWhereItMeetsTheActivation) {
+  const double a = 1.3;
+  const Family family =
+      family_of<Stopped>([=](double g) { return Stopped{.a = a, .k = 5, .g = g}; });
+  auto start = at(CriticalKind::limit_point, one(-std::sqrt(a)), 2 * a * std::sqrt(a), 0.3);
+  start.piece = {-1};
+  const auto curve = follow_critical(family, start, false, {end_at(-3, 1)}, {});
+  const auto ends = of_kind(curve, Degeneracy::fold_meets_activation);
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_NEAR(ends[0].point.mu, -std::sqrt(a), 1e-10);
+  EXPECT_EQ(ends[0].name, "stop");
+  EXPECT_EQ(curve.stop_detail, "fold meets activation");
+}
+
+TEST(TwoParameters, ASoftStopLetsTheFoldMoveToItsCusp) {
+  const double a = 1.3, g = -2;
+  const Family family =
+      family_of<Stopped>([=](double k) { return Stopped{.a = a, .k = k, .g = g}; });
+  const double k = 1, q = -std::sqrt(a - k / 3);
+  auto start = at(CriticalKind::limit_point, one(q), q * q * q - 3 * a * q + k * (q - g), k);
+  start.piece = {1};
+  const auto curve = follow_critical(family, start, true, {end_at(0, 5)}, {});
+  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  ASSERT_EQ(cusps.size(), 1U);
+  EXPECT_NEAR(cusps[0].point.mu, 3 * a, 1e-11);
+}
+
+TEST(TwoParameters, ACornerIsALimitPointBetweenTheFoldsOfItsTwoSides) {
+  const double a = 1, k = 1.2;
+  const Family family =
+      family_of<Stopped>([=](double g) { return Stopped{.a = a, .k = k, .g = g}; });
+  const double g = -0.9;  // behind: 3 g^2 - 3 a + k > 0, before: < 0
+  CriticalStart start = at(CriticalKind::surface, one(g), g * g * g - 3 * a * g, g);
+  start.piece = {-1};
+  start.behind = {1};
+  start.switching = 0;
+  std::vector<CriticalHit> hits;
+  for (const bool growing : {true, false})
+    for (const auto& hit : follow_critical(family, start, growing, {end_at(-1.5, -0.1)}, {}).hits)
+      if (hit.kind != Degeneracy::user) hits.push_back(hit);
+  int before = 0, behind = 0;
+  for (const auto& hit : hits) {
+    const bool is_before = hit.kind == Degeneracy::fold_meets_activation;
+    if (!is_before && hit.kind != Degeneracy::corner_loses_reversal) continue;
+    ++(is_before ? before : behind);
+    EXPECT_NEAR(hit.point.mu, -std::sqrt(is_before ? a : a - k / 3), 1e-9);
+  }
+  EXPECT_EQ(before, 1);
+  EXPECT_EQ(behind, 1);
+}
+
+TEST(TwoParameters, CriticalLoadsMoveAtTheRateOfTheClosedForm) {
+  const Family family = graphs([](double x, double mu) { return mu * x - x * x * x; },
+                               [](double x, double mu) { return mu - 3 * x * x; });
+  const double mu = 1.7, x = std::sqrt(mu / 3);
+  const auto rate =
+      critical_rate(family, at(CriticalKind::limit_point, one(x), mu * x - x * x * x, mu));
+  ASSERT_TRUE(rate);
+  EXPECT_NEAR(rate->dlambda, x, 1e-10);
+  EXPECT_NEAR(rate->dx[0], 1 / (6 * x), 1e-10);
+}
+
+}  // namespace
+}  // namespace springfold::continuation

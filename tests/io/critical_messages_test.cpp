@@ -1,0 +1,74 @@
+// Messages about studies of special points in a second parameter.
+#include <gmock/gmock.h>
+
+#include "case_files.hpp"
+
+namespace springfold::io {
+namespace {
+
+using testing::ElementsAre;
+
+const std::string strut = R"([parameters]
+k = 1
+c = "2*k"
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [1, 0]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "z", name = "foot", role = "virtual", stiffness = "k" },
+  { joint = "prismatic", axis = "x", name = "bar", role = "virtual", stiffness = "c" },
+  { rigid = [1, 0] },
+]
+[[study]]
+name = "a"
+kind = "critical_curve"
+control = "load"
+direction = [-1, 0]
+mark = { k = [0.5] }
+critical_curve = { of = "BP1", parameter = "k", range = [0.1, 2] }
+)";
+
+class CriticalMessages : public CaseFiles {
+ protected:
+  std::vector<std::string> after(const std::string& old, const std::string& with) const {
+    std::string text = strut;
+    const std::size_t at = text.find(old);
+    EXPECT_NE(at, std::string::npos);
+    return messages(text.replace(at, old.size(), with));
+  }
+};
+
+TEST_F(CriticalMessages, AreNoneForAGoodCase) { EXPECT_THAT(messages(strut), ElementsAre()); }
+
+TEST_F(CriticalMessages, WantTheTableOfTheKind) {
+  const auto found = after("critical_curve = {", "threshold = {");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(found[1], testing::HasSubstr("study[1].threshold: has no meaning here, need kind = "
+                                           "\"threshold\" with it"));
+  EXPECT_THAT(found[0], testing::HasSubstr("study[1].critical_curve: "));
+}
+
+TEST_F(CriticalMessages, WantAParameterOfTheCase) {
+  const auto found = after("parameter = \"k\"", "parameter = \"kk\"");
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found[0], testing::HasSubstr("critical_curve.parameter: no parameter \"kk\""));
+}
+
+TEST_F(CriticalMessages, WantARangeInWhichTheCurveBegins) {
+  EXPECT_THAT(
+      after("[0.1, 2]", "[1.5, 2]"),
+      ElementsAre(testing::HasSubstr("critical_curve.range: the value of \"k\" lies outside")));
+  EXPECT_THAT(after("[0.1, 2]", "3"),
+              ElementsAre(testing::HasSubstr("critical_curve.range: got 3, need [low, high]")));
+}
+
+TEST_F(CriticalMessages, KnowTheParameterAsAColumn) {
+  EXPECT_THAT(after("mark = { k = ", "mark = { c = "),
+              ElementsAre(testing::HasSubstr("no quantity \"c\" in study \"a\"")));
+}
+
+}  // namespace
+}  // namespace springfold::io

@@ -1,0 +1,84 @@
+// The key `snap` of case files, and what expected values may say about jumps.
+#include <gtest/gtest.h>
+
+#include "io/case_files.hpp"
+#include "io/jump_access.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/analysis/snap.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold::io {
+namespace {
+
+using SnapKey = CaseFiles;
+
+const std::string bar = R"(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "linear", stiffness = 1 } },
+  { rigid = [0, 1] },
+]
+
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+until = { lambda = [0, 2], bar.hinge = [-2, 2] }
+)";
+
+TEST_F(SnapKey, AsKindTracesTheBranchesOfTheFirstSpecialPoints) {
+  const Case c = load(bar + "kind = \"snap_through\"\n");
+  EXPECT_TRUE(c.runs[0].plan.snap.has_value());
+  EXPECT_EQ(c.runs[0].plan.branches.depth, 1);
+  EXPECT_FALSE(load(bar).runs[0].plan.snap.has_value());
+  EXPECT_TRUE(load(bar + "snap = true\n").runs[0].plan.snap.has_value());
+  EXPECT_FALSE(load(bar + "snap = false\n").runs[0].plan.snap.has_value());
+}
+
+TEST_F(SnapKey, TakesSettings) {
+  const Case c = load(bar + "snap = { starts = 5, seed = 7, damping = { \"bar.hinge\" = 0.5 } }\n");
+  const analysis::SnapSettings& snap = c.runs[0].plan.snap.value();
+  EXPECT_EQ(snap.starts, 5);
+  EXPECT_EQ(snap.seed, 7u);
+  ASSERT_EQ(snap.damping.size(), 1u);
+  EXPECT_EQ(snap.damping[0].value, 0.5);
+}
+
+TEST_F(SnapKey, RefusesWhatItIsNot) {
+  EXPECT_EQ(messages(bar + "snap = 3\n").size(), 1u);
+  EXPECT_EQ(messages(bar + "snap = { damping = { \"bar.nothing\" = 1 } }\n").size(), 1u);
+  EXPECT_EQ(messages(bar + "snap = { damping = { \"bar.hinge\" = 0 } }\n").size(), 1u);
+  EXPECT_EQ(messages(bar + "snap = true\npath = \"davidenko\"\n").size(), 1u);
+}
+
+/// A bar on a torsion spring bends at its branch point and jumps nowhere.
+TEST_F(SnapKey, NamesTheSideToWhichASupercriticalBranchPointHandsOver) {
+  const Case c = load(bar + "kind = \"snap_through\"\n");
+  auto result = run_study(c.runs[0].mechanism, c.runs[0].plan);
+  result.study = "press";
+  ASSERT_TRUE(result.snap);
+  EXPECT_TRUE(result.snap->jumps.empty());
+  ASSERT_EQ(result.snap->handovers.size(), 1u);
+  EXPECT_EQ(result.snap->handovers[0].at, "BP1");
+  EXPECT_FALSE(result.snap->handovers[0].towards.empty());
+  EXPECT_NE(jump_lines(result, c.units).find("hands over"), std::string::npos);
+}
+
+TEST(JumpPlace, IsALabelWithANumberAndMaybeThatOfAnotherLanding) {
+  EXPECT_TRUE(is_jump_place("J"));
+  EXPECT_TRUE(is_jump_place("J1"));
+  EXPECT_TRUE(is_jump_place("J12.3"));
+  EXPECT_FALSE(is_jump_place("J0"));
+  EXPECT_FALSE(is_jump_place("J1."));
+  EXPECT_FALSE(is_jump_place("JX"));
+  EXPECT_FALSE(is_jump_place("LP1"));
+}
+
+}  // namespace
+}  // namespace springfold::io
