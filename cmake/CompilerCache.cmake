@@ -4,6 +4,8 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(SPRINGFOLD_CCACHE ccache)
   mark_as_advanced(SPRINGFOLD_CCACHE)
   if(SPRINGFOLD_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${SPRINGFOLD_CCACHE}")
+    # It shares objects that were compiled with precompiled headers only where it is told that it may.
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+        "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${SPRINGFOLD_CCACHE}")
   endif()
 endif()

@@ -78,6 +78,8 @@ Eigen::VectorXcd eigenvalues(const Matrix& A) {
 }
 
 double spectral_radius(const SmallMatrix& A) {
+  if (A.size() == 0)
+    return 0;
   const Eigen::EigenSolver<SmallMatrix> solver(A, false);
   double largest = 0;
   for (Index i = 0; i < A.rows(); ++i)
