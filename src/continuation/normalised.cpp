@@ -34,15 +34,6 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
       (unit_.array() == 1).all() && (force_.array() == 1).all() && (surface_.array() == 1).all();
 }
 
-Normalised::Normalised(ProblemView problem, Vector unit, Vector force, double lambda_unit)
-    : problem_{problem},
-      unit_{std::move(unit)},
-      force_{std::move(force)},
-      surface_{Vector::Ones(problem.switch_count())},
-      lambda_{lambda_unit} {
-  trivial_ = (unit_.array() == 1).all() && (force_.array() == 1).all() && lambda_ == 1;
-}
-
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
   double largest = 0;
   for (const double d : beside) {
@@ -71,7 +62,7 @@ void Normalised::scale_switches(const Vector& x, double lambda) {
 
 bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.residual(x_, lambda_ * lambda, piece, G)) return false;
+  if (!problem_.residual(x_, lambda, piece, G)) return false;
   G.array() *= force_.array();
   return true;
 }
@@ -79,7 +70,7 @@ bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Ve
 bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
                              Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.derivatives(x_, lambda_ * lambda, piece, dG_dy, dG_dlambda)) return false;
+  if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
   scale(dG_dy, dG_dlambda);
   return true;
 }
@@ -87,7 +78,7 @@ bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece,
 bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, Vector& G,
                            Matrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.equations(x_, lambda_ * lambda, piece, G, dG_dy, dG_dlambda)) return false;
+  if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
   G.array() *= force_.array();
   scale(dG_dy, dG_dlambda);
   return true;
@@ -101,22 +92,22 @@ void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
     const double unit = unit_[j];
     for (Index i = 0; i < n; ++i) column[i] *= force[i] * unit;
   }
-  dG_dlambda.array() *= lambda_ * force_.array();
+  dG_dlambda.array() *= force_.array();
 }
 
 bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                                         StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.structured_derivatives(x_, lambda_ * lambda, piece, matrices_.next(), dG_dlambda))
+  if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
     return false;
   matrices_.put(force_, unit_, dG_dy);
-  dG_dlambda.array() *= lambda_ * force_.array();
+  dG_dlambda.array() *= force_.array();
   return true;
 }
 
 bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switches(x_, lambda_ * lambda, h)) return false;
+  if (!problem_.switches(x_, lambda, h)) return false;
   h.array() *= surface_.array();
   return true;
 }
@@ -124,23 +115,23 @@ bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
 bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
                                   Vector& dh_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switch_gradients(x_, lambda_ * lambda, dh_dy, dh_dlambda)) return false;
+  if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
   dh_dy.array().colwise() *= surface_.array();
   dh_dy.array().rowwise() *= unit_.transpose().array();
-  dh_dlambda.array() *= lambda_ * surface_.array();
+  dh_dlambda.array() *= surface_.array();
   return true;
 }
 
 Ray Normalised::inside(const Ray& ray) const {
   Ray result = ray;
-  result.tangent = {inside(ray.tangent.dx), inside(ray.tangent.dlambda)};
+  result.tangent = {inside(ray.tangent.dx), ray.tangent.dlambda};
   if (ray.start) result.start = inside(*ray.start);
   return result;
 }
 
 Ray Normalised::outside(const Ray& ray) const {
   Ray result = ray;
-  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), lambda_ * ray.tangent.dlambda};
+  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), ray.tangent.dlambda};
   if (ray.start) result.start = outside(*ray.start);
   return result;
 }
@@ -148,19 +139,14 @@ Ray Normalised::outside(const Ray& ray) const {
 CurvePoint Normalised::inside(const CurvePoint& point) const {
   CurvePoint result = point;
   result.x = inside(point.x);
-  result.lambda = inside(point.lambda);
   if (point.tangent.dx.size() > 0)
-    result.tangent = {inside(point.tangent.dx), inside(point.tangent.dlambda)};
+    result.tangent = {inside(point.tangent.dx), point.tangent.dlambda};
   return result;
 }
 
 CurvePoint Normalised::outside(CurvePoint point) const {
   point.x.array() *= unit_.array();
-  point.lambda *= lambda_;
-  if (point.tangent.dx.size() > 0) {
-    point.tangent.dx.array() *= unit_.array();
-    point.tangent.dlambda *= lambda_;
-  }
+  if (point.tangent.dx.size() > 0) point.tangent.dx.array() *= unit_.array();
   return point;
 }
 

@@ -17,15 +17,11 @@ namespace springfold::continuation {
 ///
 /// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
 /// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
-/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's, unless another unit of lambda is
-/// asked for.
+/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve
   Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece);
-
-  /// With units given: of the unknowns, of the equations (factors), and of lambda.
-  Normalised(ProblemView problem, Vector unit, Vector force, double lambda_unit);
 
   /// Nothing to do: the problem is in the engine's units already.
   bool trivial() const { return trivial_; }
@@ -50,7 +46,6 @@ class Normalised {
   std::string switch_name(Index j) const { return problem_.switch_name(j); }
 
   Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
-  double inside(double lambda) const { return lambda / lambda_; }
   Ray inside(const Ray& ray) const;
   CurvePoint inside(const CurvePoint& point) const;
   CurvePoint outside(CurvePoint point) const;
@@ -73,7 +68,6 @@ class Normalised {
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
-  double lambda_ = 1;
   bool trivial_ = true;
 
   mutable Vector x_{};

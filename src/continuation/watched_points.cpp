@@ -1,5 +1,6 @@
 // The points of a step that is watched, between its ends.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "coincide.hpp"
@@ -26,7 +27,8 @@ double size_of(const CurvePoint& p) {
 
 WatchedStep::WatchedStep(const Walker& walker, Samples samples)
     : walker_{walker}, from_{*samples.front()}, length_{samples.back()->s - samples.front()->s} {
-  for (const CurvePoint* p : samples) nodes_.push_back(*p);
+  assert(samples.size() <= samples_.size());
+  for (const CurvePoint* p : samples) samples_[sample_count_++] = p;
 }
 
 std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
@@ -42,8 +44,9 @@ std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
 /// compared with what they all define.
 void WatchedStep::settle_model() const {
   settled_ = true;
-  if (nodes_.size() < 2) return;
-  std::vector<CurvePoint> nodes = nodes_;
+  if (sample_count_ < 2) return;
+  std::vector<CurvePoint> nodes;
+  for (std::size_t i = 0; i < sample_count_; ++i) nodes.push_back(*samples_[i]);
   const auto go_through = [&] {
     std::array<const CurvePoint*, ArcModel::most_nodes> list{};
     for (std::size_t i = 0; i < nodes.size(); ++i) list[i] = &nodes[i];

@@ -1,6 +1,7 @@
 // A step on which special points are looked for, and what is found on it. Private to the engine.
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -74,7 +75,9 @@ class WatchedStep {
   struct ModelError {
     double place = 0, direction = 0;
   };
-  std::vector<CurvePoint> nodes_{};  ///< of the model, in order
+  /// Of the step's ends and what is known between them; they outlive it. Most steps never ask for the model.
+  std::array<const CurvePoint*, ArcModel::most_nodes> samples_{};
+  std::size_t sample_count_ = 0;
   mutable ArcModel model_{};
   mutable ModelError error_{};
   mutable bool settled_ = false, exact_ = false;

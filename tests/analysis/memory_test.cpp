@@ -59,12 +59,9 @@ double per_step(const PathProblem& problem, const std::vector<continuation::Even
   return static_cast<double>(extra) / (many - few);
 }
 
-/// The polynomial that a step leaves for the next one, and its nodes: they do not use their storage again yet.
-constexpr double model = 9;
-
 /// The position and the tangent of the point that is kept, and its piece where there are switches.
 TEST(AStep, AsksForNoMemoryButThatOfThePointItKeeps) {
-  constexpr double point = 2 + model, list = 0.05;
+  constexpr double point = 2, list = 0.05;
   EXPECT_LE(per_step(problem_of(linear(0.05), false)), point + list);
   EXPECT_LE(per_step(problem_of(linear(0.05), true)), point + list);
   EXPECT_LE(per_step(column(30)), point + list);
@@ -73,7 +70,7 @@ TEST(AStep, AsksForNoMemoryButThatOfThePointItKeeps) {
 
 TEST(AStep, AsksForNoMoreWhereAChainIsEvaluatedInStages) {
   using enum model::TaskSpace;
-  constexpr double point = 2 + model, list = 0.05;
+  constexpr double point = 2, list = 0.05;
   for (const auto& [links, space] :
        {std::pair{60, xy}, std::pair{200, xy}, std::pair{60, planar}, std::pair{60, spatial}}) {
     const PathProblem problem = column(links, space);
@@ -91,7 +88,7 @@ TEST(AStep, AsksForNoMoreWhereAChainIsEvaluatedInStages) {
 TEST(AStep, AsksForNoneWhereEventsAreWatchedEither) {
   const std::vector<continuation::Event> far{
       {"far", [](const continuation::CurvePoint& p) { return p.lambda - 5; }}};
-  EXPECT_LE(per_step(problem_of(linear(0.05), false), far), 2.05 + model);
+  EXPECT_LE(per_step(problem_of(linear(0.05), false), far), 2.05);
 }
 
 }  // namespace
