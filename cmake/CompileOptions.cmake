@@ -9,7 +9,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # False alarms of GCC 12 at -O3, all inside library headers: std::string's operator+ (GCC bug
   # 105651), packets of two that Eigen never loads from vectors of length one, moved std::variants.
   target_compile_options(springfold_options INTERFACE
-    -Wno-restrict -Wno-array-bounds -Wno-maybe-uninitialized)
+    -Wno-restrict -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overread -Wno-stringop-overflow)
 endif()
 
 if(SPRINGFOLD_WARNINGS_AS_ERRORS)

@@ -1,24 +1,28 @@
 # Headers of others that most files read, parsed once for each kind of flags: half of the time of a build is reading
 # them. Only others' headers stand here, so that ours still warn, and public ones are compiled alone as well
-# (tests/CMakeLists.txt).
+# (tests/CMakeLists.txt). By GCC only: Clang wants the same macros defined in all targets.
 option(SPRINGFOLD_PRECOMPILED_HEADERS "Parse the headers of Eigen, GoogleTest and the standard library once" ON)
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(SPRINGFOLD_PRECOMPILED_HEADERS OFF)
+endif()
 
-set(springfold_common_headers
+# Tests, readers and writers do little arithmetic themselves: the optimiser would cost minutes.
+set(springfold_plain_options $<$<CONFIG:Release>:-O1>)
+set(springfold_arithmetic_headers
     <Eigen/Core> <Eigen/LU>
     <algorithm> <array> <cassert> <cmath> <functional> <limits> <map> <memory> <numbers> <optional> <set> <span> <string>
     <string_view> <utility> <variant> <vector>)
-# Tests do little arithmetic themselves; the optimiser would cost minutes.
-set(springfold_test_options $<$<CONFIG:Release>:-O1>)
-set(springfold_test_headers ${springfold_common_headers} <gmock/gmock.h> <gtest/gtest.h> <filesystem> <random>)
+set(springfold_text_headers ${springfold_arithmetic_headers} <filesystem> <sstream>)
+set(springfold_test_headers ${springfold_text_headers} <gmock/gmock.h> <gtest/gtest.h> <random>)
 
-# springfold_precompile(<target> [TESTS]): the headers are parsed for a target of their own, and taken from there.
-function(springfold_precompile target)
+# springfold_precompile(<target> arithmetic|text|test): the headers are parsed for a target of their own, and taken
+# from there. All but `arithmetic` are compiled plainly.
+function(springfold_precompile target kind)
+  if(NOT kind STREQUAL "arithmetic")
+    target_compile_options(${target} PRIVATE ${springfold_plain_options})
+  endif()
   if(NOT SPRINGFOLD_PRECOMPILED_HEADERS)
     return()
-  endif()
-  set(kind common)
-  if("TESTS" IN_LIST ARGN)
-    set(kind test)
   endif()
   set(parsed springfold_precompiled_${kind})
   if(NOT TARGET ${parsed})
@@ -26,15 +30,16 @@ function(springfold_precompile target)
     add_library(${parsed} OBJECT EXCLUDE_FROM_ALL "${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp")
     target_compile_features(${parsed} PRIVATE cxx_std_20)
     target_link_libraries(${parsed} PRIVATE springfold_options Eigen3::Eigen)
+    if(NOT kind STREQUAL "arithmetic")
+      target_compile_options(${parsed} PRIVATE ${springfold_plain_options})
+    endif()
     if(kind STREQUAL "test")
       target_link_libraries(${parsed} PRIVATE GTest::gmock)
-      target_compile_options(${parsed} PRIVATE ${springfold_test_options} -fPIE)  # as for programs
+      target_compile_options(${parsed} PRIVATE -fPIE)  # as for programs
       set_target_properties(${parsed} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     endif()
     target_precompile_headers(${parsed} PRIVATE ${springfold_${kind}_headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${parsed})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fpch-preprocess)  # for ccache
-  endif()
+  target_compile_options(${target} PRIVATE -fpch-preprocess)  # for ccache
 endfunction()
