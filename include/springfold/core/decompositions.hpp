@@ -34,7 +34,7 @@ class Lu {
   double smallest_pivot() const;  ///< magnitudes; 0 if there are none
   double largest_pivot() const;
   double reciprocal_condition() const;  ///< estimate in the norm of columns; 0 where A is singular
-  int sign() const;  ///< of the determinant, a pivot of zero taken as positive
+  int sign() const;                     ///< of the determinant, a pivot of zero taken as positive
 
  private:
   Vector solve_vector(const Vector& right) const;
