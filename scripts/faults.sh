@@ -1,8 +1,8 @@
 #!/bin/bash
 # Faults put into the program: scripts/faults.sh [--quick] [calls|signals|allocations ...]
 # The k-th system call fails, the k-th allocation fails (alone, or all behind it too), a signal comes at the k-th system
-# call: for a diagram, a map, a search and a control study (bench/faults), for all k behind the loader, or for some of
-# them where there are too many or with --quick. Every run is done again without a fault in the same folder. Exit code 1
+# call: for a diagram, a map, a search and a control study (bench/faults), for all k behind the loader, but for 500
+# allocations of each, and for fewer with --quick. Every run is done again without a fault in the same folder. Exit code 1
 # if an exit code is not documented, a manifest is not true, or the next run leaves anything behind: build/faults/findings.txt.
 # Needs strace and python3 (scripts/packages-ci.txt).
 set -euo pipefail

@@ -220,11 +220,12 @@ def main():
     parser.add_argument("--work", required=True, help="folder for runs and findings")
     parser.add_argument("--kinds", nargs="+", default=["calls", "signals", "allocations"])
     parser.add_argument("--most", type=int, default=1000000, help="numbers k of each system call")
-    parser.add_argument("--allocations", type=int, default=2000, help="numbers k of allocations")
+    parser.add_argument("--allocations", type=int, default=500, help="numbers k of allocations")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("cases", nargs="+")
     arguments = parser.parse_args()
+    arguments.work = os.path.abspath(arguments.work)
     os.makedirs(arguments.work, exist_ok=True)
     began = time.monotonic()
     findings = 0

@@ -71,6 +71,7 @@ void put(const Mutant& mutant, const fs::path& folder) {
 
 Outcome execute(Mode mode, const fs::path& case_file, const fs::path& out, bool draws) {
   Outcome outcome;
+  fs::remove_all(out);  // of a run that was given up, and this process with it
   const Said checked = call({"springfold", "check", case_file.string()});
   outcome.code = checked.code;
   outcome.accepted = is_one_of(checked.code, {0, 4});  // 4: its start is not found

@@ -143,7 +143,8 @@ void change_pairs(const Corpus& corpus, Tokens& tokens, Random& random) {
 
 void change_blocks(const Corpus& corpus, Tokens& tokens, Random& random) {
   const auto blocks = blocks_of(tokens);
-  const auto& [first, last] = random.of(blocks);
+  if (blocks.empty()) return;
+  const auto [first, last] = random.of(blocks);
   const Tokens copy(tokens.begin() + static_cast<std::ptrdiff_t>(first),
                     tokens.begin() + static_cast<std::ptrdiff_t>(last));
   switch (random.below(4)) {
@@ -158,7 +159,8 @@ void change_blocks(const Corpus& corpus, Tokens& tokens, Random& random) {
       break;
     default: {  // elsewhere
       replace(tokens, first, last, "");
-      const auto& [at, end] = random.of(blocks_of(tokens));
+      const auto left = blocks_of(tokens);
+      const std::size_t at = left.empty() ? 0 : random.of(left).first;
       replace(tokens, at, at, text_of(copy));
     }
   }

@@ -125,7 +125,7 @@ class Worker {
     int status = 0;
     if (::waitpid(process_, &status, WNOHANG) == 0) {
       const Clock::duration age(Clock::now().time_since_epoch().count() - board_->began);
-      const auto limit = std::chrono::seconds(settings_.mode == Mode::uncapped ? 300 : 20);
+      const auto limit = std::chrono::seconds(settings_.mode == Mode::uncapped ? 300 : 60);
       if (board_->began == 0 || age < limit) return false;
       ::kill(process_, SIGKILL);
       ::waitpid(process_, &status, 0);
