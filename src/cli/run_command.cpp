@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
-#include <new>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "exit_code.hpp"
-#include "map_runs.hpp"
 #include "messages.hpp"
-#include "progress.hpp"
+#include "runs.hpp"
 #include "selection.hpp"
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
@@ -35,55 +34,11 @@ std::string name_of(const StudyResult& result) {
 
 void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
 
-struct Results {
-  std::vector<StudyResult> list{};
-  bool last_interrupted = false;  ///< a signal ended the last one
-  bool fits_into_memory = true;   ///< false: ended because one did not
-
-  bool all_done(const Case& the_case) const {
-    return list.size() == the_case.runs.size() && !last_interrupted;
-  }
-};
-
-/// Runs until all is done or a signal comes. The run that the signal stops is kept as well; one for
-/// which there is not enough memory is not.
-Results run_all(const Arguments& arguments, const fs::path& folder, const Case& the_case,
-                const Session& session) {
-  Results all;
-  auto& results = all.list;
-  results.reserve(the_case.runs.size());
-  Progress progress{session.err, session.shows_progress};
-  for (const auto& planned : the_case.runs) try {
-      if (session.signal() != 0) break;
-      const auto number = std::to_string(results.size() + 1) + "/" +
-                          std::to_string(the_case.runs.size()) + " " + planned.study;
-      progress.begin(planned.label.empty() ? number : number + ", " + planned.label);
-      const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
-      StudyResult result = is_map ? run_map(arguments, folder, the_case, planned, session, progress)
-                                  : session.run_study(planned, [&](int points, double) {
-                                      progress.points(points);
-                                      return session.signal() == 0;
-                                    });
-      result.study = planned.study;
-      result.run = planned.run;
-      result.label = planned.label;
-      all.last_interrupted = session.signal() != 0 && !analysis::complete(result);
-      results.push_back(std::move(result));
-    } catch (const std::bad_alloc&) {
-      all.fits_into_memory = false;
-      break;
-    } catch (const std::length_error&) {
-      all.fits_into_memory = false;
-      break;
-    }
-  return all;
-}
-
 /// Says what is missing in a result and gives its exit code.
 int judge(const Case& the_case, const StudyResult& result, const Session& session) {
   const auto planned =
       std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const io::PlannedRun& run) {
-        return run.study == result.study && run.run == result.run;
+        return run.run == result.run && run.study == result.study;
       });
   const std::string problem =
       io::start_problem(result.start, planned == the_case.runs.end() ? nullptr : &*planned);
@@ -117,12 +72,29 @@ int worse(int a, int b) {
   return std::max(a, b);
 }
 
+/// Of many runs it is said how many are not complete; their table says why.
+int judge_rows(const Case& the_case, const Results& results, const Session& session) {
+  int code = all_done;
+  std::map<std::string, int> incomplete;
+  for (const StudyResult& result : results.list) {
+    if (!result.row || result.row->complete) continue;
+    ++incomplete[result.study];
+    code = worse(code, result.start.found ? partial : no_start_point);
+  }
+  for (const auto& sweep : the_case.sweeps)
+    if (const int count = incomplete[sweep.study]; count > 0)
+      say(session, sweep.study + ": " + std::to_string(count) +
+                       " runs are not complete: see the column status of their table");
+  return code;
+}
+
 int judge_all(const Case& the_case, const Results& results,
               const std::vector<io::Comparison>& comparisons, const Session& session) {
-  int code = all_done;
-  for (const auto& result : results.list) {
-    const bool was_interrupted = results.last_interrupted && &result == &results.list.back();
-    if (was_interrupted)
+  int code = judge_rows(the_case, results, session);
+  for (std::size_t i = 0; i < results.list.size(); ++i) {
+    const StudyResult& result = results.list[i];
+    if (result.row) continue;
+    if (results.interrupted[i])
       say(session, name_of(result) + ": interrupted");
     else
       code = worse(code, judge(the_case, result, session));
@@ -181,9 +153,8 @@ std::string interruption(int signal, const Case& the_case, const Results& result
          (pictures.empty() ? "" : "; not drawn: " + pictures);
 }
 
-/// The run for which there was not enough memory is the one behind those that were done.
-std::string shortage(const Case& the_case, const std::vector<StudyResult>& results) {
-  const PlannedRun& failed = the_case.runs[results.size()];
+std::string shortage(const Case& the_case, const std::vector<StudyResult>& results,
+                     const PlannedRun& failed) {
   return "out of memory in " + failed.study + ", run " + std::to_string(failed.run) + ": " +
          std::to_string(results.size()) + " of " + std::to_string(the_case.runs.size()) +
          " runs were done and are written";
@@ -229,8 +200,8 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
     say(session, "cannot write to standard output");
     code = input_output;
   }
-  if (!all.fits_into_memory) {
-    say(session, shortage(the_case, results));
+  if (all.failed != nullptr) {
+    say(session, shortage(the_case, results, *all.failed));
     code = out_of_memory;
   }
   if (const int signal = session.signal(); signal != 0) {

@@ -17,6 +17,7 @@ struct Reading {
   Problems& problems;
   FormulaBook& book;
   UnitLabels units{};
+  const std::vector<Parameter>* parameters = nullptr;  ///< once they are read
 };
 
 /// A node with its key path.
