@@ -35,16 +35,6 @@ std::string example(StudyKind kind) {
   }
 }
 
-bool read_flag(const TableReader& table, const std::string& name, bool otherwise,
-               Reading& reading) {
-  const Node* node = table.find(name);
-  if (node == nullptr) return otherwise;
-  if (node->kind == Node::Kind::boolean) return node->number != 0;
-  reading.problems.add(node->place, table.key_of(name),
-                       "got " + described(*node) + ", need true or false");
-  return otherwise;
-}
-
 std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, NumberTable& numbers,
                                  Reading& reading) {
   const bool whole_range = kind == StudyKind::threshold || kind == StudyKind::critical_load;
@@ -82,7 +72,7 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   const Item item{node ? node : &nothing, study.key_of(name)};
   const bool usable = node != nullptr && is_table(item, example(kind), reading);
   const TableReader table{usable ? *node : nothing, item.key, known_keys(kind), reading};
-  draft.tied = read_flag(table, "tied", true, reading);
+  draft.tied = table.flag("tied", true);
   if (kind == StudyKind::sensitivity) {
     draft.parameters =
         read_texts(table.list("parameters", "a list of names of parameters"), reading);

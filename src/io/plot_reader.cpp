@@ -98,8 +98,8 @@ std::optional<std::size_t> study_number(const std::string& name, const Item& at,
 
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
-  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",     "x_label",
-                                             "y_label", "x_factor", "y_factor", "curves"};
+  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",      "x_label",
+                                             "y_label", "x_factor", "y_factor", "curves", "polar"};
   std::vector<PlotDraft> plots;
   for (const Item& item : tables) {
     const TableReader table{*item.node, item.key, keys, reading};
@@ -116,6 +116,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     spec.y = draft.y.name;
     spec.x_label = table.text("x_label").value_or("");
     spec.y_label = table.text("y_label").value_or("");
+    spec.polar = table.flag("polar", false);
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
     const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");

@@ -54,6 +54,9 @@ class TableReader {
   std::size_t choice(const std::string& name, const std::vector<std::string>& words,
                      std::size_t otherwise) const;
 
+  /// true or false; `otherwise` if missing or wrong.
+  bool flag(const std::string& name, bool otherwise) const;
+
   /// A number; `otherwise` if missing.
   NumberId number(const std::string& name, const Rule& rule, NumberTable& numbers,
                   double otherwise) const;

@@ -303,15 +303,10 @@ std::vector<ExpectedDraft> read_columns(const TableReader& vary, Reading& readin
 }
 
 bool read_keeps_curves(const TableReader& vary, const VaryDraft& draft, Reading& reading) {
-  const Node* node = vary.find("curves");
-  if (node == nullptr) return true;
-  const std::string key = vary.key_of("curves");
-  if (node->kind != Node::Kind::boolean)
-    reading.problems.add(node->place, key, "got " + described(*node) + ", need true or false");
-  const bool keeps = node->kind != Node::Kind::boolean || node->number != 0;
+  const bool keeps = vary.flag("curves", true);
   if (!keeps && draft.columns.empty() && !vary.is_misspelt("table"))
     reading.problems.add(
-        node->place, key,
+        vary.find("curves")->place, vary.key_of("curves"),
         "got false without a table: nothing would be left of the runs, need table");
   return keeps;
 }

@@ -116,6 +116,8 @@ struct PlotSpec {
   std::string x = "deflection", y = "force";  ///< quantity names
   std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
   double x_factor = 1, y_factor = 1;          ///< plotted value = factor * quantity
+  bool polar =
+      false;  ///< the plotted x is an angle [rad], the plotted y the distance from the origin
   std::vector<PlotCurves> curves{};
 };
 
