@@ -39,6 +39,10 @@ set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
 set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
 
+# Degeneracies of critical curves, and where their load is stationary or jumps.
+set style line 25 linecolor rgb ink pointtype 13 pointsize 2.0
+set style line 26 linecolor rgb ink pointtype 1 pointsize 1.9 linewidth 2.2
+
 # Special points: one shape for each code.
 set style line 11 linecolor rgb ink pointtype 6 pointsize 2.4 linewidth 2.2   # start
 set style line 12 linecolor rgb ink pointtype 7 pointsize 1.9                 # LP
@@ -58,7 +62,9 @@ set style line 24 linecolor rgb ink pointtype 8 pointsize 2.2 linewidth 2.2   # 
 point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
                     code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : \
-                    code eq 'FM' ? 21 : code eq 'ES' ? 22 : code eq 'EU' ? 23 : code eq 'SC' ? 24 : 20
+                    code eq 'FM' ? 21 : code eq 'ES' ? 22 : code eq 'EU' ? 23 : code eq 'SC' ? 24 : \
+                    strstrt(' CP IC CX HT BB C2 FA CR TA AA PT TH ', ' '.code.' ') > 0 ? 25 : \
+                    code eq 'EX' || code eq 'JP' ? 26 : 20
 point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'LP' ? 'limit point (LP)' : \
                    code eq 'CL' ? 'corner limit point (CL)' : \
@@ -72,6 +78,20 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'ES' ? 'stable equilibrium (EQ)' : \
                    code eq 'EU' ? 'unstable equilibrium (EQ)' : \
                    code eq 'SC' ? 'stability changes (SC)' : \
+                   code eq 'CP' ? 'cusp (CP)' : \
+                   code eq 'IC' ? 'isola centre (IC)' : \
+                   code eq 'CX' ? 'crossing of branches (CX)' : \
+                   code eq 'HT' ? 'hilltop (HT)' : \
+                   code eq 'BB' ? 'birth of branch points (BB)' : \
+                   code eq 'C2' ? 'another mode (C2)' : \
+                   code eq 'FA' ? 'fold meets activation (FA)' : \
+                   code eq 'CR' ? 'corner loses its reversal (CR)' : \
+                   code eq 'TA' ? 'touch of an activation (TA)' : \
+                   code eq 'AA' ? 'two activations (AA)' : \
+                   code eq 'PT' ? 'turn of the parameter (PT)' : \
+                   code eq 'EX' ? 'extremum (EX)' : \
+                   code eq 'TH' ? 'threshold (TH)' : \
+                   code eq 'JP' ? 'jump (JP)' : \
                    code eq 'UR' ? 'unresolved (UR)' : ''
 
 set border 3 linecolor rgb ink linewidth 1.2

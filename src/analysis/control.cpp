@@ -1,12 +1,12 @@
 // Study kind `control`: commands along a path of targets.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <map>
 
 #include "branch_rows.hpp"
 #include "control_leg.hpp"
+#include "cpu_time.hpp"
 #include "grow_diagram.hpp"
 #include "not_held.hpp"
 #include "number_text.hpp"
@@ -40,14 +40,14 @@ class ControlRun {
   }
 
   StudyResult run() {
-    const std::clock_t began = std::clock();
+    const double began = thread_seconds();
     int next = 1;
     for (; next <= path_.count(); ++next) {
       if (observer_ && !observer_(next, path_.way(next))) break;
       go_to(next);
     }
     finish(next);
-    result_.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+    result_.seconds = thread_seconds() - began;
     return std::move(result_);
   }
 

@@ -1,7 +1,7 @@
 // The study kind `critical_curve`, and what the kinds of two parameters have in common.
 #include <algorithm>
-#include <ctime>
 
+#include "cpu_time.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "run_kinds.hpp"
@@ -52,7 +52,7 @@ Study base_study(const Study& study) {
 }
 
 StudyResult run_critical(const Study& study, const Observer& observer) {
-  const std::clock_t began = std::clock();
+  const double began = thread_seconds();
   StudyResult result;
   result.study = study.name;
   if (study.kind == StudyKind::sensitivity) {
@@ -68,11 +68,13 @@ StudyResult run_critical(const Study& study, const Observer& observer) {
       result.lambda_unit = lambda_unit_of(curves.base().study, curves.base().setup.system);
       if (study.kind == StudyKind::threshold)
         run_threshold(curves, study, observer, result);
+      else if (study.kind == StudyKind::critical_load)
+        run_critical_load(curves, study, observer, result);
       else
         run_curve(curves, study, observer, result);
     }
   }
-  result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  result.seconds = thread_seconds() - began;
   return result;
 }
 

@@ -21,8 +21,9 @@ void check_range(const Study& study, const std::string& key, Problems& problems)
   const CriticalPointSettings& s = study.critical;
   if (!(s.low < s.high)) problems.push_back(key + ".range: need low < high");
   const bool finite = std::isfinite(s.low) && std::isfinite(s.high);
-  if (study.kind == StudyKind::threshold && !finite)
-    problems.push_back(key + ".range: need two finite numbers");
+  const bool whole_range =
+      study.kind == StudyKind::threshold || study.kind == StudyKind::critical_load;
+  if (whole_range && !finite) problems.push_back(key + ".range: need two finite numbers");
   const auto number = std::find(s.cases->names.begin(), s.cases->names.end(), s.parameter);
   if (study.kind != StudyKind::critical_curve || number == s.cases->names.end()) return;
   const double value = s.cases->values[static_cast<std::size_t>(number - s.cases->names.begin())];
@@ -56,6 +57,8 @@ std::vector<std::string> problems_of_critical(const Study& study,
   for (const auto& [quantity, low, high] : study.until)
     if (quantity == s.parameter)
       problems.push_back("until." + quantity + ": goes into " + key + ".range");
+  if (study.kind == StudyKind::critical_load && s.values < 2)
+    problems.push_back(key + ".values: need at least 2");
   if (study.kind == StudyKind::critical_curve && s.point.empty())
     problems.push_back(key + ".of: need the label of a special point such as \"LP1\"");
   return problems;

@@ -11,6 +11,8 @@ Study base_study(const Study& study);
 
 void run_threshold(const CaseCurves& curves, const Study& study, const Observer& observer,
                    StudyResult& result);
+void run_critical_load(const CaseCurves& curves, const Study& study, const Observer& observer,
+                       StudyResult& result);
 void run_sensitivity(const Study& study, const Observer& observer, StudyResult& result);
 
 }  // namespace springfold::analysis

@@ -56,6 +56,8 @@ std::string code_of(EventKind kind) {
       return "EX";
     case EventKind::threshold:
       return "TH";
+    case EventKind::jump:
+      return "JP";
   }
   return "??";
 }
@@ -68,6 +70,7 @@ int ways_not_followed(const StudyResult& result) {
 }
 
 bool complete(const StudyResult& result) {
+  if (result.row) return result.row->complete;
   return result.start.found && result.doubts.empty() &&
          std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
            return branch.backward.complete && branch.forward.complete &&

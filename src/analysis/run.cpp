@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <ctime>
 
 #include "branch_rows.hpp"
 #include "branches.hpp"
 #include "closure_rank.hpp"
+#include "cpu_time.hpp"
 #include "equilibria.hpp"
 #include "limits.hpp"
 #include "run_kinds.hpp"
@@ -223,7 +223,7 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
 StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study,
                            const ParameterFamily* family, const Observer& observer,
                            const TraceBy& trace_by) {
-  const std::clock_t began = std::clock();
+  const double began = thread_seconds();
   StudyResult result;
   result.study = study.name;
   Setup setup = set_up(mechanism, study, family);
@@ -265,7 +265,7 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
     }
     if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
   }
-  result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  result.seconds = thread_seconds() - began;
   return result;
 }
 

@@ -23,6 +23,8 @@ std::string_view to_string(StudyKind kind) {
       return "threshold";
     case StudyKind::sensitivity:
       return "sensitivity";
+    case StudyKind::critical_load:
+      return "critical_load";
   }
   return "";
 }

@@ -4,6 +4,7 @@
 
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "first_unwanted.hpp"
 #include "number_text.hpp"
 
 namespace springfold::analysis {
@@ -12,34 +13,11 @@ namespace {
 using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
-using continuation::Degeneracy;
 
 /// Relative distance at which an answer is traced again, on both sides.
 constexpr double beside = 1e-6;
 /// Pieces of the boundary that are followed one after the other.
 constexpr int most_pieces = 40;
-
-/// Where the end of the piece is in the parameter: there the unwanted point is gone.
-bool ends_piece(Degeneracy kind) {
-  switch (kind) {
-    case Degeneracy::cusp:
-    case Degeneracy::isola_centre:
-    case Degeneracy::crossing:
-    case Degeneracy::branch_points_merge:
-    case Degeneracy::fold_meets_activation:
-    case Degeneracy::corner_loses_reversal:
-    case Degeneracy::touches_surface:
-    case Degeneracy::two_switches:
-    case Degeneracy::turn:
-      return true;
-    case Degeneracy::hilltop:
-    case Degeneracy::corank_two:
-    case Degeneracy::extremum:
-    case Degeneracy::user:
-      return false;
-  }
-  return false;
-}
 
 class Threshold {
  public:
@@ -73,47 +51,14 @@ class Threshold {
   }
 
  private:
-  bool is_unwanted(const Member& member, const BasePath& path, const SpecialPoint& point) const {
-    const bool only_turns = study_.critical.unwanted == Unwanted::limit_point;
-    const bool of_force = point.hit.kind == continuation::HitKind::user;
-    const bool dead = study_.critical.stability == StabilityOf::dead_load;
-    switch (point.kind) {
-      case EventKind::limit_point:
-        return only_turns || !of_force || dead;
-      case EventKind::corner_limit_point:
-        return only_turns || dead || point.hit.kind == continuation::HitKind::corner;
-      case EventKind::branch_point:
-      case EventKind::branching_kink:
-      case EventKind::unresolved:
-        return !only_turns;
-      case EventKind::switching: {
-        const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
-        if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
-          return false;
-        const auto column = static_cast<std::size_t>(index - member.quantities.data());
-        return path.branch.samples[point.row + 1].values[column] > 0;
-      }
-      default:
-        return false;
-    }
-  }
-
   /// The first unwanted point on the path from the start at this value.
   std::optional<SpecialPoint> unwanted_at(double mu) {
-    const Member* member = curves_.at(mu);
-    if (member == nullptr) {
-      why_ = "there is no start";
-      return std::nullopt;
-    }
-    const BasePath path = base_path(*member, true, observer_);
-    if (!path.problem.empty() || !path.branch.forward.complete)
-      why_ = path.problem.empty() ? path.branch.forward.reason : path.problem;
-    for (const SpecialPoint& point : path.points) {
-      if (!is_unwanted(*member, path, point)) continue;
+    FirstUnwanted first = first_unwanted(curves_.at(mu), study_.critical, observer_);
+    if (first.point)
       why_.clear();
-      return point;
-    }
-    return std::nullopt;
+    else if (!first.why.empty())
+      why_ = first.why;
+    return first.point;
   }
 
   /// Follows an unwanted point to where it is gone. @returns false where the search is over

@@ -5,12 +5,12 @@
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "commanded.hpp"
+#include "cpu_time.hpp"
 #include "number_text.hpp"
 #include "run_kinds.hpp"
 #include "springfold/continuation/interrupted.hpp"
@@ -274,7 +274,7 @@ std::string coordinates_of(const Vector& pose) {
 
 StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study,
                           const Observer& observer) {
-  const std::clock_t began = std::clock();
+  const double began = thread_seconds();
   StudyResult result;
   result.study = study.name;
   result.quantities = columns_of(study, mechanism);
@@ -288,7 +288,7 @@ StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study,
   result.start.attempts = 1;
   result.start.method = "root finding along rays from the centre";
   const auto finished = [&] {
-    result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+    result.seconds = thread_seconds() - began;
     return result;
   };
   if (!region.middle().closed) {

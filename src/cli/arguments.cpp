@@ -93,11 +93,13 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
                   "Folder for results (results/<name of the case> when not given)")
       ->type_name("DIR");
   run->add_option("--threads", arguments.threads,
-                  "Threads for maps (all cores when not given); results do not depend on it")
+                  "Threads (all cores when not given); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  run->add_flag("--resume", arguments.resumes,
-                "Complete maps that an interrupted run of the same case left in the folder");
+  run->add_flag(
+      "--resume", arguments.resumes,
+      "Complete maps and tables of many runs that an interrupted run of the same case left in "
+      "the folder");
   bool is_without_plots = false;
   run->add_flag("--no-plots", is_without_plots, "Draw no figures");
   run->add_flag("--json", arguments.prints_json,

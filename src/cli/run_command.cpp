@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
+#include <map>
 #include <memory>
-#include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "exit_code.hpp"
 #include "in_time.hpp"
-#include "map_runs.hpp"
 #include "messages.hpp"
-#include "progress.hpp"
+#include "runs.hpp"
 #include "selection.hpp"
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
@@ -37,78 +36,11 @@ std::string name_of(const StudyResult& result) {
 
 void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
 
-struct Results {
-  std::vector<StudyResult> list{};
-  bool last_interrupted = false;  ///< a signal ended the last one
-  bool gave_up = false;  ///< the one behind the last was given up: a thread is still at work on it
-  bool fits_into_memory = true;  ///< false: ended because one did not
-
-  bool all_done(const Case& the_case) const {
-    return list.size() == the_case.runs.size() && !last_interrupted;
-  }
-};
-
-/// What runs need, with a life of its own: the thread of a run that was given up still uses it.
-struct Work {
-  Arguments arguments{};
-  fs::path folder{};
-  std::shared_ptr<const Case> the_case{};
-  Session session;
-  std::shared_ptr<Progress> progress{};
-};
-
-StudyResult run_one(const Work& work, const PlannedRun& planned) {
-  const Session& session = work.session;
-  const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
-  const auto observe = [&work](int points, double) {
-    if (work.session.signal() != 0) return false;
-    work.progress->points(points);
-    return true;
-  };
-  StudyResult result = is_map ? run_map(work.arguments, work.folder, *work.the_case, planned,
-                                        session, *work.progress)
-                              : session.run_study(planned, observe);
-  result.study = planned.study;
-  result.run = planned.run;
-  result.label = planned.label;
-  return result;
-}
-
-/// Runs until all is done or a signal comes. The run that the signal stops is kept as well if it ends in
-/// time; one for which there is not enough memory is not.
-Results run_all(const Work& work) {
-  const auto& runs = work.the_case->runs;
-  const Session& session = work.session;
-  Results all;
-  auto& results = all.list;
-  results.reserve(runs.size());
-  for (const auto& planned : runs) try {
-      if (session.signal() != 0) break;
-      const auto number = std::to_string(results.size() + 1) + "/" + std::to_string(runs.size()) +
-                          " " + planned.study;
-      work.progress->begin(planned.label.empty() ? number : number + ", " + planned.label);
-      auto result =
-          done_in_time<StudyResult>([work, &planned] { return run_one(work, planned); }, session);
-      all.gave_up = !result.has_value();
-      if (all.gave_up) break;
-      all.last_interrupted = session.signal() != 0 && !analysis::complete(*result);
-      results.push_back(std::move(*result));
-    } catch (const std::bad_alloc&) {
-      all.fits_into_memory = false;
-      break;
-    } catch (const std::length_error&) {
-      all.fits_into_memory = false;
-      break;
-    }
-  work.progress->clear();
-  return all;
-}
-
 /// Says what is missing in a result and gives its exit code.
 int judge(const Case& the_case, const StudyResult& result, const Session& session) {
   const auto planned =
       std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const io::PlannedRun& run) {
-        return run.study == result.study && run.run == result.run;
+        return run.run == result.run && run.study == result.study;
       });
   const io::PlannedRun* plan = planned == the_case.runs.end() ? nullptr : &*planned;
   const std::string problem = io::start_problem(result.start, plan);
@@ -143,21 +75,36 @@ int worse(int a, int b) {
   return std::max(a, b);
 }
 
+/// Of many runs it is said how many are not complete; their table says why.
+int judge_rows(const Case& the_case, const Results& results, const Session& session) {
+  int code = all_done;
+  std::map<std::string, int> incomplete;
+  for (const StudyResult& result : results.list) {
+    if (!result.row || result.row->complete) continue;
+    ++incomplete[result.study];
+    code = worse(code, result.start.found ? partial : no_start_point);
+  }
+  for (const auto& sweep : the_case.sweeps)
+    if (const int count = incomplete[sweep.study]; count > 0)
+      say(session, sweep.study + ": " + std::to_string(count) +
+                       " runs are not complete: see the column status of their table");
+  return code;
+}
+
 int judge_all(const Case& the_case, const Results& results,
               const std::vector<io::Comparison>& comparisons, const Session& session) {
-  int code = all_done;
-  for (const auto& result : results.list) {
-    const bool was_interrupted = results.last_interrupted && &result == &results.list.back();
-    if (was_interrupted)
+  int code = judge_rows(the_case, results, session);
+  for (std::size_t i = 0; i < results.list.size(); ++i) {
+    const StudyResult& result = results.list[i];
+    if (result.row) continue;
+    if (results.interrupted[i])
       say(session, name_of(result) + ": interrupted");
     else
       code = worse(code, judge(the_case, result, session));
   }
-  if (results.gave_up) {
-    const PlannedRun& last = the_case.runs[results.list.size()];
-    say(session, last.study + ", run " + std::to_string(last.run) +
+  for (const PlannedRun* run : results.given_up)
+    say(session, run->study + ", run " + std::to_string(run->run) +
                      ": interrupted in the middle of a step: nothing of it is kept");
-  }
   const auto failed = std::count_if(comparisons.begin(), comparisons.end(),
                                     [](const io::Comparison& c) { return !c.holds; });
   if (failed == 0) return code;
@@ -212,9 +159,8 @@ std::string interruption(int signal, const Case& the_case, const Results& result
          (pictures.empty() ? "" : "; not drawn: " + pictures);
 }
 
-/// The run for which there was not enough memory is the one behind those that were done.
-std::string shortage(const Case& the_case, const std::vector<StudyResult>& results) {
-  const PlannedRun& failed = the_case.runs[results.size()];
+std::string shortage(const Case& the_case, const std::vector<StudyResult>& results,
+                     const PlannedRun& failed) {
   return "out of memory in " + failed.study + ", run " + std::to_string(failed.run) + ": " +
          std::to_string(results.size()) + " of " + std::to_string(the_case.runs.size()) +
          " runs were done and are written";
@@ -238,12 +184,11 @@ struct Ending {
 };
 
 /// Runs all, writes, prints, draws.
-Ending run_in(const Work& work) {
-  const Arguments& arguments = work.arguments;
-  const fs::path& folder = work.folder;
-  const Case& the_case = *work.the_case;
-  const Session& session = work.session;
-  const Results all = run_all(work);
+Ending run_in(const fs::path& folder, const Arguments& arguments,
+              const std::shared_ptr<const Case>& shared, const Session& session) {
+  const Case& the_case = *shared;
+  const Results all = run_all(arguments, folder, shared, session);
+  const bool gave_up = !all.given_up.empty();
   const std::vector<StudyResult>& results = all.list;
   const bool is_whole = all.all_done(the_case);
   const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
@@ -252,7 +197,7 @@ Ending run_in(const Work& work) {
                       arguments.draws_plots ? io::SetState::being_written : state);
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
-  if (!is_done(write, session)) return {input_output, all.gave_up};
+  if (!is_done(write, session)) return {input_output, gave_up};
   const auto comparisons = io::compare(the_case.expected, results);
   const bool is_printed = print(arguments, the_case, results, comparisons, session);
   int code = judge_all(the_case, all, comparisons, session);
@@ -269,15 +214,15 @@ Ending run_in(const Work& work) {
     say(session, "cannot write to standard output");
     code = input_output;
   }
-  if (!all.fits_into_memory) {
-    say(session, shortage(the_case, results));
+  if (all.failed != nullptr) {
+    say(session, shortage(the_case, results, *all.failed));
     code = out_of_memory;
   }
   if (const int signal = session.signal(); signal != 0) {
     say(session, interruption(signal, the_case, all, missing, folder));
     code = interrupted_by(signal);
   }
-  return {code, all.gave_up};
+  return {code, gave_up};
 }
 
 }  // namespace
@@ -306,13 +251,9 @@ int run_command(const Arguments& arguments, const Session& session) {
   std::optional<io::FolderLock> lock;
   if (!is_done([&] { lock.emplace(folder); }, session)) return input_output;
   io::remove_leftovers(folder);
-  const Work work{
-      .arguments = arguments,
-      .folder = folder,
-      .the_case = std::make_shared<const Case>(with_studies(std::move(*loaded), arguments.studies)),
-      .session = session,
-      .progress = std::make_shared<Progress>(session.err, session.shows_progress)};
-  const Ending ending = run_in(work);
+  const auto the_case =
+      std::make_shared<const Case>(with_studies(std::move(*loaded), arguments.studies));
+  const Ending ending = run_in(folder, arguments, the_case, session);
   lock.reset();
   if (ending.gave_up) session.leave_at_once(ending.code);
   return ending.code;

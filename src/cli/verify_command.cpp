@@ -1,13 +1,10 @@
 #include "verify_command.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <system_error>
-#include <thread>
 
 #include "exit_code.hpp"
 #include "messages.hpp"
+#include "parallel.hpp"
 #include "springfold/io/read_case.hpp"
 #include "springfold/io/verification.hpp"
 
@@ -68,27 +65,10 @@ void run_one(VerifiedCase& verified, std::size_t i, const Session& session) {
 void run_all(std::vector<VerifiedCase>& cases, int jobs, const Session& session) {
   for (VerifiedCase& verified : cases) verified.results.resize(verified.the_case.runs.size());
   const std::vector<Task> tasks = tasks_of(cases);
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(tasks.size());
-  const auto work = [&] {
-    for (std::size_t t = next++; t < tasks.size(); t = next++) try {
-        for (const std::size_t i : tasks[t].runs)
-          if (session.signal() == 0) run_one(cases[tasks[t].of_case], i, session);
-      } catch (...) {
-        errors[t] = std::current_exception();
-      }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int j = 1; j < jobs; ++j) try {
-        threads.emplace_back(work);
-      } catch (const std::system_error&) {  // as many as the system gives
-        break;
-      }
-    work();
-  }
-  for (const auto& error : errors)
-    if (error) std::rethrow_exception(error);
+  in_parallel(tasks.size(), jobs, [&](std::size_t t) {
+    for (const std::size_t i : tasks[t].runs)
+      if (session.signal() == 0) run_one(cases[tasks[t].of_case], i, session);
+  });
 }
 
 /// Reads all cases; mistakes of all of them are said.
@@ -139,8 +119,7 @@ int verify_command(const Arguments& arguments, const Session& session) {
     say(session, "nothing was run");
     return wrong_case_file;
   }
-  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  run_all(cases, arguments.jobs > 0 ? arguments.jobs : std::max(1, processors), session);
+  run_all(cases, thread_count(arguments.jobs), session);
   if (const int signal = session.signal(); signal != 0) {
     say(session, "interrupted: nothing is claimed");
     return interrupted_by(signal);

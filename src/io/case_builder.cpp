@@ -147,6 +147,22 @@ class Builder {
     if (!check(planned, of_mechanism, i)) return;
     if (run == 1) add_hints(*draft_, i, of_mechanism, numbers, planned.mechanism, result_.hints);
     result_.runs.push_back(std::move(planned));
+    if (study.vary) add_columns(i, parameters);
+  }
+
+  /// What the last run has in its sweep's table.
+  void add_columns(std::size_t i, const Values& parameters) {
+    const VaryDraft& vary = *draft_->studies[i].vary;
+    PlannedRun& planned = result_.runs.back();
+    planned.keeps_curves = vary.keeps_curves;
+    for (const ExpectedDraft& column : vary.columns)
+      planned.columns.push_back(wanted(column, i, planned.run, parameters));
+    if (vary.columns.empty() || planned.run != 1) return;
+    SweepTable table{.study = planned.study};
+    for (const std::size_t p : vary.parameters)
+      table.parameters.push_back(draft_->parameters[p].name);
+    for (const ExpectedValue& column : planned.columns) table.columns.push_back(column.name);
+    result_.sweeps.push_back(std::move(table));
   }
 
   /// How many links a link is cut into cannot change along a branch.
@@ -172,8 +188,11 @@ class Builder {
   std::string label_of(const StudyDraft& study, int run, const Values& parameters) const {
     if (!study.vary) return {};
     if (!study.vary->labels.empty()) return study.vary->labels[static_cast<std::size_t>(run - 1)];
-    const std::size_t p = study.vary->parameter;
-    return draft_->parameters[p].name + " = " + rounded(parameters.values[p], 12);
+    std::string label;
+    for (const std::size_t p : study.vary->parameters)
+      label += (label.empty() ? "" : ", ") + draft_->parameters[p].name + " = " +
+               rounded(parameters.values[p], 12);
+    return label;
   }
 
   /// Rules of model and analysis; names of quantities once per study.
@@ -221,6 +240,13 @@ class Builder {
       check_quantity(quantity, names_[study][r], draft_->studies[study], problems_);
   }
 
+  void check_curves(const std::string& plot, std::size_t i) {
+    const StudyDraft& study = draft_->studies[i];
+    if (study.vary && !study.vary->keeps_curves)
+      problems_.add(study.place, study.key + ".vary.curves",
+                    "got false, need true: plot \"" + plot + "\" draws these curves");
+  }
+
   /// "K.x.y" and "C.x.y"; nothing for all other names.
   std::optional<MatrixEntry> entry_of(const NamedPlace& quantity, std::size_t study) const {
     if (!quantity.name.starts_with("K.") && !quantity.name.starts_with("C.")) return std::nullopt;
@@ -243,6 +269,7 @@ class Builder {
       for (const PlotCurves& curves : spec.curves)
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
+          check_curves(spec.name, i);
           check_use(plot.x, i, 1);
           check_use(plot.y, i, 1);
         }
@@ -270,25 +297,36 @@ class Builder {
   void add_expectations() {
     result_.expected.notes = draft_->notes;
     for (const ExpectedDraft& draft : draft_->expected) {
-      ExpectedValue value = draft.value;
       const StudyDraft& study = draft_->studies[*draft.study];
+      const int run = draft.value.run;
       const Values parameters =
-          evaluate(draft_->parameters, study.changes(value.run), draft_->book, "", problems_);
+          evaluate(draft_->parameters, study.changes(run), draft_->book, "", problems_);
       const std::vector<double> numbers = draft.numbers.values(draft_->book, parameters).values;
+      ExpectedValue value = wanted(draft, *draft.study, run, parameters);
       value.expected = numbers[draft.expected];
       value.tolerance = numbers[draft.tolerance];
-      value.factor = numbers[draft.factor];
-      for (const NearDraft& near : draft.near) {
-        NamedPlace column = near.quantity;
-        if (value.at == "J") column.name = jump_column(column.name);
-        check_use(column, *draft.study, value.run);
-        value.near.push_back({near.quantity.name, numbers[near.value]});
-      }
-      check_use(draft.per, *draft.study, value.run);
-      value.entry = entry_of(draft.quantity, *draft.study);
-      if (!value.entry) check_use(draft.quantity, *draft.study, value.run);
       result_.expected.values.push_back(std::move(value));
     }
+  }
+
+  /// What is looked up in a run, with its numbers; names of quantities are checked.
+  ExpectedValue wanted(const ExpectedDraft& draft, std::size_t study, int run,
+                       const Values& parameters) {
+    const std::vector<double> numbers = draft.numbers.values(draft_->book, parameters).values;
+    ExpectedValue value = draft.value;
+    value.study = draft_->studies[study].name;
+    value.run = run;
+    value.factor = numbers[draft.factor];
+    for (const NearDraft& near : draft.near) {
+      NamedPlace column = near.quantity;
+      if (value.at == "J") column.name = jump_column(column.name);
+      check_use(column, study, run);
+      value.near.push_back({near.quantity.name, numbers[near.value]});
+    }
+    check_use(draft.per, study, run);
+    value.entry = entry_of(draft.quantity, study);
+    if (!value.entry) check_use(draft.quantity, study, run);
+    return value;
   }
 
   std::shared_ptr<const CaseDraft> draft_;

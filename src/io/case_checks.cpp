@@ -22,6 +22,11 @@ void check_runs(const CaseDraft& draft, const StudyDraft& study, std::vector<boo
     const auto body = static_cast<std::size_t>(study.body);
     if (body <= draft.mechanism.bodies.size())
       check_direction(study, space_of(draft, study), numbers, when, problems);
+    if (study.vary)
+      for (const ExpectedDraft& column : study.vary->columns) {
+        std::vector<bool> none;
+        column.numbers.check(column.numbers.values(draft.book, parameters), when, problems, none);
+      }
     for (const ExpectedDraft& value : draft.expected) {
       const bool compared = value.study && &draft.studies[*value.study] == &study;
       if (!compared || value.value.run != run) continue;

@@ -23,26 +23,12 @@ struct PlotDraft {
   NamedPlace x{}, y{};
 };
 
-struct NearDraft {
-  NamedPlace quantity{};
-  NumberId value = 0;
-};
-
 struct MapPlotDraft {
   MapPlotSpec spec{};  ///< without its numbers
   NumberTable numbers{};
   NumberId factor = 0, x_factor = 0, y_factor = 0;
   std::vector<NumberId> levels{}, range{};
   NamedPlace quantity{};
-};
-
-struct ExpectedDraft {
-  ExpectedValue value{};  ///< without its numbers
-  NumberTable numbers{};
-  NumberId expected = 0, tolerance = 0, factor = 0;
-  std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
-  NamedPlace quantity{}, per{};
-  std::vector<NearDraft> near{};
 };
 
 struct CaseDraft {

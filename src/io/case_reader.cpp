@@ -151,6 +151,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
   draft.units = read_units(documents, reading);
   reading.units = draft.units;
   read_parameters(entries, overrides, draft, reading);
+  reading.parameters = &draft.parameters;
 
   const std::vector<Item> bodies = tables_of(documents, "body", reading);
   const std::vector<Item> chains = tables_of(documents, "chain", reading);

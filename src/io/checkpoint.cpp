@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "atomic_file.hpp"
 #include "manifest.hpp"
@@ -65,6 +66,49 @@ bool read_row(std::string_view line, PartialRows& all) {
   return true;
 }
 
+fs::path row_path_of(const fs::path& folder, const std::string& study) {
+  return folder / (".checkpoint-" + safe_file_name(study) + "-rows");
+}
+
+std::string row_header_of(const Case& the_case, const std::string& study) {
+  return "springfold rows 1 " + std::string{version} + " " + the_case.hash + " " + study + "\n";
+}
+
+void append_numbers(std::string& text, const std::vector<double>& values) {
+  text += "\t" + std::to_string(values.size());
+  for (const double value : values)
+    text += "\t" + (std::isnan(value) ? std::string(".") : shortest(value));
+}
+
+bool read_numbers(std::string_view& line, std::vector<double>& values) {
+  std::size_t count = 0;
+  if (!read_number(taken(line, '\t'), count) || count > line.size()) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const std::string_view field = taken(line, '\t');
+    if (field != "." && !read_number(field, value)) return false;
+    values.push_back(value);
+  }
+  return true;
+}
+
+/// run, start found, complete, status, values, compared values.
+std::optional<analysis::StudyResult> kept_row(std::string_view line, const PlannedRun& planned) {
+  analysis::StudyResult result{.study = planned.study, .run = planned.run, .label = planned.label};
+  analysis::SweepRow row;
+  int found = 0, complete = 0;
+  if (!read_number(taken(line, '\t'), found) || !read_number(taken(line, '\t'), complete))
+    return std::nullopt;
+  result.start.found = found == 1;
+  row.complete = complete == 1;
+  row.status = taken(line, '\t');
+  if (!read_numbers(line, row.values) || !read_numbers(line, row.compared) ||
+      row.values.size() != planned.columns.size())
+    return std::nullopt;
+  result.row = std::make_shared<const analysis::SweepRow>(std::move(row));
+  return result;
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& folder, const Case& the_case, const PlannedRun& planned,
@@ -101,11 +145,55 @@ std::optional<PartialRows> read_checkpoint(const fs::path& folder, const Case& t
   return all;
 }
 
+void write_row_checkpoint(const fs::path& folder, const Case& the_case, const std::string& study,
+                          const std::vector<const analysis::StudyResult*>& done) {
+  std::string text = row_header_of(the_case, study);
+  for (const analysis::StudyResult* result : done) {
+    text += std::to_string(result->run) + "\t" + (result->start.found ? "1" : "0") + "\t" +
+            (result->row->complete ? "1" : "0") + "\t" + result->row->status;
+    append_numbers(text, result->row->values);
+    append_numbers(text, result->row->compared);
+    text += "\n";
+  }
+  text += "end\n";
+  write_file(row_path_of(folder, study), text);
+  put_on_disk(row_path_of(folder, study));
+}
+
+std::map<int, analysis::StudyResult> read_row_checkpoint(const fs::path& folder,
+                                                         const Case& the_case,
+                                                         const std::string& study) {
+  const fs::path path = row_path_of(folder, study);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return {};
+  const std::string text = read_file(path);
+  const std::string header = row_header_of(the_case, study);
+  if (!text.starts_with(header) || !text.ends_with("\nend\n")) return {};
+  std::map<int, const PlannedRun*> planned;
+  for (const PlannedRun& run : the_case.runs)
+    if (run.study == study) planned[run.run] = &run;
+  std::string_view rest = std::string_view{text}.substr(header.size());
+  rest.remove_suffix(4);
+  std::map<int, analysis::StudyResult> known;
+  while (!rest.empty()) {
+    std::string_view line = taken(rest, '\n');
+    int run = 0;
+    if (!read_number(taken(line, '\t'), run) || !planned.contains(run)) return {};
+    auto result = kept_row(line, *planned[run]);
+    if (!result) return {};
+    known.emplace(run, std::move(*result));
+  }
+  return known;
+}
+
 void remove_checkpoints(const fs::path& folder, const Case& the_case) {
   std::vector<fs::path> there;
   std::error_code ignored;
   for (const PlannedRun& planned : the_case.runs)
     if (fs::exists(path_of(folder, planned), ignored)) there.push_back(path_of(folder, planned));
+  for (const SweepTable& sweep : the_case.sweeps)
+    if (fs::exists(row_path_of(folder, sweep.study), ignored))
+      there.push_back(row_path_of(folder, sweep.study));
   if (there.empty()) return;
   const auto files = files_listed_in(folder);
   for (const std::string& file : files) put_on_disk(folder / file);

@@ -31,6 +31,17 @@ bool agrees(const ExpectedValue& expected, double ours) {
   return false;
 }
 
+/// The value of a run of which only its row is kept: the how-manieth of this run it is says where it stands.
+double kept_value(const Expectations& expected, const ExpectedValue& value,
+                  const StudyResult& result) {
+  std::size_t at = 0;
+  for (const ExpectedValue& other : expected.values) {
+    if (&other == &value) break;
+    if (other.study == value.study && other.run == value.run) ++at;
+  }
+  return at < result.row->compared.size() ? result.row->compared[at] : nothing;
+}
+
 /// Headings in order of first appearance.
 std::vector<std::string> groups_of(const std::vector<Comparison>& comparisons) {
   std::vector<std::string> groups;
@@ -47,7 +58,9 @@ std::vector<Comparison> compare(const Expectations& expected,
   std::vector<Comparison> comparisons;
   for (const auto& value : expected.values) {
     const StudyResult* result = result_of(results, value.study, value.run);
-    const double ours = result == nullptr ? nothing : value.factor * found_value(value, *result);
+    const double ours = result == nullptr ? nothing
+                        : result->row     ? kept_value(expected, value, *result)
+                                          : value.factor * found_value(value, *result);
     comparisons.push_back({.expected = value, .ours = ours, .holds = agrees(value, ours)});
   }
   return comparisons;

@@ -1,6 +1,7 @@
 // Settings of studies of special points in a second parameter, numbers still formulas.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct CriticalPointDraft {
   analysis::Unwanted unwanted = analysis::Unwanted::limit_point;
   analysis::StabilityOf stability = analysis::StabilityOf::control;
   bool smallest = true, tied = true;
+  std::optional<NumberId> values{};
 };
 
 /// The table that has the name of the study's kind; reports a missing one.

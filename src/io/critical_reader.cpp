@@ -16,6 +16,8 @@ std::vector<std::string> known_keys(StudyKind kind) {
       return {"of", "parameter", "range", "tied"};
     case StudyKind::threshold:
       return {"of", "parameter", "range", "tied", "index", "value"};
+    case StudyKind::critical_load:
+      return {"of", "parameter", "range", "tied", "index", "values"};
     default:
       return {"parameters", "tied"};
   }
@@ -26,33 +28,24 @@ std::string example(StudyKind kind) {
     case StudyKind::critical_curve:
       return "a table such as { of = \"LP1\", parameter = \"k\", range = [0, 1] }";
     case StudyKind::threshold:
+    case StudyKind::critical_load:
       return "a table such as { of = \"limit_point\", parameter = \"k\", range = [0, 1] }";
     default:
       return "a table such as { parameters = [\"k\"] }";
   }
 }
 
-bool read_flag(const TableReader& table, const std::string& name, bool otherwise,
-               Reading& reading) {
-  const Node* node = table.find(name);
-  if (node == nullptr) return otherwise;
-  if (node->kind == Node::Kind::boolean) return node->number != 0;
-  reading.problems.add(node->place, table.key_of(name),
-                       "got " + described(*node) + ", need true or false");
-  return otherwise;
-}
-
 std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, NumberTable& numbers,
                                  Reading& reading) {
-  const Node* node =
-      kind == StudyKind::threshold ? table.require("range", "[low, high]") : table.find("range");
+  const bool whole_range = kind == StudyKind::threshold || kind == StudyKind::critical_load;
+  const Node* node = whole_range ? table.require("range", "[low, high]") : table.find("range");
   if (node == nullptr) return {};
   if (node->kind != Node::Kind::array || node->items.size() != 2) {
     reading.problems.add(node->place, table.key_of("range"),
                          "got " + described(*node) + ", need [low, high]");
     return {};
   }
-  const Range rule = kind == StudyKind::threshold ? Range::finite : Range::maybe_infinite;
+  const Range rule = whole_range ? Range::finite : Range::maybe_infinite;
   auto ids = read_numbers(table.list("range", "[low, high]"), {rule, ""}, numbers, reading);
   numbers.require_less(ids[0], ids[1], "low < high");
   return ids;
@@ -60,7 +53,9 @@ std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, Numbe
 
 }  // namespace
 
-std::vector<std::string> critical_keys() { return {"critical_curve", "threshold", "sensitivity"}; }
+std::vector<std::string> critical_keys() {
+  return {"critical_curve", "threshold", "sensitivity", "critical_load"};
+}
 
 CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, NumberTable& numbers,
                                  Reading& reading) {
@@ -77,7 +72,7 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   const Item item{node ? node : &nothing, study.key_of(name)};
   const bool usable = node != nullptr && is_table(item, example(kind), reading);
   const TableReader table{usable ? *node : nothing, item.key, known_keys(kind), reading};
-  draft.tied = read_flag(table, "tied", true, reading);
+  draft.tied = table.flag("tied", true);
   if (kind == StudyKind::sensitivity) {
     draft.parameters =
         read_texts(table.list("parameters", "a list of names of parameters"), reading);
@@ -104,6 +99,11 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   draft.stability = table.choice("index", stability_words, 0) == 0
                         ? analysis::StabilityOf::control
                         : analysis::StabilityOf::dead_load;
+  if (kind == StudyKind::critical_load) {
+    constexpr double usual_values = 61;
+    draft.values = table.number("values", {Range::at_least_two, ""}, numbers, usual_values);
+    return draft;
+  }
   draft.smallest = table.choice("value", value_words, 0) == 0;
   return draft;
 }
@@ -118,6 +118,7 @@ void build_critical(const CriticalPointDraft& draft, const std::vector<double>& 
     settings.high = numbers[draft.range[1]];
   }
   settings.tied = draft.tied;
+  if (draft.values) settings.values = static_cast<int>(numbers[*draft.values]);
   settings.unwanted = draft.unwanted;
   settings.stability = draft.stability;
   settings.smallest = draft.smallest;

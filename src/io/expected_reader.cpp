@@ -4,6 +4,7 @@
 #include "compared_quantity.hpp"
 #include "jump_access.hpp"
 #include "plot_reader.hpp"
+#include "study_reader.hpp"
 
 namespace springfold::io {
 namespace {
@@ -88,6 +89,24 @@ int read_run(const TableReader& table, const StudyDraft& study, Reading& reading
 
 }  // namespace
 
+ExpectedDraft read_wanted(const TableReader& table, Reading& reading) {
+  ExpectedDraft draft;
+  ExpectedValue& value = draft.value;
+  value.at = table.text("at").value_or("start");
+  if (table.has("at") || table.has("near")) check_point(table, value.at, reading);
+  draft.near = read_near(table, draft.numbers, reading);
+  draft.quantity = read_quantity(table, reading);
+  if (const auto quantity = table.text("quantity")) value.quantity = *quantity;
+  if (const auto per = table.text("per")) {
+    value.per = *per;
+    draft.per = {*per, table.find("per")->place, table.key_of("per")};
+  }
+  if (table.has("side"))
+    value.side = table.choice("side", side_words, 0) == 1 ? Side::before : Side::after;
+  draft.factor = table.number("factor", {}, draft.numbers, 1);
+  return draft;
+}
+
 std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies, Reading& reading) {
   static const std::vector<std::string> keys{
@@ -96,27 +115,15 @@ std::vector<ExpectedDraft> read_expected(const std::vector<Item>& tables,
   std::vector<ExpectedDraft> drafts;
   for (const Item& item : tables) {
     const TableReader table{*item.node, item.key, keys, reading};
-    ExpectedDraft draft;
+    ExpectedDraft draft = read_wanted(table, reading);
     ExpectedValue& value = draft.value;
     value.name = table.required_text("name", "a name").value_or("");
     value.group = table.text("group").value_or("");
     value.source = table.text("source").value_or("");
-    value.at = table.text("at").value_or("start");
-    if (table.has("at") || table.has("near")) check_point(table, value.at, reading);
-    draft.near = read_near(table, draft.numbers, reading);
-    draft.quantity = read_quantity(table, reading);
-    if (const auto quantity = table.text("quantity")) value.quantity = *quantity;
-    if (const auto per = table.text("per")) {
-      value.per = *per;
-      draft.per = {*per, table.find("per")->place, table.key_of("per")};
-    }
-    if (table.has("side"))
-      value.side = table.choice("side", side_words, 0) == 1 ? Side::before : Side::after;
     value.agreement = std::array{Agreement::equal, Agreement::at_least,
                                  Agreement::at_most}[table.choice("compare", agreement_words, 0)];
     draft.expected = table.required_number("expected", {}, draft.numbers);
     draft.tolerance = table.required_number("tolerance", {Range::non_negative, ""}, draft.numbers);
-    draft.factor = table.number("factor", {}, draft.numbers, 1);
     value.study = table.required_text("study", "the name of a study").value_or("");
     if (!value.study.empty())
       draft.study =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "label_layout.hpp"
 #include "result_access.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
@@ -75,8 +76,12 @@ struct Axes {
   const UnitLabels& units;
 
   PlotPoint point(const StudyResult& result, const Branch& branch, std::size_t row) const {
-    return {spec.x_factor * value_at(result, branch, row, spec.x),
-            spec.y_factor * value_at(result, branch, row, spec.y)};
+    return place(value_at(result, branch, row, spec.x), value_at(result, branch, row, spec.y));
+  }
+
+  PlotPoint place(double x, double y) const {
+    x *= spec.x_factor, y *= spec.y_factor;
+    return spec.polar ? PlotPoint{y * std::cos(x), y * std::sin(x)} : PlotPoint{x, y};
   }
 };
 
@@ -142,10 +147,8 @@ void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result)
     return column ? sample.values[*column] : std::numeric_limits<double>::quiet_NaN();
   };
   for (const auto& e : result.equilibria->list)
-    add_mark(figure, {value(e.sample, "index") == 0 ? "ES" : "EU",
-                      e.label,
-                      {axes.spec.x_factor * value(e.sample, axes.spec.x),
-                       axes.spec.y_factor * value(e.sample, axes.spec.y)}});
+    add_mark(figure, {value(e.sample, "index") == 0 ? "ES" : "EU", e.label,
+                      axes.place(value(e.sample, axes.spec.x), value(e.sample, axes.spec.y))});
 }
 
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const FigureText& label) {
@@ -154,6 +157,12 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
     const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
     figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
     figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
+    if (spec.polar) {  // both axes show the distance
+      const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
+      if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
+      if (spec.y_label.empty())
+        figure.y_title.text = distance.text + ", along " + spec.x + " = 90°";
+    }
   }
   const std::size_t first_curve = figure.curves.size();
   const bool is_diagram = result.branches.size() > 1;
@@ -200,15 +209,29 @@ struct Range {
   }
 };
 
-/// Sets the corners; false if there is nothing to see.
-bool fit_axes(Figure& figure) {
+/// Makes a unit as long along x as along y; what lies in between stays in the middle.
+void equalise(const Canvas& canvas, Range& x, Range& y) {
+  const double wide = canvas.right - canvas.left, high = canvas.top - canvas.bottom;
+  const double unit = std::max((x.high - x.low) / wide, (y.high - y.low) / high);
+  const auto widen = [](Range& range, double length) {
+    const double middle = 0.5 * (range.low + range.high);
+    range = {middle - 0.5 * length, middle + 0.5 * length};
+  };
+  widen(x, unit * wide);
+  widen(y, unit * high);
+}
+
+/// Sets the corners; false if there is nothing to see. @param polar  the origin is seen, and angles are right
+bool fit_axes(Figure& figure, bool polar) {
   Range x, y;
   const auto include = [&](const PlotPoint& at) { x.include(at.first), y.include(at.second); };
   for (const auto& curve : figure.curves)
     for (const auto& part : curve.parts) std::for_each(part.line.begin(), part.line.end(), include);
   for (const auto& mark : figure.marks) include(mark.at);
   if (!(x.low <= x.high)) return false;
-  const Range padded_x = x.padded(), padded_y = y.padded();
+  if (polar) include({0, 0});
+  Range padded_x = x.padded(), padded_y = y.padded();
+  if (polar) equalise(Canvas{}, padded_x, padded_y);
   figure.low = {padded_x.low, padded_y.low};
   figure.high = {padded_x.high, padded_y.high};
   return true;
@@ -243,7 +266,7 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
           add_run(figure, {spec, the_case.units}, *result, label);
       }
     }
-    if (fit_axes(figure))
+    if (fit_axes(figure, spec.polar))
       figures.push_back(std::move(figure));
     else if (is_wanted)
       problems.push_back("figure '" + spec.name + "': there is no point to draw");

@@ -72,8 +72,8 @@ bool stays_in_the_set(const std::string& path) {
   const auto slash = path.find('/');
   const auto folder = slash == std::string::npos ? "" : path.substr(0, slash);
   const auto name = slash == std::string::npos ? path : path.substr(slash + 1);
-  const bool is_ours =
-      folder.empty() || folder == "branches" || folder == "equilibria" || folder == "plots";
+  const bool is_ours = folder.empty() || folder == "branches" || folder == "equilibria" ||
+                       folder == "sweeps" || folder == "plots";
   return is_ours && !name.empty() && name.find('/') == std::string::npos && name != "." &&
          name != "..";
 }
@@ -96,7 +96,9 @@ std::string manifest_text(const Case& the_case, SetState state,
                   {"hash", the_case.hash}};
   json["overrides"] = Json(the_case.overrides);
   json["runs"] = Json::array();
-  for (const auto& planned : the_case.runs) json["runs"].push_back(json_of(planned));
+  // Of runs whose curves are not kept the first one stands for all: tables have what differs.
+  for (const auto& planned : the_case.runs)
+    if (planned.keeps_curves || planned.run == 1) json["runs"].push_back(json_of(planned));
   json["files"] = Json::array();
   for (const auto& file : files) json["files"].push_back(json_of(file));
   return json_text(json);

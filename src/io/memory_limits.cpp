@@ -90,7 +90,8 @@ bool check_runs(const CaseDraft& draft, const StudyDraft& study, bool varies, do
     const double all = bytes / run * study.runs();
     const std::string parts = rounded(largest, 9) + " joints and links";
     if (study.runs() > 1) {
-      const NamedPlace at = place_of(study, "vary.values");
+      const NamedPlace at =
+          place_of(study, study.vary && study.vary->parameters.size() > 1 ? "vary" : "vary.values");
       problems.add(at.place, at.key,
                    "got " + std::to_string(study.runs()) + " runs of a mechanism with " + parts +
                        ", about " + in_words(all) + " of memory" + at_most +

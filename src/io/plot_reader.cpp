@@ -131,8 +131,9 @@ bool read_markup(const TableReader& table, const Item& plot, Reading& reading) {
 
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
-  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",      "x_label",
-                                             "y_label", "x_factor", "y_factor", "markup", "curves"};
+  static const std::vector<std::string> keys{"name",    "title",   "x",        "y",
+                                             "x_label", "y_label", "x_factor", "y_factor",
+                                             "markup",  "curves",  "polar"};
   std::vector<PlotDraft> plots;
   std::set<std::string> taken;
   for (const Item& item : tables) {
@@ -149,6 +150,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     spec.y = draft.y.name;
     spec.x_label = table.text("x_label").value_or("");
     spec.y_label = table.text("y_label").value_or("");
+    spec.polar = table.flag("polar", false);
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
     spec.markup = read_markup(table, item, reading);

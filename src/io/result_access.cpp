@@ -60,7 +60,7 @@ double value_at(const analysis::StudyResult& result, const analysis::Branch& bra
 const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
                                        std::string_view study, int run) {
   const auto found = std::find_if(results.begin(), results.end(), [&](const auto& result) {
-    return result.study == study && result.run == run;
+    return result.run == run && result.study == study;
   });
   return found == results.end() ? nullptr : &*found;
 }
@@ -101,6 +101,7 @@ bool has_two_sides(const analysis::Event& event) {
     case EventKind::parameter_turns:
     case EventKind::extremum:
     case EventKind::threshold:
+    case EventKind::jump:
       return false;
   }
   return false;

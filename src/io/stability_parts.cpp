@@ -49,6 +49,7 @@ Trust trust_at(EventKind kind) {
     case EventKind::parameter_turns:
     case EventKind::extremum:
     case EventKind::threshold:
+    case EventKind::jump:
       return Trust::little;
   }
   return Trust::none;

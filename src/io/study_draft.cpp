@@ -6,7 +6,9 @@ namespace springfold::io {
 
 Redefinitions StudyDraft::changes(int run) const {
   Redefinitions changes = set;
-  if (vary) changes[vary->parameter] = vary->values[static_cast<std::size_t>(run - 1)];
+  if (!vary) return changes;
+  const std::vector<Definition>& values = vary->values[static_cast<std::size_t>(run - 1)];
+  for (std::size_t k = 0; k < values.size(); ++k) changes[vary->parameters[k]] = values[k];
   return changes;
 }
 

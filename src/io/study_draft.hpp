@@ -10,6 +10,7 @@
 #include "mechanism_draft.hpp"
 #include "snap_reader.hpp"
 #include "springfold/analysis/study.hpp"
+#include "springfold/io/case_file.hpp"
 
 namespace springfold::io {
 
@@ -26,11 +27,28 @@ struct RateDraft {
   NumberId rate = 0;
 };
 
-/// One run for every value of a parameter.
+struct NearDraft {
+  NamedPlace quantity{};
+  NumberId value = 0;
+};
+
+/// A value of a run that is looked up: an expected one, or a column of a sweep's table.
+struct ExpectedDraft {
+  ExpectedValue value{};  ///< without its numbers
+  NumberTable numbers{};
+  NumberId expected = 0, tolerance = 0, factor = 0;
+  std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
+  NamedPlace quantity{}, per{};
+  std::vector<NearDraft> near{};
+};
+
+/// Several runs, each with values of its own for some parameters.
 struct VaryDraft {
-  std::size_t parameter = 0;
-  std::vector<Definition> values{};
-  std::vector<std::string> labels{};  ///< one per value, or empty
+  std::vector<std::size_t> parameters{};
+  std::vector<std::vector<Definition>> values{};  ///< for every run, in the order of `parameters`
+  std::vector<std::string> labels{};              ///< one per run, or empty
+  std::vector<ExpectedDraft> columns{};           ///< of the table with one row per run
+  bool keeps_curves = true;
 };
 
 struct StudyDraft {

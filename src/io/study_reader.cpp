@@ -16,11 +16,18 @@ using analysis::StartSolve;
 using analysis::StudyKind;
 
 const std::vector<std::string> kind_words{
-    "force_deflection", "equilibrium",    "equilibria", "control",     "map",
-    "workspace",        "critical_curve", "threshold",  "sensitivity", snap_kind};
-const std::array kinds{StudyKind::force_deflection, StudyKind::equilibrium, StudyKind::equilibria,
-                       StudyKind::control,          StudyKind::map,         StudyKind::workspace,
-                       StudyKind::critical_curve,   StudyKind::threshold,   StudyKind::sensitivity,
+    "force_deflection", "equilibrium", "equilibria",  "control",       "map",    "workspace",
+    "critical_curve",   "threshold",   "sensitivity", "critical_load", snap_kind};
+const std::array kinds{StudyKind::force_deflection,
+                       StudyKind::equilibrium,
+                       StudyKind::equilibria,
+                       StudyKind::control,
+                       StudyKind::map,
+                       StudyKind::workspace,
+                       StudyKind::critical_curve,
+                       StudyKind::threshold,
+                       StudyKind::sensitivity,
+                       StudyKind::critical_load,
                        StudyKind::force_deflection};  // the last one with jumps
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
@@ -31,7 +38,7 @@ const std::vector<std::string> study_keys{
     "name",       "kind",           "control",   "body",        "direction", "load",
     "loads",      "start",          "until",     "mark",        "actuators", "parameter",
     "set",        "vary",           "path",      "trace",       "branches",  "search",
-    "prescribed", "critical_curve", "threshold", "sensitivity", "snap"};
+    "prescribed", "critical_curve", "threshold", "sensitivity", "snap",      "critical_load"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {

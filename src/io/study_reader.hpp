@@ -21,6 +21,9 @@ Redefinitions read_set(const TableReader& study, Reading& reading);
 std::optional<VaryDraft> read_vary(const TableReader& study, const Redefinitions& set,
                                    Reading& reading);
 
+/// What is looked up in a run's result, and where: keys `at`, `near`, `quantity`, `per`, `side`, `factor`.
+ExpectedDraft read_wanted(const TableReader& table, Reading& reading);
+
 /// @param mechanism  already read
 std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
                                      const MechanismDraft& mechanism, Reading& reading);

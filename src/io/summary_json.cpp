@@ -7,6 +7,7 @@
 #include "result_access.hpp"
 #include "result_tables.hpp"
 #include "springfold/io/results.hpp"
+#include "sweep_tables.hpp"
 
 namespace springfold::io {
 
@@ -239,6 +240,24 @@ Json missing_runs(const Case& the_case, const std::vector<StudyResult>& results)
   return missing;
 }
 
+/// Tables with one row per run.
+Json sweeps_json(const Case& the_case, const std::vector<StudyResult>& results) {
+  Json list = Json::array();
+  const auto files = sweep_files(the_case);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const SweepTable& sweep = the_case.sweeps[i];
+    const SweepCounts counts = counts_of(the_case, sweep, results);
+    list.push_back({{"study", sweep.study},
+                    {"file", files[i]},
+                    {"parameters", sweep.parameters},
+                    {"columns", sweep.columns},
+                    {"runs", counts.planned},
+                    {"done", counts.done},
+                    {"complete", counts.complete}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const Case& the_case, const std::vector<StudyResult>& results) {
@@ -254,8 +273,10 @@ std::string summary_json(const Case& the_case, const std::vector<StudyResult>& r
   const auto files = branch_files(results);
   const auto equilibria = equilibria_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)
-    summary["runs"].push_back(json_of(results[i], plan_of(the_case, results[i]), the_case.units,
-                                      files[i], equilibria[i]));
+    if (!results[i].row)
+      summary["runs"].push_back(json_of(results[i], plan_of(the_case, results[i]), the_case.units,
+                                        files[i], equilibria[i]));
+  if (!the_case.sweeps.empty()) summary["sweeps"] = sweeps_json(the_case, results);
   summary["comparisons"] = Json::array();
   for (const auto& comparison : compare(the_case.expected, results))
     summary["comparisons"].push_back(comparison_json(comparison));

@@ -9,6 +9,7 @@
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
 #include "summary_start.hpp"
+#include "sweep_tables.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -291,15 +292,38 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
          diagram_lines(result, plan_of(the_case, result));
 }
 
+/// One block for every table of many runs.
+std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& results,
+                         bool is_first) {
+  std::string text;
+  const auto files = sweep_files(the_case);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const SweepTable& sweep = the_case.sweeps[i];
+    const SweepCounts counts = counts_of(the_case, sweep, results);
+    std::string parameters;
+    for (const std::string& name : sweep.parameters)
+      parameters += (parameters.empty() ? "" : ", ") + name;
+    text += (is_first && text.empty() ? "" : "\n") + shown(sweep.study) + ", " +
+            counted(counts.planned, "run") + " over " + parameters + "\n";
+    text += line("complete", std::to_string(counts.complete) + " of " +
+                                 std::to_string(counts.planned) + ", table " + shown(files[i]));
+    if (counts.done < counts.planned)
+      text += line("NOT RUN",
+                   std::to_string(counts.planned - counts.done) + " of them, interrupted before");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
   std::string text;
   if (!the_case.title.empty()) text += shown(the_case.title) + "\n";
   for (const auto& result : results)
-    text += (text.empty() ? "" : "\n") + run_block(the_case, result);
+    if (!result.row) text += (text.empty() ? "" : "\n") + run_block(the_case, result);
+  text += sweep_blocks(the_case, results, text.empty());
   for (const auto& planned : the_case.runs)
-    if (result_of(results, planned.study, planned.run) == nullptr)
+    if (planned.keeps_curves && result_of(results, planned.study, planned.run) == nullptr)
       text += "\n" + shown(planned.study) + ", run " + std::to_string(planned.run) + "\n" +
               line("NOT RUN", "interrupted before");
   return text;

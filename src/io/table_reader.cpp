@@ -87,6 +87,15 @@ std::size_t TableReader::choice(const std::string& name, const std::vector<std::
   return otherwise;
 }
 
+bool TableReader::flag(const std::string& name, bool otherwise) const {
+  const Node* node = find(name);
+  if (node == nullptr) return otherwise;
+  if (node->kind == Node::Kind::boolean) return node->number != 0;
+  reading_->problems.add(node->place, key_of(name),
+                         "got " + described(*node) + ", need true or false");
+  return otherwise;
+}
+
 NumberId TableReader::number(const std::string& name, const Rule& rule, NumberTable& numbers,
                              double otherwise) const {
   const Node* found = find(name);

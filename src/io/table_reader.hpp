@@ -17,6 +17,7 @@ struct Reading {
   Problems& problems;
   FormulaBook& book;
   UnitLabels units{};
+  const std::vector<Parameter>* parameters = nullptr;  ///< once they are read
 };
 
 /// A node with its key path.
@@ -55,6 +56,9 @@ class TableReader {
   /// Position of the word in `words`; `otherwise` if missing or wrong.
   std::size_t choice(const std::string& name, const std::vector<std::string>& words,
                      std::size_t otherwise) const;
+
+  /// true or false; `otherwise` if missing or wrong.
+  bool flag(const std::string& name, bool otherwise) const;
 
   /// A number; `otherwise` if missing.
   NumberId number(const std::string& name, const Rule& rule, NumberTable& numbers,

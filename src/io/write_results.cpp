@@ -9,6 +9,7 @@
 #include "result_tables.hpp"
 #include "sha256.hpp"
 #include "springfold/io/results.hpp"
+#include "sweep_tables.hpp"
 
 namespace springfold::io {
 
@@ -47,6 +48,9 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   const auto equilibria = equilibria_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)
     if (results[i].equilibria) files.push_back({equilibria[i], equilibria_csv(results[i])});
+  const auto sweeps = sweep_files(the_case);
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    files.push_back({sweeps[i], sweep_csv(the_case, the_case.sweeps[i], results)});
   files.push_back({"events.csv", events_csv(results)});
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
     files.push_back({"jumps.csv", jumps_csv(results)});
@@ -79,6 +83,7 @@ std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case
   if (std::any_of(results.begin(), results.end(),
                   [](const StudyResult& result) { return result.equilibria.has_value(); }))
     make_folder(folder / "equilibria");
+  if (!the_case.sweeps.empty()) make_folder(folder / "sweeps");
   const auto files = planned_files(the_case, results);
   std::vector<ListedFile> list;
   for (const auto& file : files) list.push_back(listed(file));

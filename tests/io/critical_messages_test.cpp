@@ -70,5 +70,18 @@ TEST_F(CriticalMessages, KnowTheParameterAsAColumn) {
               ElementsAre(testing::HasSubstr("no quantity \"c\" in study \"a\"")));
 }
 
+TEST_F(CriticalMessages, WantARangeAndTwoValuesForAFirstCriticalLoad) {
+  std::string text = strut.substr(0, strut.find("kind = "));
+  text += "kind = \"critical_load\"\ncontrol = \"load\"\ndirection = [-1, 0]\n";
+  EXPECT_THAT(messages(text + "critical_load = { of = \"limit_point\", parameter = \"k\" }\n"),
+              ElementsAre(testing::HasSubstr("critical_load.range: missing, need [low, high]")));
+  EXPECT_THAT(messages(text + "critical_load = { of = \"limit_point\", parameter = \"k\", range = "
+                              "[0.1, 2], values = 1 }\n"),
+              ElementsAre(testing::HasSubstr("critical_load.values: got 1, need a whole number")));
+  EXPECT_THAT(messages(text + "critical_load = { of = \"limit_point\", parameter = \"k\", range = "
+                              "[0.1, 2], value = \"smallest\" }\n"),
+              ElementsAre(testing::HasSubstr("critical_load.value: unknown key")));
+}
+
 }  // namespace
 }  // namespace springfold::io

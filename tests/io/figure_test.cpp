@@ -112,6 +112,27 @@ TEST(FiguresOf, ApplyFactorsLabelsAndTheChoiceOfRuns) {
   EXPECT_NEAR(figures[0].marks[0].at.second, -0.027008033908, 1e-11);
 }
 
+TEST(FiguresOf, ThatArePolarHaveAnglesAndDistancesAsTheyAre) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .x = "point.x", .y = "deflection", .x_factor = 3, .polar = true}};
+  the_case.plots[0].curves = {{.study = "push from Q2", .runs = {2}}};
+  const auto results = sample::two_results();
+  std::vector<std::string> problems;
+  const auto figures = figures_of(the_case, results, problems);
+  ASSERT_THAT(figures, SizeIs(1));
+  const Figure& figure = figures[0];
+  const auto& samples = results[1].branches[0].samples;  // deflection and point.x: columns 2 and 5
+  const PlotPoint first = figure.curves.at(0).parts.at(0).line.at(0);
+  EXPECT_NEAR(first.first, samples[0].values[2] * std::cos(3 * samples[0].values[5]), 1e-12);
+  EXPECT_NEAR(first.second, samples[0].values[2] * std::sin(3 * samples[0].values[5]), 1e-12);
+  EXPECT_LT(figure.low.first * figure.high.first, 0) << "the origin is seen";
+  EXPECT_LT(figure.low.second * figure.high.second, 0);
+  const Canvas canvas;
+  EXPECT_NEAR((figure.high.first - figure.low.first) / (canvas.right - canvas.left),
+              (figure.high.second - figure.low.second) / (canvas.top - canvas.bottom), 1e-12)
+      << "a unit is as long along both axes";
+}
+
 TEST(FiguresOf, KeepTheLabelsOfTheirRunsWhenOneIsMissing) {
   Case the_case = sample::two_runs();
   the_case.plots = {{.name = "a"}};

@@ -1,5 +1,5 @@
-// Special points in a second parameter: what the study kinds `critical_curve`, `threshold` and
-// `sensitivity` are asked. Units of the case.
+// Special points in a second parameter: what the study kinds `critical_curve`, `threshold`,
+// `sensitivity` and `critical_load` are asked. Units of the case.
 #pragma once
 
 #include <functional>
@@ -37,6 +37,7 @@ enum class StabilityOf {
 /// Kind critical_curve: the special point `point` of the study's curve is followed in (lambda, parameter).
 /// Kind threshold: the smallest or largest value of the parameter for which `unwanted` does not happen.
 /// Kind sensitivity: how all special points move with `parameters`.
+/// Kind critical_load: the first `unwanted` point of the path from the start over the whole range.
 struct CriticalPointSettings {
   std::string point{};                    ///< label on the study's curve: "LP1"
   std::string parameter{};                ///< its name
@@ -49,6 +50,7 @@ struct CriticalPointSettings {
   Unwanted unwanted = Unwanted::limit_point;
   StabilityOf stability = StabilityOf::control;
   bool smallest = true;  ///< false: the largest value is wanted
+  int values = 0;  ///< kind critical_load: at so many values over the range the path is traced
   std::shared_ptr<const CaseFamily> cases{};
 };
 

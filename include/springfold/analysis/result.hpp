@@ -61,10 +61,11 @@ enum class EventKind {
   parameter_turns,        ///< PT: the second parameter turns back on a curve of zeros
   extremum,               ///< EX: lambda is stationary along a critical curve
   threshold,              ///< TH: the value that a threshold study looks for
+  jump,                   ///< JP: the first critical load of the path is another one behind
 };
 
 /// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR", "CP", "IC", "CX", "HT", "BB",
-/// "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH".
+/// "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH", "JP".
 std::string code_of(EventKind kind);
 
 /// What a node of a map is.
@@ -264,6 +265,14 @@ struct ThresholdReport {
   std::string message{};  ///< the answer as a sentence
 };
 
+/// What is kept of a run of many whose curves are not kept.
+struct SweepRow {
+  bool complete = false;
+  std::string status{};            ///< "complete", or what is missing, in words
+  std::vector<double> values{};    ///< of the table's columns; NaN: there is no such point
+  std::vector<double> compared{};  ///< what the case compares of this run, in its order
+};
+
 struct StudyResult {
   std::string study{};  ///< name of the study
   int run = 1;          ///< number among the study's varied values
@@ -280,7 +289,8 @@ struct StudyResult {
   std::optional<EquilibriaReport> equilibria{};  ///< kind equilibria; it has no branches
   std::optional<ThresholdReport> threshold{};    ///< kind threshold
   std::shared_ptr<const SnapReport> snap{};      ///< if the study asks for jumps; otherwise null
-  double seconds = 0;  ///< CPU time used; never part of reproducible output
+  std::shared_ptr<const SweepRow> row{};  ///< curves are not kept: all there is; otherwise null
+  double seconds = 0;                     ///< CPU time used; never part of reproducible output
 };
 
 /// Ways at junctions that were left out because of the bounds of depth and number.

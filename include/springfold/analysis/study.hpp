@@ -31,6 +31,7 @@ enum class StudyKind {
   critical_curve,    ///< a special point of the branch, followed in a second parameter
   threshold,         ///< the value of a parameter from which on nothing unwanted happens
   sensitivity,       ///< how special points move with the parameters of the case
+  critical_load,     ///< the first critical load of the path, for every value of a parameter
 };
 
 /// Is it a study of commands and poses, not a curve or a point of one? These have settings and
@@ -42,7 +43,7 @@ constexpr bool is_of_commands(StudyKind kind) {
 /// Does it look at the special points of a branch in a second parameter?
 constexpr bool is_of_critical_points(StudyKind kind) {
   return kind == StudyKind::critical_curve || kind == StudyKind::threshold ||
-         kind == StudyKind::sensitivity;
+         kind == StudyKind::sensitivity || kind == StudyKind::critical_load;
 }
 
 /// What lambda is.
@@ -160,7 +161,7 @@ struct Study {
   ControlPath targets{};             ///< kind control
   MapSettings map{};                 ///< kind map
   WorkspaceSettings workspace{};     ///< kind workspace
-  CriticalPointSettings critical{};  ///< kinds critical_curve, threshold and sensitivity
+  CriticalPointSettings critical{};  ///< kinds of critical points
 };
 
 /// A mechanism with a study, as a case gives them for some values of its parameters.

@@ -36,62 +36,6 @@ struct PartPlace {
   std::string place{};
 };
 
-/// One study with one set of parameter values.
-struct PlannedRun {
-  std::string study{};
-  int run = 1;                   ///< 1, 2, ... along the study's `vary` list
-  std::string label{};           ///< "Kv = 0.01", or empty
-  bool has_given_label = false;  ///< the label is a text of the case: vary.labels
-  model::Mechanism mechanism{};
-  analysis::Study plan{};
-  std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
-  std::map<std::string, double> parameters{};         ///< all named parameters as used
-  std::vector<PartPlace>
-      places{};  ///< of the study's keys, bodies and chains; "": the study itself
-};
-
-/// One curve (or several) of a figure.
-struct PlotCurves {
-  std::string study{};
-  std::vector<int> runs{};            ///< empty: all of the study
-  std::vector<std::string> labels{};  ///< one per run; empty: the runs' own labels
-};
-
-struct PlotSpec {
-  std::string name{};  ///< file name without ending
-  std::string title{};
-  std::string x = "deflection", y = "force";  ///< quantity names
-  std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
-  double x_factor = 1, y_factor = 1;          ///< plotted value = factor * quantity
-  bool markup =
-      false;  ///< its texts are in the markup of gnuplot; false: they are drawn as they stand
-  std::vector<PlotCurves> curves{};
-};
-
-/// One map of a figure.
-struct MapPanelSpec {
-  std::string study{};
-  int run = 1;
-  std::string title{};
-  int slice = 1;  ///< maps of three axes: number of the value of the third one
-};
-
-/// A figure of maps side by side with one colour scale.
-struct MapPlotSpec {
-  std::string name{};  ///< file name without ending
-  std::string title{};
-  std::string quantity{};            ///< name of a column of all its maps
-  std::string label{};               ///< of the colours; empty: from quantity and unit
-  std::string x_label{}, y_label{};  ///< empty: from the axes
-  double factor = 1;                 ///< shown value = factor * quantity
-  double x_factor = 1, y_factor = 1;
-  std::vector<double> levels{};  ///< contour lines; empty: about ten round numbers
-  std::optional<std::pair<double, double>> range{};  ///< of the colours; none: all that occurs
-  bool activation = true;                            ///< lines at which springs switch
-  bool markup = false;                               ///< as PlotSpec::markup
-  std::vector<MapPanelSpec> panels{};
-};
-
 /// When a compared value holds.
 enum class Agreement {
   equal,     ///< |ours - expected| <= tolerance
@@ -136,6 +80,74 @@ struct ExpectedValue {
   std::string source{};
 };
 
+/// One study with one set of parameter values.
+struct PlannedRun {
+  std::string study{};
+  int run = 1;                   ///< 1, 2, ... along the study's `vary` list
+  std::string label{};           ///< "Kv = 0.01", or empty
+  bool has_given_label = false;  ///< the label is a text of the case: vary.labels
+  model::Mechanism mechanism{};
+  analysis::Study plan{};
+  std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
+  std::map<std::string, double> parameters{};         ///< all named parameters as used
+  std::vector<PartPlace>
+      places{};  ///< of the study's keys, bodies and chains; "": the study itself
+  /// What is looked up for its row of the sweep's table; `expected` and `tolerance` mean nothing.
+  std::vector<ExpectedValue> columns{};
+  bool keeps_curves = true;  ///< false: only that row is kept
+};
+
+/// A study with one row of a table for every run.
+struct SweepTable {
+  std::string study{};
+  std::vector<std::string> parameters{};  ///< that differ from run to run
+  std::vector<std::string> columns{};     ///< names of PlannedRun::columns
+};
+
+/// One curve (or several) of a figure.
+struct PlotCurves {
+  std::string study{};
+  std::vector<int> runs{};            ///< empty: all of the study
+  std::vector<std::string> labels{};  ///< one per run; empty: the runs' own labels
+};
+
+struct PlotSpec {
+  std::string name{};  ///< file name without ending
+  std::string title{};
+  std::string x = "deflection", y = "force";  ///< quantity names
+  std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
+  double x_factor = 1, y_factor = 1;          ///< plotted value = factor * quantity
+  bool markup =
+      false;  ///< its texts are in the markup of gnuplot; false: they are drawn as they stand
+  bool polar =
+      false;  ///< the plotted x is an angle [rad], the plotted y the distance from the origin
+  std::vector<PlotCurves> curves{};
+};
+
+/// One map of a figure.
+struct MapPanelSpec {
+  std::string study{};
+  int run = 1;
+  std::string title{};
+  int slice = 1;  ///< maps of three axes: number of the value of the third one
+};
+
+/// A figure of maps side by side with one colour scale.
+struct MapPlotSpec {
+  std::string name{};  ///< file name without ending
+  std::string title{};
+  std::string quantity{};            ///< name of a column of all its maps
+  std::string label{};               ///< of the colours; empty: from quantity and unit
+  std::string x_label{}, y_label{};  ///< empty: from the axes
+  double factor = 1;                 ///< shown value = factor * quantity
+  double x_factor = 1, y_factor = 1;
+  std::vector<double> levels{};  ///< contour lines; empty: about ten round numbers
+  std::optional<std::pair<double, double>> range{};  ///< of the colours; none: all that occurs
+  bool activation = true;                            ///< lines at which springs switch
+  bool markup = false;                               ///< as PlotSpec::markup
+  std::vector<MapPanelSpec> panels{};
+};
+
 struct Expectations {
   std::vector<ExpectedValue> values{};
   std::vector<std::string> notes{};  ///< printed below the table
@@ -146,6 +158,7 @@ struct Case {
   std::string title{};
   UnitLabels units{};
   std::vector<PlannedRun> runs{};
+  std::vector<SweepTable> sweeps{};
   std::vector<PlotSpec> plots{};
   std::vector<MapPlotSpec> map_plots{};
   Expectations expected{};

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
@@ -20,6 +23,18 @@ void write_checkpoint(const std::filesystem::path& folder, const Case& the_case,
 std::optional<analysis::PartialRows> read_checkpoint(const std::filesystem::path& folder,
                                                      const Case& the_case,
                                                      const PlannedRun& planned);
+
+/// Writes the runs of a study of which only rows are kept, as far as they are done, as write_checkpoint does.
+/// @throws std::runtime_error when it cannot be written
+void write_row_checkpoint(const std::filesystem::path& folder, const Case& the_case,
+                          const std::string& study,
+                          const std::vector<const analysis::StudyResult*>& done);
+
+/// The runs that such a checkpoint of the same case and version holds, by number; empty if there is none or
+/// it is damaged.
+std::map<int, analysis::StudyResult> read_row_checkpoint(const std::filesystem::path& folder,
+                                                         const Case& the_case,
+                                                         const std::string& study);
 
 /// Removes the checkpoints of all runs of the case, once the results in the folder are on the disk.
 /// @throws std::runtime_error when they cannot be put there

@@ -1,0 +1,74 @@
+#include "first_unwanted.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
+                 const SpecialPoint& point) {
+  const bool only_turns = settings.unwanted == Unwanted::limit_point;
+  const bool of_force = point.hit.kind == continuation::HitKind::user;
+  const bool dead = settings.stability == StabilityOf::dead_load;
+  switch (point.kind) {
+    case EventKind::limit_point:
+      return only_turns || !of_force || dead;
+    case EventKind::corner_limit_point:
+      return only_turns || dead || point.hit.kind == continuation::HitKind::corner;
+    case EventKind::branch_point:
+    case EventKind::branching_kink:
+    case EventKind::unresolved:
+      return !only_turns;
+    case EventKind::switching: {
+      const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
+      if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
+        return false;
+      const auto column = static_cast<std::size_t>(index - member.quantities.data());
+      return path.branch.samples[point.row + 1].values[column] > 0;
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
+                             const Observer& observer) {
+  FirstUnwanted first;
+  if (member == nullptr) {
+    first.why = "there is no start";
+    return first;
+  }
+  const BasePath path = base_path(*member, true, observer);
+  for (const SpecialPoint& point : path.points)
+    if (is_unwanted(*member, settings, path, point)) {
+      first.point = point;
+      return first;
+    }
+  if (!path.problem.empty() || !path.branch.forward.complete)
+    first.why = path.problem.empty() ? path.branch.forward.reason : path.problem;
+  return first;
+}
+
+bool ends_piece(continuation::Degeneracy kind) {
+  using continuation::Degeneracy;
+  switch (kind) {
+    case Degeneracy::cusp:
+    case Degeneracy::isola_centre:
+    case Degeneracy::crossing:
+    case Degeneracy::branch_points_merge:
+    case Degeneracy::fold_meets_activation:
+    case Degeneracy::corner_loses_reversal:
+    case Degeneracy::touches_surface:
+    case Degeneracy::two_switches:
+    case Degeneracy::turn:
+      return true;
+    case Degeneracy::hilltop:
+    case Degeneracy::corank_two:
+    case Degeneracy::extremum:
+    case Degeneracy::user:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace springfold::analysis

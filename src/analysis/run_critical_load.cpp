@@ -1,0 +1,351 @@
+// The study kind `critical_load`: the first critical load on the path from the start, over a parameter.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "critical_rows.hpp"
+#include "critical_runs.hpp"
+#include "first_unwanted.hpp"
+#include "number_text.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CriticalCurve;
+using continuation::CriticalHit;
+using continuation::CriticalPoint;
+using continuation::CriticalStart;
+using continuation::Degeneracy;
+
+/// Parts of the range: how far before its end a piece is looked at, how far behind it the next one is looked for,
+/// and how closely ends are bracketed.
+constexpr double beside = 1e-7, next_piece = 1e-6, closely = 1e-11;
+/// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
+constexpr double at_degeneracy = 1e-5;
+/// Critical loads that differ by less are the same, relative to 1 + |lambda|.
+constexpr double same_load = 1e-8;
+constexpr int most_pieces = 200;
+
+/// A piece in one sense of the parameter, cut where it ends.
+struct Side {
+  CriticalCurve curve{};
+  double end = 0;
+  std::optional<Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
+  bool jumps = false;  ///< it goes on, but another point comes first, or it is not reached
+};
+
+struct LoadPiece {
+  CriticalStart start{};
+  EventKind of = EventKind::limit_point;
+  Side falling{}, growing{};
+};
+
+class LoadsOverParameter {
+ public:
+  LoadsOverParameter(const CaseCurves& curves, const Study& study, const Observer& observer,
+                     StudyResult& result)
+      : curves_{curves},
+        study_{base_study(study)},
+        observer_{observer},
+        result_{result},
+        low_{study.critical.low / curves.scale()},
+        high_{study.critical.high / curves.scale()},
+        width_{high_ - low_} {
+    const int n = study.critical.values;
+    for (int i = 0; i < n; ++i) grid_.push_back(i + 1 == n ? high_ : low_ + width_ * i / (n - 1));
+  }
+
+  void run() {
+    double done = low_;
+    for (const double mu : grid_) {
+      if (!pieces_.empty() && mu <= done) continue;
+      const FirstUnwanted& first = first_at(mu);
+      std::optional<LoadPiece> piece;
+      if (first.point)
+        piece = piece_of(*first.point, mu, done, high_);
+      else if (!first.why.empty())
+        doubt(mu, first.why);
+      fill(done, piece ? piece->falling.end : mu);
+      if (piece) add(std::move(*piece));
+      if (!pieces_.empty()) done = std::max(done, pieces_.back().growing.end);
+    }
+    if (std::ssize(pieces_) >= most_pieces) doubt(done, "there are more pieces than are followed");
+    finish();
+  }
+
+ private:
+  const FirstUnwanted& first_at(double mu) {
+    const auto known = known_.find(mu);
+    if (known != known_.end()) return known->second;
+    return known_
+        .emplace(mu,
+                 first_unwanted(curves_.at(mu), study_.critical,
+                                [this](int, double s) { return !observer_ || observer_(0, s); }))
+        .first->second;
+  }
+
+  void doubt(double mu, const std::string& why) {
+    result_.doubts.push_back("unresolved at " + curves_.name() + " = " +
+                             rounded(mu * curves_.scale()) + ": " + why);
+  }
+
+  /// The piece of the point that comes first at `mu`, within [from, to]; nothing if it cannot be followed.
+  std::optional<LoadPiece> piece_of(const SpecialPoint& point, double mu, double from, double to) {
+    LoadPiece piece{.of = point.kind};
+    std::string why;
+    const auto start = critical_start(curves_, *curves_.at(mu), point, why);
+    if (!start) return doubt(mu, why), std::nullopt;
+    piece.start = *start;
+    piece.growing = mu < to ? side_of(piece, mu, to, why) : Side{};
+    const double back = std::max(low_, from - at_degeneracy * width_);
+    piece.falling = mu > low_ ? side_of(piece, mu, back, why) : Side{};
+    if (!why.empty()) return doubt(mu, point.label + ": " + why), std::nullopt;
+    if (mu >= to) stand(piece, piece.growing, mu, "reaches its upper limit");
+    if (mu <= low_) stand(piece, piece.falling, mu, "reaches its lower limit");
+    return piece;
+  }
+
+  /// A side without a way: the point is at the edge of the range.
+  void stand(const LoadPiece& piece, Side& side, double mu, const std::string& what) const {
+    const CriticalStart& at = piece.start;
+    const Vector still = Vector::Zero(at.x.size());
+    side.curve.points = {{.x = at.x, .lambda = at.lambda, .mu = mu, .dx = still}};
+    side.curve.stop = continuation::StopReason::event;
+    side.curve.stop_detail = curves_.name() + " " + what;
+    side.end = mu;
+  }
+
+  /// Pieces between the values of the range.
+  void fill(double from, double to) {
+    while (!pieces_.empty() && to - from > at_degeneracy * width_ &&
+           std::ssize(pieces_) < most_pieces) {
+      const double mu = from + next_piece * width_;
+      const FirstUnwanted& first = first_at(mu);
+      auto piece = first.point ? piece_of(*first.point, mu, from, to) : std::nullopt;
+      if (!piece) return;
+      from = std::max(mu, piece->growing.end);
+      add(std::move(*piece));
+    }
+  }
+
+  void add(LoadPiece piece) {
+    if (!pieces_.empty()) join(pieces_.back(), piece, pieces_.back().growing.end);
+    pieces_.push_back(std::move(piece));
+  }
+
+  /// A new piece that begins at a degeneracy just before the end of the last one decides where that ends.
+  void join(LoadPiece& last, LoadPiece& piece, double done) {
+    Side& end = last.growing;
+    Side& begin = piece.falling;
+    if (begin.decides && end.jumps && std::abs(begin.end - done) <= at_degeneracy * width_) {
+      cut(last.start, end, begin.end);
+    } else if (!begin.decides && begin.end < done) {
+      cut(piece.start, begin, done);
+      begin.jumps = true;
+    }
+  }
+
+  /// Follows the critical point from `mu` as far as it comes first on the path, at most to `limit`.
+  Side side_of(const LoadPiece& piece, double mu, double limit, std::string& why) {
+    const double sense = limit > mu ? 1 : -1;
+    Study within = study_;
+    within.marks.clear();
+    (sense > 0 ? within.critical.high : within.critical.low) = limit * curves_.scale();
+    (sense > 0 ? within.critical.low : within.critical.high) = -sense * HUGE_VAL;
+    for (const Mark& mark : study_.marks) within.marks.push_back(mark);
+    // Beyond its turn a curve runs back: a little of it shows what the turn is.
+    constexpr int more = 10;
+    int back = 0;
+    const auto observe = [&](const CriticalPoint& p) {
+      back += sense * p.dmu < 0 ? 1 : 0;
+      return back < more && (!observer_ || observer_(0, p.s));
+    };
+    Side side;
+    side.curve = follow_critical(curves_.family(), piece.start, sense > 0,
+                                 critical_events(curves_, within, piece.start.piece),
+                                 critical_options(study_), observe);
+    const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
+                                   [](const CriticalHit& hit) { return ends_piece(hit.kind); });
+    if (turn == side.curve.hits.end() && side.curve.stop != continuation::StopReason::event) {
+      why = side.curve.stop_detail;
+      return {};
+    }
+    if (turn != side.curve.hits.end()) {
+      side.decides = turn->kind;
+      end_at(side, static_cast<std::size_t>(turn - side.curve.hits.begin()));
+    } else {
+      side.end = side.curve.hits.back().point.mu;
+    }
+    verify(piece, side, mu, sense);
+    return side;
+  }
+
+  /// Cuts a side at one of its special points.
+  void end_at(Side& side, std::size_t hit) const {
+    CriticalCurve& curve = side.curve;
+    curve.hits.resize(hit + 1);
+    const CriticalPoint& last = curve.hits.back().point;
+    std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last.s; });
+    curve.stop = continuation::StopReason::event;
+    curve.stop_detail = to_string(curve.hits.back().kind);
+    side.end = last.mu;
+  }
+
+  /// At the values of the range, and just before its end, the path is traced.
+  void verify(const LoadPiece& piece, Side& side, double mu, double sense) {
+    double good = mu;
+    std::vector<double> values = grid_;
+    const double near = side.end - sense * beside * width_;
+    values.push_back(near);
+    std::sort(values.begin(), values.end());
+    if (sense < 0) std::reverse(values.begin(), values.end());
+    for (const double value : values) {
+      if (sense * (value - mu) <= 0 || sense * (value - side.end) >= 0) continue;
+      const bool on = is_first(piece, side.curve, value);
+      if (!on && value != near && !first_at(value).why.empty()) {
+        doubt(value, first_at(value).why);
+        continue;
+      }
+      if (!on) return end_before(piece, side, good, value);
+      good = value;
+    }
+  }
+
+  bool is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
+    const FirstUnwanted& first = first_at(mu);
+    if (!first.point || first.point->kind != piece.of) return false;
+    const auto here = on_curve(piece.start, curve, mu);
+    const double lambda = first.point->hit.point.lambda;
+    return here && std::abs(here->lambda - lambda) <= same_load * (1 + std::abs(lambda));
+  }
+
+  /// The critical point at this value, between two points of its curve.
+  std::optional<CriticalPoint> on_curve(const CriticalStart& of, const CriticalCurve& curve,
+                                        double mu) const {
+    std::vector<CriticalPoint> points = curve.points;
+    for (const CriticalHit& hit : curve.hits) points.push_back(hit.point);
+    std::stable_sort(points.begin(), points.end(),
+                     [](const CriticalPoint& a, const CriticalPoint& b) { return a.s < b.s; });
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const CriticalPoint &a = points[i], &b = points[i + 1];
+      const bool behind_all =
+          i + 2 == points.size() && std::abs(b.mu - mu) <= at_degeneracy * width_;
+      if ((a.mu - mu) * (b.mu - mu) > 0 && !behind_all) continue;
+      const double part = b.mu == a.mu ? 0 : (mu - a.mu) / (b.mu - a.mu);
+      CriticalStart start = of;
+      start.x = a.x + part * (b.x - a.x);
+      start.lambda = a.lambda + part * (b.lambda - a.lambda);
+      start.mu = mu;
+      auto found = polish_critical(curves_.family(), start);
+      if (found) found->s = a.s + part * (b.s - a.s);
+      return found;
+    }
+    return std::nullopt;
+  }
+
+  /// The critical point comes first at `good` and does not at `bad`.
+  void end_before(const LoadPiece& piece, Side& side, double good, double bad) {
+    while (std::abs(bad - good) > closely * width_) {
+      const double middle = good + 0.5 * (bad - good);
+      (is_first(piece, side.curve, middle) ? good : bad) = middle;
+      known_.erase(middle);
+    }
+    const auto near = [&](const CriticalHit& hit) {
+      return hit.kind != Degeneracy::user && hit.kind != Degeneracy::extremum &&
+             std::abs(hit.point.mu - good) <= at_degeneracy * width_;
+    };
+    const auto hit = std::find_if(side.curve.hits.begin(), side.curve.hits.end(), near);
+    if (hit != side.curve.hits.end()) {
+      side.decides = hit->kind;
+      return end_at(side, static_cast<std::size_t>(hit - side.curve.hits.begin()));
+    }
+    side.jumps = true;
+    side.decides.reset();
+    cut(piece.start, side, good);
+  }
+
+  void cut(const CriticalStart& start, Side& side, double mu) const {
+    CriticalCurve& curve = side.curve;
+    const auto last = on_curve(start, curve, mu);
+    if (!last) return;
+    std::erase_if(curve.hits, [](const CriticalHit& hit) {  // where it was cut before
+      return hit.kind == Degeneracy::user && hit.name.empty();
+    });
+    std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last->s; });
+    std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > last->s; });
+    curve.hits.push_back({Degeneracy::user, "", *last});
+    curve.stop = continuation::StopReason::event;
+    curve.stop_detail = "from here on another critical point comes first, or none";
+    side.end = last->mu;
+  }
+
+  void finish() {
+    for (const LoadPiece& piece : pieces_) {
+      const FollowedCurve followed{.start = piece.start,
+                                   .of = piece.of,
+                                   .falling = piece.falling.curve,
+                                   .growing = piece.growing.curve};
+      result_.branches.push_back(rows_of(curves_, followed));
+    }
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const bool meets =
+          i + 1 < pieces_.size() &&
+          std::abs(pieces_[i + 1].falling.end - pieces_[i].growing.end) <= at_degeneracy * width_;
+      if (meets)
+        say_jump(i);
+      else if (pieces_[i].growing.jumps)
+        mark(result_.branches[i], true, "ends: there is no critical point behind");
+      const bool met = i > 0 && std::abs(pieces_[i].falling.end - pieces_[i - 1].growing.end) <=
+                                    at_degeneracy * width_;
+      if (!met && pieces_[i].falling.jumps)
+        mark(result_.branches[i], false, "begins: there is no critical point before");
+    }
+    label_critical(result_.branches);
+  }
+
+  /// Two pieces meet: both sides of the jump, unless the load is the same.
+  void say_jump(std::size_t i) {
+    Branch &before = result_.branches[i], &behind = result_.branches[i + 1];
+    const auto lambda = [](const Sample& sample) { return sample.values[1]; };
+    const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
+    if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to)))
+      return;
+    const Side &end = pieces_[i].growing, &begin = pieces_[i + 1].falling;
+    const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
+                              : end.decides ? std::string{to_string(*end.decides)}
+                                            : "another critical point comes first";
+    const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
+    mark(before, true, text);
+    mark(behind, false, text);
+  }
+
+  /// The event of a jump in the last or the first row; there is one already where something else is located.
+  static void mark(Branch& branch, bool last, const std::string& text) {
+    const std::size_t row = last ? branch.samples.size() - 1 : 0;
+    auto at = std::find_if(branch.events.begin(), branch.events.end(),
+                           [&](const Event& event) { return event.row == row; });
+    if (at == branch.events.end()) return;
+    if (at->kind != EventKind::end_of_range)
+      at = branch.events.insert(last ? branch.events.end() : at + 1, *at);
+    at->kind = EventKind::jump;
+    at->detail = text;
+  }
+
+  const CaseCurves& curves_;
+  const Study study_;
+  const Observer& observer_;
+  StudyResult& result_;
+  double low_ = 0, high_ = 0, width_ = 1;
+  std::vector<double> grid_{};  ///< of the parameter, dimensionless
+  std::map<double, FirstUnwanted> known_{};
+  std::vector<LoadPiece> pieces_{};
+};
+
+}  // namespace
+
+void run_critical_load(const CaseCurves& curves, const Study& study, const Observer& observer,
+                       StudyResult& result) {
+  LoadsOverParameter(curves, study, observer, result).run();
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,112 @@
+#include "sweep_tables.hpp"
+
+#include <algorithm>
+
+#include "compared_quantity.hpp"
+#include "springfold/io/start_text.hpp"
+#include "springfold/io/sweep.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyResult;
+
+/// "complete", or the first thing that is missing.
+std::string status_of(const PlannedRun& planned, const StudyResult& result) {
+  const std::string problem = start_problem(result.start, &planned);
+  if (!result.start.found) return "no start point: " + problem;
+  if (!problem.empty()) return "nothing was traced: " + problem;
+  for (const analysis::Branch& branch : result.branches)
+    for (const auto* stop : {&branch.backward, &branch.forward})
+      if (!stop->complete) return "stopped early: " + stop->reason;
+  if (!result.doubts.empty()) return "unresolved: " + result.doubts.front();
+  return analysis::complete(result) ? "complete" : "has points that could not be resolved";
+}
+
+/// Rows of a study in the order of its runs.
+template <class Visit>
+void for_each_run(const Case& the_case, const SweepTable& sweep,
+                  const std::vector<StudyResult>& results, const Visit& visit) {
+  std::vector<const StudyResult*> by_run;
+  for (const StudyResult& result : results) {
+    if (result.study != sweep.study) continue;
+    const auto run = static_cast<std::size_t>(result.run);
+    if (by_run.size() < run) by_run.resize(run, nullptr);
+    by_run[run - 1] = &result;
+  }
+  for (const PlannedRun& planned : the_case.runs) {
+    if (planned.study != sweep.study) continue;
+    const auto run = static_cast<std::size_t>(planned.run);
+    visit(planned, run <= by_run.size() ? by_run[run - 1] : nullptr);
+  }
+}
+
+}  // namespace
+
+analysis::SweepRow sweep_row(const Case& the_case, const PlannedRun& planned,
+                             const StudyResult& result) {
+  if (result.row) return *result.row;
+  analysis::SweepRow row;
+  row.status = status_of(planned, result);
+  row.complete = row.status == "complete";
+  for (char& c : row.status)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  for (const ExpectedValue& column : planned.columns)
+    row.values.push_back(column.factor * found_value(column, result));
+  for (const ExpectedValue& value : the_case.expected.values)
+    if (value.study == planned.study && value.run == planned.run)
+      row.compared.push_back(value.factor * found_value(value, result));
+  return row;
+}
+
+StudyResult row_alone(const Case& the_case, const PlannedRun& planned, const StudyResult& result) {
+  StudyResult kept;
+  kept.study = planned.study;
+  kept.run = planned.run;
+  kept.label = planned.label;
+  kept.start.found = result.start.found;
+  kept.seconds = result.seconds;
+  kept.row = std::make_shared<const analysis::SweepRow>(sweep_row(the_case, planned, result));
+  return kept;
+}
+
+std::string sweep_csv(const Case& the_case, const SweepTable& sweep,
+                      const std::vector<StudyResult>& results) {
+  std::string csv = "run";
+  for (const auto* names : {&sweep.parameters, &sweep.columns})
+    for (const std::string& name : *names) csv += "," + csv_text(name);
+  csv += ",status\n";
+  for_each_run(the_case, sweep, results, [&](const PlannedRun& planned, const StudyResult* result) {
+    if (result == nullptr) return;
+    const analysis::SweepRow row = sweep_row(the_case, planned, *result);
+    csv += std::to_string(planned.run);
+    for (const std::string& name : sweep.parameters)
+      csv += "," + csv_number(planned.parameters.at(name));
+    for (const double value : row.values) csv += "," + csv_number(value);
+    csv += "," + csv_text(row.status) + "\n";
+  });
+  return csv;
+}
+
+std::vector<std::string> sweep_files(const Case& the_case) {
+  std::vector<std::string> files;
+  UniqueNames names;
+  for (const SweepTable& sweep : the_case.sweeps)
+    files.push_back("sweeps/" + names.make(safe_file_name(sweep.study)) + ".csv");
+  return files;
+}
+
+SweepCounts counts_of(const Case& the_case, const SweepTable& sweep,
+                      const std::vector<StudyResult>& results) {
+  SweepCounts counts;
+  for_each_run(the_case, sweep, results, [&](const PlannedRun&, const StudyResult* result) {
+    ++counts.planned;
+    if (result == nullptr) return;
+    ++counts.done;
+    if (analysis::complete(*result)) ++counts.complete;
+  });
+  return counts;
+}
+
+}  // namespace springfold::io
