@@ -6,6 +6,7 @@
 #include "messages.hpp"
 #include "parallel.hpp"
 #include "springfold/io/read_case.hpp"
+#include "springfold/io/sweep.hpp"
 #include "springfold/io/verification.hpp"
 
 namespace springfold::cli {
@@ -59,6 +60,7 @@ void run_one(VerifiedCase& verified, std::size_t i, const Session& session) {
   result.study = planned.study;
   result.run = planned.run;
   result.label = planned.label;
+  if (!planned.keeps_curves) result = io::row_alone(verified.the_case, planned, result);
 }
 
 /// Every result has its own place, so that the order in which they are done does not matter.

@@ -23,6 +23,7 @@ std::string quantity_text(const ExpectedValue& expected) {
 
 /// Why a run is not complete: the first reason that there is.
 std::string fault_of(const analysis::StudyResult& result) {
+  if (result.row) return result.row->complete ? "" : result.row->status;
   if (!result.start.found) return "no trustworthy start point: " + result.start.message;
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
