@@ -6,6 +6,7 @@
 
 #include "arguments.hpp"
 #include "check_command.hpp"
+#include "draw_command.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
@@ -52,6 +53,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return check_command(*parsed.arguments, session);
     case Command::verify:
       return verify_command(*parsed.arguments, session);
+    case Command::draw:
+      return draw_command(*parsed.arguments, session);
     case Command::run:
       break;
   }
