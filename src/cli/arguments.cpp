@@ -143,6 +143,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
                 "Complete maps that an interrupted run of the same case left in the folder");
   bool is_without_plots = false;
   run->add_flag("--no-plots", is_without_plots, "Draw no figures");
+  run->add_flag("--report", arguments.makes_report,
+                "Write report.html too: curves, and the mechanism in the posture under the cursor");
   run->add_flag("--json", arguments.prints_json,
                 "Print summary.json instead of tables on standard output");
 

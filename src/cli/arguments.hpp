@@ -20,6 +20,7 @@ struct Arguments {
   int threads = 0;                                 ///< --threads; 0: all cores
   bool resumes = false;                            ///< --resume
   bool draws_plots = true;
+  bool makes_report = false;                            ///< run: --report
   bool solves_starts = true;                            ///< check only
   bool draws = false;                                   ///< check only: --draw
   std::optional<std::filesystem::path> picture_file{};  ///< draw, check --draw: --output

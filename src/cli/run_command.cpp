@@ -15,6 +15,7 @@
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
 #include "springfold/io/read_case.hpp"
+#include "springfold/io/report.hpp"
 #include "springfold/io/result_folder.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
@@ -209,7 +210,8 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
   const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
   const auto write = [&] {
     io::write_results(folder, the_case, results,
-                      arguments.draws_plots ? io::SetState::being_written : state);
+                      arguments.draws_plots ? io::SetState::being_written : state,
+                      arguments.makes_report);
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
   if (!is_done(write, session)) return input_output;
@@ -220,6 +222,7 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
     for (const auto& hint : the_case.hints) say(session, "hint: " + hint);
   say(session,
       "curves in " + (folder / "branches").string() + ", tables and summary in " + folder.string());
+  if (arguments.makes_report) say(session, "page in " + (folder / "report.html").string());
   std::vector<std::string> missing;
   if (arguments.draws_plots) {
     missing = draw(folder, the_case, results, session);
@@ -243,6 +246,10 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
 }  // namespace
 
 int run_command(const Arguments& arguments, const Session& session) {
+  if (arguments.makes_report && !io::has_report()) {
+    say(session, "--report: this springfold was built without the page (-DSPRINGFOLD_REPORT=OFF)");
+    return wrong_usage;
+  }
   Case the_case = io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
   if (const auto problem = unknown_study(the_case, arguments.studies); !problem.empty()) {
     say(session, problem);

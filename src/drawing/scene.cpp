@@ -156,11 +156,9 @@ class Builder {
 
   void add_wrench(const BodyWrench& wrench) {
     const PointId at = scene_.bodies[static_cast<std::size_t>(wrench.body - 1)].origin;
-    const bool is_zero = wrench.force.isZero(0) && wrench.moment.isZero(0);
-    if (!wrench.force.isZero(0) || is_zero)
-      scene_.loads.push_back({"", at, wrench.force, false, wrench.is_direction});
-    if (!wrench.moment.isZero(0))
-      scene_.loads.push_back({"", at, wrench.moment, true, wrench.is_direction});
+    // Also where they are zero: the parts are the same in all postures.
+    scene_.loads.push_back({"", at, wrench.force, false, wrench.is_direction});
+    scene_.loads.push_back({"", at, wrench.moment, true, wrench.is_direction});
   }
 
   const statics::System& system_;

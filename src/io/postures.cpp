@@ -81,20 +81,18 @@ void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture&
   if (w.size() > 0) posture.wrenches.push_back(wrench_of(planned_, w));
   const bool drives =
       traces && (plan.control == ControlMode::pose || plan.control == ControlMode::mixed);
-  const bool is_unloaded = traces && plan.control == ControlMode::load && lambda == 0;
-  if (plan.direction.size() == 0 || (!drives && !is_unloaded)) return;
+  const bool pushes = traces && plan.control == ControlMode::load;
+  if (plan.direction.size() == 0 || (!drives && !pushes)) return;
   posture.wrenches.push_back(wrench_of(planned_, plan.direction));
   posture.wrenches.back().is_direction = true;
-  if (const double force = value(row, force_); drives && std::isfinite(force)) {
-    // What holds the body where it is driven to, along the direction.
-    drawing::BodyWrench reaction = wrench_of(planned_, plan.direction);
-    const double size = reaction.force.norm();
-    if (size > 0) {
-      reaction.force *= force / size;
-      reaction.moment.setZero();
-      posture.wrenches.push_back(reaction);
-    }
-  }
+  if (!drives) return;
+  // What holds the body where it is driven to, along the direction.
+  const double force = value(row, force_);
+  drawing::BodyWrench reaction = wrench_of(planned_, plan.direction);
+  const double size = reaction.force.norm();
+  reaction.force *= size > 0 && std::isfinite(force) ? force / size : 0;
+  reaction.moment.setZero();
+  posture.wrenches.push_back(reaction);
 }
 
 std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
