@@ -32,7 +32,7 @@ class ReportPage {
     byId("made").textContent = `Made by springfold ${page.version} from ${page.case}, hash ${page.hash}.`;
     fill(byId("run"), page.runs.map(r => `${r.study}, run ${r.run}${r.label ? `: ${r.label}` : ""}`));
     this.listen();
-    this.showRun(0);
+    this.showRun(Math.max(0, page.runs.findIndex(r => r.branches.some(b => b.rows > 1))));
   }
 
   listen() {
