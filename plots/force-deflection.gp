@@ -29,9 +29,9 @@ set yrange [y_low:y_high]
 if (x_low < 0 && x_high > 0) set yzeroaxis linestyle 5
 if (y_low < 0 && y_high > 0) set xzeroaxis linestyle 5
 
-set title figure_title noenhanced font title_font textcolor rgb ink offset 0, 2.7
-set xlabel x_title noenhanced textcolor rgb ink offset 0, -0.4
-set ylabel y_title noenhanced textcolor rgb ink offset -0.6, 0
+set title figure_title @figure_title_mode font title_font textcolor rgb ink offset 0, 2.7
+set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
+set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
 key_rows = (words(first_parts) + words(point_codes) + 2) / 3
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \

@@ -3,6 +3,7 @@
 #
 # The program has set before this file is read:
 #   figure_name, figure_title, x_title, y_title, value_title, panel_title[n]   texts
+#   figure_title_mode, ..., panel_title_mode   'noenhanced', or 'enhanced' for a text in gnuplot's markup
 #   x_low, x_high, y_low, y_high, value_low, value_high                        ends of axes and colours
 #   levels         values of the contour lines, "0.5 1 1.5"
 #   panels         number of panels; panel n has the data blocks
@@ -37,10 +38,10 @@ unset grid
 # Nodes without values stay pale.
 set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb '#EEEEEE' \
     fillstyle solid noborder
-set xlabel x_title noenhanced textcolor rgb ink offset 0, -0.2
-set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center noenhanced \
+set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.2
+set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center @figure_title_mode \
     font title_font textcolor rgb ink
-set cblabel value_title noenhanced textcolor rgb ink offset 1.5, 0
+set cblabel value_title @value_title_mode textcolor rgb ink offset 1.5, 0
 do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
 
 do for [format in 'png svg'] {
@@ -58,12 +59,12 @@ do for [format in 'png svg'] {
     set rmargin at screen (x0 + panel_size) / figure_width
     set bmargin at screen bottom / figure_height
     set tmargin at screen (bottom + panel_size) / figure_height
-    if (n == 1) { set ylabel y_title noenhanced textcolor rgb ink } else { unset ylabel }
+    if (n == 1) { set ylabel y_title @y_title_mode textcolor rgb ink } else { unset ylabel }
     if (n == panels) {
       set colorbox user origin (x0 + panel_size + 18) / figure_width, bottom / figure_height \
           size 20 / figure_width, panel_size / figure_height
     } else { unset colorbox }
-    set title panel_title[n] noenhanced font base_font textcolor rgb ink offset 0, -0.4
+    set title panel_title[n] @panel_title_mode font base_font textcolor rgb ink offset 0, -0.4
     if (n == 1) {
       set key at screen 0.5, screen 1 - 40 / figure_height top center horizontal noenhanced \
           samplen 3 font key_font textcolor rgb ink Left reverse
@@ -80,6 +81,6 @@ do for [format in 'png svg'] {
   }
   unset multiplot
   unset output
-  set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center noenhanced \
+  set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center @figure_title_mode \
       font title_font textcolor rgb ink
 }

@@ -2,6 +2,7 @@
 #
 # The program has set before this file is read:
 #   figure_name, figure_title, x_title, y_title        texts
+#   figure_title_mode, x_title_mode, y_title_mode      'noenhanced', or 'enhanced' for a text in gnuplot's markup
 #   x_low, x_high, y_low, y_high                       ends of the axes
 #   figure_width, figure_height                        size in pixels
 #   frame_left, frame_right, frame_bottom, frame_top   frame of the axes, in parts of the size

@@ -1,6 +1,5 @@
 #include "critical_rows.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -58,8 +58,7 @@ void count_without_vanishing(const Member& member, const continuation::CurvePoin
   if (!member.problem->symmetric() ||
       !linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
     return;
-  const Vector spectrum =
-      Eigen::SelfAdjointEigenSolver<Matrix>(at.dF_dx, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector spectrum = symmetric_eigenvalues(at.dF_dx);
   const double largest = spectrum.lpNorm<Eigen::Infinity>();
   const auto count = static_cast<double>((spectrum.array() < -vanishing * largest).count() -
                                          member.problem->closures());

@@ -1,11 +1,11 @@
 #include "descent.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -49,8 +49,8 @@ struct Modes {
 };
 
 Modes modes_of(const Ground& at) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(at.hessian);
-  Modes modes{solver.eigenvalues(), solver.eigenvectors(), {}, 0};
+  SymmetricEigen eigen = symmetric_eigen(at.hessian);
+  Modes modes{std::move(eigen.values), std::move(eigen.vectors), {}, 0};
   modes.slopes = modes.directions.transpose() * at.slope;
   modes.floor =
       softest_part * modes.curvatures.cwiseAbs().maxCoeff() + std::numeric_limits<double>::min();
@@ -176,7 +176,7 @@ std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) 
     if (!ground) return std::nullopt;
     RestState state{solved.x, *there, landscape.energy(solved.x), 0, 0, true};
     if (ground->hessian.size() > 0) {
-      const Vector k_i = Eigen::SelfAdjointEigenSolver<Matrix>(ground->hessian).eigenvalues();
+      const Vector k_i = symmetric_eigenvalues(ground->hessian);
       const double stiffest = k_i.cwiseAbs().maxCoeff();
       const double zero =
           zero_part * std::clamp(stiffest, least_unit, largest_unit) + rounding_part * stiffest;

@@ -1,10 +1,10 @@
 #include "fall.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -42,13 +42,11 @@ std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, con
     const Matrix W = kernel_of(c.transpose());
     Vector step = c * (off / (norm * norm));
     if (W.cols() > 0) {
-      const Eigen::SelfAdjointEigenSolver<Matrix> modes(W.transpose() * at->hessian * W);
-      Vector y =
-          -modes.eigenvectors().transpose() * (W.transpose() * (at->slope + at->hessian * step));
+      const SymmetricEigen modes = symmetric_eigen(W.transpose() * at->hessian * W);
+      Vector y = -modes.vectors.transpose() * (W.transpose() * (at->slope + at->hessian * step));
       const double floor = soft_part * at->hessian.norm();
-      for (Index i = 0; i < y.size(); ++i)
-        y[i] /= std::max(floor, std::abs(modes.eigenvalues()[i]));
-      step += W * (modes.eigenvectors() * y);
+      for (Index i = 0; i < y.size(); ++i) y[i] /= std::max(floor, std::abs(modes.values[i]));
+      step += W * (modes.vectors * y);
     }
     const double size = step.norm();
     if (size < arrived) return Pushed{x, -at->slope.dot(c) / norm};
@@ -69,11 +67,11 @@ std::vector<Vector> soft_directions(const Landscape& landscape, const Vector& cr
   std::vector<Vector> list;
   const auto at = landscape.ground_on(critical, piece);
   if (!at || at->hessian.size() == 0) return list;
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(at->hessian);
-  const double soft = soft_part * std::max(1.0, modes.eigenvalues().cwiseAbs().maxCoeff());
+  const SymmetricEigen modes = symmetric_eigen(at->hessian);
+  const double soft = soft_part * std::max(1.0, modes.values.cwiseAbs().maxCoeff());
   // The softest mode of a critical state is the one that matters, whatever the size of the others.
-  const Index count = std::max<Index>(1, (modes.eigenvalues().array() < soft).count());
-  const Matrix V = at->motions * modes.eigenvectors().leftCols(count);
+  const Index count = std::max<Index>(1, (modes.values.array() < soft).count());
+  const Matrix V = at->motions * modes.vectors.leftCols(count);
   if (count == 1) list.push_back(V.col(0));
   // Several modes at once: any combination may be the way out.
   constexpr int around = 6;

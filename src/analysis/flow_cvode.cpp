@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 
 #include "flow.hpp"
 
@@ -92,6 +93,27 @@ auto owned(T* pointer, Free free) {
   return std::unique_ptr<std::remove_pointer_t<T*>, Free>(pointer, free);
 }
 
+/// What could not be made for want of memory; the library itself would go on with nothing.
+template <class T>
+T* made(T* pointer) {
+  if (pointer == nullptr) throw std::bad_alloc{};
+  return pointer;
+}
+
+/// Calls that prepare fail for want of memory only.
+void prepared(int flag) {
+  if (flag < 0) throw std::bad_alloc{};
+}
+
+/// SUNDIALS does not look whether there is memory for a context, so there must be.
+void require_room() {
+  constexpr std::size_t context = 1U << 16U;
+  ::operator delete(::operator new(context));
+}
+
+N_Vector cloned(N_Vector vector) { return made(N_VClone_Serial(vector)); }
+SUNMatrix cloned_matrix(SUNMatrix matrix) { return made(SUNMatClone_Dense(matrix)); }
+
 /// Slopes below this are near rest: Newton's method finishes.
 constexpr double nearly_at_rest = 1e-6;
 /// Slopes below this at a saddle are no motion any more.
@@ -114,25 +136,27 @@ class Integrator {
       return flow_;
     }
     SUNContext context = nullptr;
-    if (SUNContext_Create(nullptr, &context) != 0) return flow_;
+    require_room();
+    prepared(SUNContext_Create(nullptr, &context) == 0 ? 0 : -1);
     const auto holder = owned(context, [](SUNContext c) { SUNContext_Free(&c); });
     const auto n = static_cast<sunindextype>(data_.size());
-    const auto y = owned(N_VNew_Serial(n, context), N_VDestroy);
-    const auto tolerance = owned(N_VNew_Serial(n, context), N_VDestroy);
-    const auto J = owned(SUNDenseMatrix(n, n, context), SUNMatDestroy);
-    const auto solver = owned(SUNLinSol_Dense(y.get(), J.get(), context), SUNLinSolFree);
-    const auto cvode = owned(CVodeCreate(CV_BDF, context), [](void* c) { CVodeFree(&c); });
-    if (!y || !J || !solver || !cvode) return flow_;
+    const auto y = owned(made(N_VNew_Serial(n, context)), N_VDestroy);
+    const auto tolerance = owned(made(N_VNew_Serial(n, context)), N_VDestroy);
+    const auto J = owned(made(SUNDenseMatrix(n, n, context)), SUNMatDestroy);
+    y->ops->nvclone = tolerance->ops->nvclone = cloned;
+    J->ops->clone = cloned_matrix;
+    const auto solver = owned(made(SUNLinSol_Dense(y.get(), J.get(), context)), SUNLinSolFree);
+    const auto cvode = owned(made(CVodeCreate(CV_BDF, context)), [](void* c) { CVodeFree(&c); });
     view(y.get()) = y0;
     view(tolerance.get()).setConstant(options_.absolute);
     CVodeSetErrHandlerFn(cvode.get(), ignore_messages, nullptr);
     CVodeSetUserData(cvode.get(), &data_);
-    CVodeInit(cvode.get(), rate_callback, 0, y.get());
-    CVodeSVtolerances(cvode.get(), options_.relative, tolerance.get());
-    CVodeSetLinearSolver(cvode.get(), solver.get(), J.get());
+    prepared(CVodeInit(cvode.get(), rate_callback, 0, y.get()));
+    prepared(CVodeSVtolerances(cvode.get(), options_.relative, tolerance.get()));
+    prepared(CVodeSetLinearSolver(cvode.get(), solver.get(), J.get()));
     if (!data_.has_masses()) CVodeSetJacFn(cvode.get(), jacobian_callback);
     CVodeSetMaxNumSteps(cvode.get(), options_.most_steps);
-    CVodeRootInit(cvode.get(), static_cast<int>(data_.piece.size()) + 1, root_callback);
+    prepared(CVodeRootInit(cvode.get(), static_cast<int>(data_.piece.size()) + 1, root_callback));
     integrate(cvode.get(), y.get());
     return flow_;
   }

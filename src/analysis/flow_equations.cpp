@@ -1,9 +1,8 @@
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "flow.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -57,18 +56,15 @@ std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& 
                                 const Vector& q) {
   const Matrix Z = kernel_of(J);
   Balanced result{Vector::Zero(W.rows()), Vector::Zero(J.rows())};
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> closings(J);
-  if (J.rows() > 0) result.a = closings.solve(q);
+  if (J.rows() > 0) result.a = least_squares(J, q);
   if (Z.cols() > 0) {
     const Matrix reduced = Z.transpose() * W * Z;
-    const Eigen::LDLT<Matrix> factors(reduced);
-    const Vector d = factors.vectorD();
-    if (!(d.minCoeff() > none_part * d.maxCoeff())) return std::nullopt;
-    result.a += Z * factors.solve(Z.transpose() * (p - W * result.a));
+    const Vector values = symmetric_eigenvalues(reduced);
+    if (!(values.minCoeff() > none_part * values.maxCoeff())) return std::nullopt;
+    result.a += Z * solve_definite(reduced, Vector(Z.transpose() * (p - W * result.a)));
   }
   if (J.rows() > 0) {
-    const Matrix Jt = J.transpose();
-    result.nu = Jt.completeOrthogonalDecomposition().solve(p - W * result.a);
+    result.nu = least_squares(J.transpose(), p - W * result.a);
   }
   return result;
 }
@@ -112,7 +108,7 @@ std::optional<Matrix> overdamped_jacobian(const Motion& motion, const Vector& x,
   left.topLeftCorner(n, n) = damping_of(motion);
   left.topRightCorner(n, m) = J.transpose();
   left.bottomLeftCorner(m, n) = J;
-  return Matrix(left.completeOrthogonalDecomposition().solve(right).topRows(n));
+  return Matrix(least_squares_of_columns(left, right).topRows(n));
 }
 
 std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, const Vector& v,

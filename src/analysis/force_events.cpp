@@ -1,11 +1,11 @@
 #include "force_events.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 
 namespace springfold::analysis {
@@ -42,8 +42,8 @@ continuation::Event dead_load_event(const Evaluator& evaluator) {
     if (factors->size() == 0) *factors = equilibrate(A).rows;
     // Where nothing holds the body, as on cables that are all slack, it is zero all along.
     constexpr double singular = 1e-14;
-    const Eigen::PartialPivLU<Matrix> lu(factors->asDiagonal() * A * factors->asDiagonal());
-    return lu.rcond() > singular ? lu.determinant() : 0.0;
+    const Lu lu(factors->asDiagonal() * A * factors->asDiagonal());
+    return lu.reciprocal_condition() > singular ? lu.determinant() : 0.0;
   };
   return {dead_load_change_name, value, continuation::EventAction::record, dead_load_change};
 }

@@ -1,9 +1,11 @@
 #include "grow_diagram.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "closure_rank.hpp"
 #include "limits.hpp"
+#include "number_text.hpp"
 #include "search_box.hpp"
 #include "springfold/continuation/between.hpp"
 #include "springfold/continuation/search.hpp"
@@ -141,6 +143,38 @@ class Grower {
 
 }  // namespace
 
+namespace {
+
+double length_of(const Curve& curve) {
+  return curve.points.empty() ? 0 : std::abs(curve.points.back().s - curve.points.front().s);
+}
+
+/// Do the rows over a curve so long fit beside those before? Otherwise says what to change.
+bool has_room(const Tracing& tracing, double length) {
+  const double spacing = tracing.study.trace.spacing;
+  const std::size_t columns = tracing.quantities.size();
+  const double row = bytes_of_row(columns) + bytes_of_text(columns) +
+                     bytes_of_point(static_cast<std::size_t>(tracing.problem.size()));
+  const double bytes = length / spacing * row;
+  RowBudget& budget = tracing.budget;
+  if (bytes <= budget.bytes) {
+    budget.bytes -= bytes;
+    return true;
+  }
+  const double all = most_memory - budget.bytes + bytes;
+  constexpr double some_more = 1.1;  // so that rounding does not bring it back below
+  if (budget.refused.empty())
+    budget.refused = "trace.spacing: got " + rounded(spacing) + ", which makes about " +
+                     rounded(length / spacing) + " rows of a branch of length " + rounded(length) +
+                     ", with those before about " + rounded(all / 1e9) +
+                     " GB of memory, need at most " + rounded(most_memory / 1e9) +
+                     " GB: a spacing of " + rounded(some_more * spacing * all / most_memory, 2) +
+                     " or more; the branch has the rows of its steps only";
+  return false;
+}
+
+}  // namespace
+
 continuation::TraceOptions options_of(const TraceSettings& settings) {
   continuation::TraceOptions options;
   options.step.initial = settings.initial_step;
@@ -152,7 +186,8 @@ continuation::TraceOptions options_of(const TraceSettings& settings) {
 
 void add_between(const Tracing& tracing, BranchSource& source) {
   const double spacing = tracing.study.trace.spacing;
-  if (spacing == 0) return;
+  if (spacing == 0 || !has_room(tracing, length_of(source.backward) + length_of(source.forward)))
+    return;
   const auto options = options_of(tracing.study.trace);
   const auto fill = [&](Curve& curve, std::vector<CurvePoint>& between) {
     auto found = continuation::points_between(tracing.problem, curve, spacing, options);

@@ -4,10 +4,17 @@
 
 #include "branch_rows.hpp"
 #include "quantities.hpp"
+#include "springfold/analysis/row_memory.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/continuation/diagram.hpp"
 
 namespace springfold::analysis {
+
+/// Memory that the rows of one run may still take.
+struct RowBudget {
+  double bytes = most_memory;
+  std::string refused{};  ///< why rows were left out, with what to change; empty if none were
+};
 
 /// What is needed to trace a study; the references must outlive it.
 struct Tracing {
@@ -17,11 +24,12 @@ struct Tracing {
   const std::vector<QuantityDefinition>& quantities;
   const Observer& observer;
   double lambda_scale = 1;  ///< physical lambda = lambda_scale * dimensionless lambda
+  RowBudget& budget;        ///< for all branches of the run
 };
 
 continuation::TraceOptions options_of(const TraceSettings& settings);
 
-/// Points for rows between those of the steps, if the study wants them.
+/// Points for rows between those of the steps, if the study wants them and their memory is there.
 void add_between(const Tracing& tracing, BranchSource& source);
 
 struct Grown {

@@ -1,7 +1,8 @@
 #include "landscape.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -12,13 +13,6 @@ constexpr double closed = 1e-13;
 constexpr double near = 1e-7;
 
 }  // namespace
-
-Matrix kernel_of(const Matrix& J) {
-  if (J.rows() == 0) return Matrix::Identity(J.cols(), J.cols());
-  const Eigen::ColPivHouseholderQR<Matrix> qr(J.transpose());
-  const Matrix Q = qr.householderQ();
-  return Q.rightCols(J.cols() - qr.rank());
-}
 
 Landscape::Landscape(Terrain terrain) : terrain_{std::move(terrain)} {
   for (std::size_t i = 0; i < terrain_.is_multiplier.size(); ++i)
@@ -54,7 +48,7 @@ bool Landscape::close(Vector& x) const {
     last = size;
     if (!terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
     const Matrix J = A(multipliers_, moving_);
-    Vector step = -J.completeOrthogonalDecomposition().solve(gap);
+    Vector step = -least_squares(J, gap);
     const double length = step.lpNorm<Eigen::Infinity>();
     if (length > longest) step *= longest / length;
     x(moving_) += step;
@@ -85,7 +79,7 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
   at.slope = at.motions.transpose() * at.gradient;
   if (!multipliers_.empty()) {
     const Matrix G = A(moving_, multipliers_);
-    at.x(multipliers_) = -G.completeOrthogonalDecomposition().solve(at.gradient);
+    at.x(multipliers_) = -least_squares(G, at.gradient);
     if (!evaluate()) return std::nullopt;
   }
   const Matrix H = A(moving_, moving_);

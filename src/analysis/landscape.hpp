@@ -65,7 +65,4 @@ class Landscape {
   Vector periods_{};
 };
 
-/// Orthonormal basis of the directions in which J is zero; all directions where J has no rows.
-Matrix kernel_of(const Matrix& J);
-
 }  // namespace springfold::analysis

@@ -10,6 +10,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "branch_rows.hpp"
@@ -209,7 +210,13 @@ class Pool {
            const std::function<void()>& checkpoint) {
     using clock = std::chrono::steady_clock;
     std::vector<std::jthread> workers;
-    for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
+    workers.reserve(static_cast<std::size_t>(threads));
+    for (int i = 0; i < threads; ++i) try {
+        workers.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {  // as many as the system gives
+        break;
+      }
+    if (workers.empty()) work();
     auto last = clock::now();
     std::unique_lock lock{mutex_};
     while (left_ > 0 && !failure_ && !stop_) {

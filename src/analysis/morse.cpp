@@ -1,9 +1,10 @@
 #include "morse.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -197,7 +198,7 @@ bool is_free_guide(const statics::System& system, std::size_t number) {
     R = R * joint.before.R;
     axes.col(j) = R * joint.axis;
   }
-  return std::abs(axes.topRows(d).determinant()) > 1e-9;
+  return std::abs(Lu(axes.topRows(d)).determinant()) > 1e-9;
 }
 
 /// A point that bars and line springs hold, and nothing else; slides may guide it anywhere.

@@ -1,10 +1,10 @@
 #include "not_held.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "number_text.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -32,11 +32,11 @@ std::string untouched(const CommandSetup& setup, const statics::ControlResult& r
     const Index i = solver.unknowns[static_cast<std::size_t>(k)];
     M.col(k) = i < system.size ? A.col(i) : by_rho.col(i - system.size);
   }
-  const Eigen::BDCSVD<Matrix> svd(M, Eigen::ComputeFullU);
-  const Vector values = svd.singularValues();
+  const Svd svd = jacobi_svd(M, SingularVectors::full);
+  const Vector& values = svd.values;
   const Index last = system.size - 1;
   if (values.size() > last && values[last] > none * values[0]) return {};
-  const Vector u = svd.matrixU().col(last);
+  const Vector u = svd.U.col(last);
   std::string names;
   for (Index i = 0; i < system.size; ++i)
     if (std::abs(u[i]) >= visible * u.cwiseAbs().maxCoeff() &&

@@ -252,7 +252,9 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
     result.start.compliance = evaluator.rigid_compliance(start);
     result.start.sides = sides_of_start(evaluator, start);
     result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
-    const Tracing tracing{problem, study, evaluator, quantities, observer, setup.lambda_scale};
+    RowBudget budget;
+    const Tracing tracing{problem, study, evaluator, quantities, observer, setup.lambda_scale,
+                          budget};
     if (study.kind == StudyKind::equilibrium) {
       result.start.situation = situation_of(tracing, start, {});
       result.branches.push_back(single_point(start, evaluator, quantities, problem));
@@ -261,6 +263,7 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
     } else {
       trace_study(tracing, start, result);
     }
+    if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
   }
   result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   return result;

@@ -1,6 +1,5 @@
 #include "snap_jumps.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "frozen.hpp"
 #include "leg_angles.hpp"
 #include "limits.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -254,9 +254,7 @@ class Jumper {
   double time_scale(const Frozen& frozen, const RestState& state) const {
     const auto at = frozen.landscape().ground_on(state.x, state.piece);
     if (!at || at->hessian.size() == 0) return std::numeric_limits<double>::quiet_NaN();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> rates(
-        at->hessian, frozen.landscape().damping(*at), Eigen::EigenvaluesOnly);
-    return 1 / rates.eigenvalues()[0];
+    return 1 / eigenvalues_of_pair(at->hessian, frozen.landscape().damping(*at))[0];
   }
 
   void offer_to_trace(const Frozen& frozen, const RestState& landing) {

@@ -1,11 +1,10 @@
 #include "start_trouble.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "number_text.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/statics/kinematics.hpp"
 #include "springfold/statics/stiffness.hpp"
 
@@ -168,21 +167,18 @@ std::string free_motions(const statics::System& system, const Vector& z,
   std::vector<Index> moving, wrenches;
   for (Index i = 0; i < system.size; ++i)
     (system.is_wrench[static_cast<std::size_t>(i)] ? wrenches : moving).push_back(i);
-  Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(A(moving, wrenches)));
-  qr.setThreshold(none);
   const Index n = static_cast<Index>(moving.size());
-  const Matrix Q = qr.householderQ() * Matrix::Identity(n, n);
-  const Matrix Z = Q.rightCols(n - (wrenches.empty() ? 0 : qr.rank()));
+  const Matrix Z = kernel_of(A(moving, wrenches).transpose(), none);
   if (Z.cols() == 0) return {};
   const Matrix H = A(moving, moving), T = Z.transpose() * H * Z;
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(0.5 * (T + T.transpose()));
-  const double largest = std::max(modes.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
+  const SymmetricEigen modes = symmetric_eigen(0.5 * (T + T.transpose()));
+  const double largest = std::max(modes.values.cwiseAbs().maxCoeff(), 1e-300);
   std::string text;
   Index motions = 0;
-  for (Index m = 0; m < modes.eigenvalues().size(); ++m) {
-    if (std::abs(modes.eigenvalues()[m]) > none * std::max(1.0, largest)) continue;
+  for (Index m = 0; m < modes.values.size(); ++m) {
+    if (std::abs(modes.values[m]) > none * std::max(1.0, largest)) continue;
     if (++motions > most_motions) continue;
-    const Vector v = Z * modes.eigenvectors().col(m);
+    const Vector v = Z * modes.vectors.col(m);
     std::vector<Index> order(static_cast<std::size_t>(n));
     for (Index i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {

@@ -1,10 +1,11 @@
 #include "state_book.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -53,13 +54,13 @@ void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
   bool is_left = false;
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(at->hessian);
+  const SymmetricEigen modes = symmetric_eigen(at->hessian);
   for (Index i = 0; i < std::max<Index>(1, state.index); ++i)
     for (const double sign : {1.0, -1.0}) {
       std::optional<Vector> x;
       double length = kick;
       for (int h = 0; h < halvings; ++h, length /= 2) {
-        x = landscape_.moved(*at, sign * length * modes.eigenvectors().col(i));
+        x = landscape_.moved(*at, sign * length * modes.vectors.col(i));
         if (x && landscape_.energy(*x) < state.energy) break;
         x.reset();
       }
@@ -91,10 +92,10 @@ void StateBook::climb_from_minima(const StateSearch& options) {
     if (from.index != 0 || !(from.energy < options.bound)) continue;
     const auto at = landscape_.ground_on(from.x, from.piece);
     if (!at || at->hessian.size() == 0) continue;
-    const Eigen::SelfAdjointEigenSolver<Matrix> modes(at->hessian);
+    const SymmetricEigen modes = symmetric_eigen(at->hessian);
     for (Index i = 0; i < std::min<Index>(options.modes, at->hessian.rows()); ++i)
       for (const double sign : {1.0, -1.0}) {
-        const Vector along = sign * (at->motions * modes.eigenvectors().col(i));
+        const Vector along = sign * (at->motions * modes.vectors.col(i));
         const auto saddle = climb(landscape_, from.x, along);
         if (!saddle || saddle->index != 1) continue;
         const std::size_t number = add(*saddle);

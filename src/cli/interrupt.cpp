@@ -1,11 +1,14 @@
 #include "interrupt.hpp"
 
+#include <atomic>
+
 namespace springfold::cli {
 
 namespace {
 
 // A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t noted_signal = 0;
+std::atomic<int> noted_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "handlers of signals may use nothing else");
 
 extern "C" void note_signal(int signal) { noted_signal = signal; }
 

@@ -35,8 +35,9 @@ analysis::StudyResult run_map(const Arguments& arguments, const std::filesystem:
   return session.run_map(
       planned,
       [&](int, double done) {
+        if (session.signal() != 0) return false;
         progress.part(done);
-        return session.signal() == 0;
+        return true;
       },
       options);
 }

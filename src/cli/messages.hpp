@@ -10,6 +10,9 @@ namespace springfold::cli {
 /// names and words of other programs reach the terminal as text only.
 void say(std::ostream& err, const std::string& message);
 
+inline constexpr const char* interrupted_reading_text =
+    "interrupted while the case was read: nothing was run and nothing was written";
+
 /// For where nothing more can be done.
 inline constexpr const char* out_of_memory_text =
     "springfold: out of memory: the case needs more than there is; nothing more was written\n";

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
+#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "exit_code.hpp"
+#include "in_time.hpp"
 #include "map_runs.hpp"
 #include "messages.hpp"
 #include "progress.hpp"
@@ -39,37 +41,59 @@ void say(const Session& session, const std::string& message) { cli::say(session.
 struct Results {
   std::vector<StudyResult> list{};
   bool last_interrupted = false;  ///< a signal ended the last one
-  bool fits_into_memory = true;   ///< false: ended because one did not
+  bool gave_up = false;  ///< the one behind the last was given up: a thread is still at work on it
+  bool fits_into_memory = true;  ///< false: ended because one did not
 
   bool all_done(const Case& the_case) const {
     return list.size() == the_case.runs.size() && !last_interrupted;
   }
 };
 
-/// Runs until all is done or a signal comes. The run that the signal stops is kept as well; one for
-/// which there is not enough memory is not.
-Results run_all(const Arguments& arguments, const fs::path& folder, const Case& the_case,
-                const Session& session) {
+/// What runs need, with a life of its own: the thread of a run that was given up still uses it.
+struct Work {
+  Arguments arguments{};
+  fs::path folder{};
+  std::shared_ptr<const Case> the_case{};
+  Session session;
+  std::shared_ptr<Progress> progress{};
+};
+
+StudyResult run_one(const Work& work, const PlannedRun& planned) {
+  const Session& session = work.session;
+  const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
+  const auto observe = [&work](int points, double) {
+    if (work.session.signal() != 0) return false;
+    work.progress->points(points);
+    return true;
+  };
+  StudyResult result = is_map ? run_map(work.arguments, work.folder, *work.the_case, planned,
+                                        session, *work.progress)
+                              : session.run_study(planned, observe);
+  result.study = planned.study;
+  result.run = planned.run;
+  result.label = planned.label;
+  return result;
+}
+
+/// Runs until all is done or a signal comes. The run that the signal stops is kept as well if it ends in
+/// time; one for which there is not enough memory is not.
+Results run_all(const Work& work) {
+  const auto& runs = work.the_case->runs;
+  const Session& session = work.session;
   Results all;
   auto& results = all.list;
-  results.reserve(the_case.runs.size());
-  Progress progress{session.err, session.shows_progress};
-  for (const auto& planned : the_case.runs) try {
+  results.reserve(runs.size());
+  for (const auto& planned : runs) try {
       if (session.signal() != 0) break;
-      const auto number = std::to_string(results.size() + 1) + "/" +
-                          std::to_string(the_case.runs.size()) + " " + planned.study;
-      progress.begin(planned.label.empty() ? number : number + ", " + planned.label);
-      const bool is_map = planned.plan.kind == analysis::StudyKind::map && session.run_map;
-      StudyResult result = is_map ? run_map(arguments, folder, the_case, planned, session, progress)
-                                  : session.run_study(planned, [&](int points, double) {
-                                      progress.points(points);
-                                      return session.signal() == 0;
-                                    });
-      result.study = planned.study;
-      result.run = planned.run;
-      result.label = planned.label;
-      all.last_interrupted = session.signal() != 0 && !analysis::complete(result);
-      results.push_back(std::move(result));
+      const auto number = std::to_string(results.size() + 1) + "/" + std::to_string(runs.size()) +
+                          " " + planned.study;
+      work.progress->begin(planned.label.empty() ? number : number + ", " + planned.label);
+      auto result =
+          done_in_time<StudyResult>([work, &planned] { return run_one(work, planned); }, session);
+      all.gave_up = !result.has_value();
+      if (all.gave_up) break;
+      all.last_interrupted = session.signal() != 0 && !analysis::complete(*result);
+      results.push_back(std::move(*result));
     } catch (const std::bad_alloc&) {
       all.fits_into_memory = false;
       break;
@@ -77,6 +101,7 @@ Results run_all(const Arguments& arguments, const fs::path& folder, const Case& 
       all.fits_into_memory = false;
       break;
     }
+  work.progress->clear();
   return all;
 }
 
@@ -86,8 +111,8 @@ int judge(const Case& the_case, const StudyResult& result, const Session& sessio
       std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const io::PlannedRun& run) {
         return run.study == result.study && run.run == result.run;
       });
-  const std::string problem =
-      io::start_problem(result.start, planned == the_case.runs.end() ? nullptr : &*planned);
+  const io::PlannedRun* plan = planned == the_case.runs.end() ? nullptr : &*planned;
+  const std::string problem = io::start_problem(result.start, plan);
   if (!result.start.found) {
     say(session, name_of(result) + ": no trustworthy start point: " + problem);
     return no_start_point;
@@ -99,7 +124,8 @@ int judge(const Case& the_case, const StudyResult& result, const Session& sessio
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
       if (!stop->complete) say(session, name_of(result) + ": stopped early: " + stop->reason);
-  for (const auto& doubt : result.doubts) say(session, name_of(result) + ": unresolved: " + doubt);
+  for (const auto& doubt : result.doubts)
+    say(session, name_of(result) + ": unresolved: " + io::with_place(doubt, plan));
   if (!analysis::complete(result)) return partial;
   const bool is_resolved = std::all_of(
       result.branches.begin(), result.branches.end(), [](const analysis::Branch& branch) {
@@ -127,6 +153,11 @@ int judge_all(const Case& the_case, const Results& results,
       say(session, name_of(result) + ": interrupted");
     else
       code = worse(code, judge(the_case, result, session));
+  }
+  if (results.gave_up) {
+    const PlannedRun& last = the_case.runs[results.list.size()];
+    say(session, last.study + ", run " + std::to_string(last.run) +
+                     ": interrupted in the middle of a step: nothing of it is kept");
   }
   const auto failed = std::count_if(comparisons.begin(), comparisons.end(),
                                     [](const io::Comparison& c) { return !c.holds; });
@@ -201,10 +232,19 @@ bool is_done(const std::function<void()>& write, const Session& session) {
   }
 }
 
-/// Runs all, writes, prints, draws. @returns the exit code
-int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_case,
-           const Session& session) {
-  const Results all = run_all(arguments, folder, the_case, session);
+/// How a run ended.
+struct Ending {
+  int code = all_done;
+  bool gave_up = false;  ///< a thread is still at work
+};
+
+/// Runs all, writes, prints, draws.
+Ending run_in(const Work& work) {
+  const Arguments& arguments = work.arguments;
+  const fs::path& folder = work.folder;
+  const Case& the_case = *work.the_case;
+  const Session& session = work.session;
+  const Results all = run_all(work);
   const std::vector<StudyResult>& results = all.list;
   const bool is_whole = all.all_done(the_case);
   const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
@@ -214,7 +254,7 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
                       arguments.makes_report);
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
-  if (!is_done(write, session)) return input_output;
+  if (!is_done(write, session)) return {input_output, all.gave_up};
   const auto comparisons = io::compare(the_case.expected, results);
   const bool is_printed = print(arguments, the_case, results, comparisons, session);
   int code = judge_all(the_case, all, comparisons, session);
@@ -240,7 +280,7 @@ int run_in(const fs::path& folder, const Arguments& arguments, const Case& the_c
     say(session, interruption(signal, the_case, all, missing, folder));
     code = interrupted_by(signal);
   }
-  return code;
+  return {code, all.gave_up};
 }
 
 }  // namespace
@@ -250,12 +290,20 @@ int run_command(const Arguments& arguments, const Session& session) {
     say(session, "--report: this springfold was built without the page (-DSPRINGFOLD_REPORT=OFF)");
     return wrong_usage;
   }
-  Case the_case = io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
-  if (const auto problem = unknown_study(the_case, arguments.studies); !problem.empty()) {
+  auto loaded = done_in_time<Case>(
+      [arguments, session] {
+        return io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
+      },
+      session);
+  if (!loaded) {
+    say(session, interrupted_reading_text);
+    session.leave_at_once(interrupted_by(session.signal()));
+    return interrupted_by(session.signal());
+  }
+  if (const auto problem = unknown_study(*loaded, arguments.studies); !problem.empty()) {
     say(session, problem);
     return wrong_usage;
   }
-  the_case = with_studies(std::move(the_case), arguments.studies);
   const fs::path folder = arguments.folder.value_or(default_folder(arguments.case_file));
   if (const auto problem = problem_with_folder(folder); !problem.empty()) {
     say(session, problem);
@@ -265,7 +313,16 @@ int run_command(const Arguments& arguments, const Session& session) {
   std::optional<io::FolderLock> lock;
   if (!is_done([&] { lock.emplace(folder); }, session)) return input_output;
   io::remove_leftovers(folder);
-  return run_in(folder, arguments, the_case, session);
+  const Work work{
+      .arguments = arguments,
+      .folder = folder,
+      .the_case = std::make_shared<const Case>(with_studies(std::move(*loaded), arguments.studies)),
+      .session = session,
+      .progress = std::make_shared<Progress>(session.err, session.shows_progress)};
+  const Ending ending = run_in(work);
+  lock.reset();
+  if (ending.gave_up) session.leave_at_once(ending.code);
+  return ending.code;
 }
 
 }  // namespace springfold::cli

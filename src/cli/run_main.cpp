@@ -1,5 +1,6 @@
 #include "run_main.hpp"
 
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include "check_command.hpp"
 #include "draw_command.hpp"
 #include "exit_code.hpp"
+#include "in_time.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
 #include "run_command.hpp"
@@ -30,6 +32,18 @@ analysis::StudyResult run_planned_map(const io::PlannedRun& planned,
   return analysis::run_study(planned.mechanism, planned.plan, nullptr, observer, options);
 }
 
+/// A command that has nothing to keep when a signal comes.
+int run_whole(int (*command)(const Arguments&, const Session&), const Arguments& arguments,
+              const Session& session) {
+  const auto code = done_in_time<int>(
+      [command, arguments, session] { return command(arguments, session); }, session);
+  if (code) return *code;
+  say(session.err, "interrupted: nothing is claimed");
+  const int interrupted = interrupted_by(session.signal());
+  session.leave_at_once(interrupted);
+  return interrupted;
+}
+
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
                bool shows_progress) {
   if (!parsed.error.empty()) {
@@ -47,14 +61,15 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
                         .shows_progress = shows_progress,
                         .signal = InterruptGuard::signal,
                         .run_study = run_planned,
-                        .run_map = run_planned_map};
+                        .run_map = run_planned_map,
+                        .leave_at_once = [](int code) { std::_Exit(code); }};
   switch (parsed.arguments->command) {
     case Command::check:
-      return check_command(*parsed.arguments, session);
+      return run_whole(check_command, *parsed.arguments, session);
     case Command::verify:
-      return verify_command(*parsed.arguments, session);
+      return run_whole(verify_command, *parsed.arguments, session);
     case Command::draw:
-      return draw_command(*parsed.arguments, session);
+      return run_whole(draw_command, *parsed.arguments, session);
     case Command::run:
       break;
   }
@@ -73,7 +88,7 @@ int run_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
     say(err, "nothing was run and nothing was written");
     return wrong_case_file;
   } catch (const continuation::Interrupted&) {
-    say(err, "interrupted while the case was read: nothing was run and nothing was written");
+    say(err, interrupted_reading_text);
     return interrupted_by(InterruptGuard::signal());
   } catch (const std::bad_alloc&) {
     err << out_of_memory_text;  // there may be no memory for a message that is put together

@@ -22,6 +22,8 @@ struct Session {
   std::function<int()> signal{};  ///< the signal that asks to stop, 0 if none
   RunStudy run_study{};
   RunMap run_map{};  ///< maps, which have options; empty: run_study runs them too
+  /// Ends the program while a thread is at work that was given up; empty: no work is ever given up.
+  std::function<void(int code)> leave_at_once{};
 };
 
 /// For what runs long: is there a signal?

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 #include "exit_code.hpp"
@@ -79,7 +80,11 @@ void run_all(std::vector<VerifiedCase>& cases, int jobs, const Session& session)
   };
   {
     std::vector<std::jthread> threads;
-    for (int j = 1; j < jobs; ++j) threads.emplace_back(work);
+    for (int j = 1; j < jobs; ++j) try {
+        threads.emplace_back(work);
+      } catch (const std::system_error&) {  // as many as the system gives
+        break;
+      }
     work();
   }
   for (const auto& error : errors)

@@ -1,10 +1,9 @@
 #include "augmented.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
 
 namespace springfold::continuation {
@@ -15,9 +14,9 @@ constexpr double directional_step = 0x1p-8;
 
 /// The rotation that brings the columns of `left` nearest to those of `right`.
 Matrix aligned(const Matrix& left, const Matrix& right) {
-  const Eigen::JacobiSVD<Matrix> svd(Matrix(left.transpose() * right),
-                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return left * (svd.matrixU() * svd.matrixV().transpose());
+  const Svd svd =
+      jacobi_svd(left.transpose() * right, SingularVectors::full, SingularVectors::full);
+  return left * (svd.U * svd.V.transpose());
 }
 
 }  // namespace
@@ -57,8 +56,8 @@ std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& 
   const Index n = x.size(), k = B.cols();
   Matrix right = Matrix::Zero(n + k, k);
   right.bottomRows(k).setIdentity();
-  const Eigen::PartialPivLU<Matrix> lu(bordered_matrix(p.base, B, C));
-  const Matrix forward = lu.solve(right), back = lu.transpose().solve(right);
+  const Lu lu(bordered_matrix(p.base, B, C));
+  const Matrix forward = lu.solve(right), back = lu.solve_transposed(right);
   if (!forward.allFinite() || !back.allFinite()) return std::nullopt;
   p.V = forward.topRows(n);
   p.G = forward.bottomRows(k);
@@ -73,20 +72,20 @@ std::optional<NullVectors> null_vectors(const Family& family, const CriticalStar
   const Matrix A = base.J.leftCols(n);
   NullVectors null{Matrix(n, k), Matrix(n, k)};
   if (family.at(at.mu)->symmetric()) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(A);
+    const SymmetricEigen eigen = symmetric_eigen(A);
     std::vector<Index> order(static_cast<std::size_t>(n));
     for (Index i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return std::abs(eigen.eigenvalues()[a]) < std::abs(eigen.eigenvalues()[b]);
+      return std::abs(eigen.values[a]) < std::abs(eigen.values[b]);
     });
     for (int i = 0; i < k; ++i)
-      null.right.col(i) = eigen.eigenvectors().col(order[static_cast<std::size_t>(i)]);
+      null.right.col(i) = eigen.vectors.col(order[static_cast<std::size_t>(i)]);
     null.left = null.right;
     return null;
   }
-  const Eigen::BDCSVD<Matrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  null.right = svd.matrixV().rightCols(k);
-  null.left = aligned(svd.matrixU().rightCols(k), null.right);
+  const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
+  null.right = svd.V.rightCols(k);
+  null.left = aligned(svd.U.rightCols(k), null.right);
   return null;
 }
 

@@ -1,7 +1,6 @@
 // Minimally augmented systems of special points, F~(X; mu) = 0 with X = (x, lambda, ...). Private to the engine.
 #pragma once
 
-#include <Eigen/LU>
 #include <optional>
 
 #include "springfold/continuation/two_parameter.hpp"

@@ -1,7 +1,8 @@
 #include "degeneracy.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -35,8 +36,8 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
   along.head(n) = place->V.col(0).normalized();
   const double bending = std::abs(form(s, p, w, along, along));
   if (!(std::abs(w.dot(by_lambda)) < bending)) return Degeneracy::cusp;
-  const Eigen::JacobiSVD<Matrix> svd(place->base.J, Eigen::ComputeFullV);
-  const Vector a = svd.matrixV().col(n), b = svd.matrixV().col(n - 1);
+  const Matrix V = jacobi_svd(place->base.J, SingularVectors::none, SingularVectors::full).V;
+  const Vector a = V.col(n), b = V.col(n - 1);
   const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
 }
@@ -44,11 +45,8 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
 /// The determinant's sign with the size of the smallest singular value: continuous, and zero
 /// where one more eigenvalue of dF/dx vanishes.
 double signed_least(const Matrix& M) {
-  const Eigen::PartialPivLU<Matrix> lu(M);
-  double sign = lu.permutationP().determinant() > 0 ? 1 : -1;
-  for (Index i = 0; i < M.rows(); ++i) sign *= lu.matrixLU()(i, i) < 0 ? -1 : 1;
-  const Vector values = Eigen::JacobiSVD<Matrix>(M).singularValues();
-  return sign * values[values.size() - 1];
+  const Vector values = jacobi_svd(M).values;
+  return Lu(M).sign() * values[values.size() - 1];
 }
 
 /// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on
@@ -59,7 +57,7 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
   if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base) ||
       s.n() < lost)
     return Degeneracy::corank_two;
-  const Vector values = Eigen::JacobiSVD<Matrix>(base.J).singularValues();
+  const Vector values = jacobi_svd(base.J).values;
   return values[s.n() - lost] > vanishing * values[0] ? Degeneracy::hilltop
                                                       : Degeneracy::corank_two;
 }
@@ -73,8 +71,7 @@ double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   if (!base_terms(s.family(), x, lambda, p.lambda, side, base)) return nowhere;
   const auto h = s.surface_gradient(x, lambda, p.lambda);
   if (!h) return nowhere;
-  const Eigen::JacobiSVD<Matrix> svd(base.J, Eigen::ComputeFullV);
-  const Vector t = svd.matrixV().col(s.n());
+  const Vector t = jacobi_svd(base.J, SingularVectors::none, SingularVectors::full).V.col(s.n());
   return unless_still(t[s.n()] * h->dot(t) / std::max(1e-300, h->norm()));
 }
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
+#include "equilibrated.hpp"
 #include "exit_rays.hpp"
 #include "extended.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/equilibration.hpp"
 #include "words.hpp"
 
 namespace springfold::continuation {
@@ -261,19 +261,11 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
 }
 
 int corank_of(const Walker& walker, const CurvePoint& at) {
-  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
-  const auto J = scaled_jacobian(walker, U, root, at.piece);
-  if (!J) return -1;
-  const Index n = J->rows();
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return -1;
+  const Index n = own->J.rows();
   if (n == 0) return 0;
-  Matrix sizes = J->cwiseAbs();
-  const Vector aside = Vector::LinSpaced(n + 1, 0.7, 1.3).normalized();
-  for (const double h : {-0.1, 0.1})
-    if (const auto other = scaled_jacobian(walker, U + h * aside, root, at.piece))
-      sizes = sizes.cwiseMax(1e-2 * (*other - *J).cwiseAbs());
-  const Equilibration scale = equilibrate(sizes);
-  const Vector values =
-      divided_svd(scale.rows.asDiagonal() * *J * scale.columns.asDiagonal()).values;
+  const Vector values = divided_svd(own->J).values;
   constexpr double gap = 30;
   for (Index i = 0; i < n; ++i) {
     const double above = i > 0 ? values[i - 1] : 1;

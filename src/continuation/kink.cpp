@@ -169,7 +169,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
-    const PieceWays ways = regular_ways(walker, ray, full_rank);
+    const PieceWays ways = regular_ways(walker, ray, full_rank, active.empty());
     if (ways.singular) singular.push_back(pattern);
     add(ways);
   }

@@ -1,15 +1,15 @@
 #include "piece_ways.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "equilibrated.hpp"
 #include "extended.hpp"
 #include "kink_numerics.hpp"
 #include "kink_rays.hpp"
 #include "reduced_equation.hpp"
 #include "springfold/continuation/exits.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/piecewise_form.hpp"
 
 namespace springfold::continuation {
@@ -58,6 +58,17 @@ std::optional<Direction> structured_tangent(const Walker& walker, const CurvePoi
   return tangent;
 }
 
+/// Stiff members beside soft ones, and multipliers beside angles, make nothing singular by that alone.
+std::optional<Direction> equilibrated_tangent(const Walker& walker, const CurvePoint& at,
+                                              double full_rank) {
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return std::nullopt;
+  const PivotedQr qr = pivoted_qr(own->J.transpose());
+  const Index n = own->J.rows();
+  if (!(qr.pivots[n - 1] > full_rank * qr.pivots[0])) return std::nullopt;
+  return unit(own->columns.cwiseProduct(qr.last_column), walker.weights);
+}
+
 PieceWays both_ways(const Direction& tangent) {
   return {.list = {{tangent, {}, regular_tangent}, {opposite(tangent), {}, regular_tangent}}};
 }
@@ -74,12 +85,12 @@ std::optional<Kernel> kernel_of(const Walker& walker, const CurvePoint& at) {
   const auto J = scaled_jacobian(walker, U, root, at.piece);
   if (!J) return std::nullopt;
   const Index n = J->rows();
-  const Eigen::BDCSVD<Matrix> svd(*J, Eigen::ComputeFullV);
-  const Vector& values = svd.singularValues();
+  const Svd svd = jacobi_svd(*J, SingularVectors::none, SingularVectors::full);
+  const Vector& values = svd.values;
   const double size = std::max(values[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
   Index rank = n;
   while (rank > 0 && values[rank - 1] <= located_rank * size) --rank;
-  Kernel kernel{.N = svd.matrixV().rightCols(n + 1 - rank), .corank = static_cast<int>(n - rank)};
+  Kernel kernel{.N = svd.V.rightCols(n + 1 - rank), .corank = static_cast<int>(n - rank)};
   kernel.N = (root.cwiseInverse().asDiagonal() * kernel.N).eval();
   return kernel;
 }
@@ -104,15 +115,15 @@ Matrix rates_in_kernel(const CurvePoint& at, const Surfaces& surfaces, const Mat
 bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
                  const std::vector<Direction>& known) {
   if (!is_subspace(rates)) return false;
-  const Eigen::JacobiSVD<Matrix> svd(rates, Eigen::ComputeFullV);
-  const Vector& values = svd.singularValues();
+  const Svd svd = jacobi_svd(rates, SingularVectors::none, SingularVectors::full);
+  const Vector& values = svd.values;
   const double size = values.size() > 0 ? values[0] : 0;
   Index rank = 0;
   while (rank < values.size() && values[rank] > located_rank * std::max(size, located_rank)) ++rank;
   const Index left = rates.cols() - rank;
   if (left == 0) return true;
   if (left > 1) return false;
-  const auto line = unit(N * svd.matrixV().rightCols(1), walker.weights);
+  const auto line = unit(N * svd.V.rightCols(1), walker.weights);
   return line && std::any_of(known.begin(), known.end(), [&](const Direction& d) {
            return std::abs(metric_product(walker.weights, d, *line)) > 1 - same_line;
          });
@@ -123,7 +134,8 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
 Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
 
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
-PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank) {
+PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank,
+                       bool polished) {
   if (walker.problem.structured())
     if (const auto tangent = structured_tangent(walker, at, full_rank)) return both_ways(*tangent);
   if (walker.problem.structured() && at.x.size() > most_entries)
@@ -136,13 +148,13 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   const Index n = linear.dF_dx.rows();
   if (n == 0) return both_ways({Vector(0), 1.0});
   const Matrix A = extended(linear);
-  const Eigen::ColPivHouseholderQR<Matrix> qr(A.transpose());
-  const auto pivot = [&](Index i) { return std::abs(qr.matrixQR()(i, i)); };
-  const double size = std::max(pivot(0), n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
-  if (!(pivot(n - 1) > full_rank * size)) return {.singular = true};
-  Vector last = Vector::Unit(n + 1, n);
-  last.applyOnTheLeft(qr.householderQ());
-  const auto d = unit(last, walker.weights);
+  const PivotedQr qr = pivoted_qr(A.transpose());
+  const double size = std::max(qr.pivots[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
+  if (!(qr.pivots[n - 1] > full_rank * size)) {
+    const auto tangent = polished ? equilibrated_tangent(walker, at, full_rank) : std::nullopt;
+    return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
+  }
+  const auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "the metric gives the tangent no length"};
   return both_ways(*d);
 }

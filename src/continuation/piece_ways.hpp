@@ -26,7 +26,9 @@ struct PieceWays {
 
 /// The two directions of the curve of a piece that is regular here.
 /// @param full_rank  smallest ratio of pivots that counts as full rank
-PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank);
+/// @param polished   the point solves the equations to rounding: then rows and columns of different sizes are brought to
+///                   one size before it is called singular. Located points are too inexact for that
+PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank, bool polished);
 
 /// What is known of the active surfaces at a point.
 struct Surfaces {

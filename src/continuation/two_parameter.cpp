@@ -1,13 +1,12 @@
 #include "springfold/continuation/two_parameter.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "augmented.hpp"
 #include "degeneracy.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -37,7 +36,7 @@ std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
     Vector F, by_mu;
     Matrix J;
     if (!system.residual(X, mu, F) || !system.derivatives(X, mu, J, by_mu)) return std::nullopt;
-    const Vector step = -J.partialPivLu().solve(F);
+    const Vector step = -Lu(J).solve(F);
     if (!step.allFinite() || step.norm() > 1) return std::nullopt;
     X += step;
     const double moved = step.norm();
@@ -63,8 +62,8 @@ std::optional<Augmented> system_at(const Family& family, const CriticalStart& st
 
 /// Orthonormal columns nearest to the given ones.
 Matrix polar(const Matrix& columns) {
-  const Eigen::JacobiSVD<Matrix> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  const Svd svd = jacobi_svd(columns, SingularVectors::thin, SingularVectors::thin);
+  return svd.U * svd.V.transpose();
 }
 
 class Follower {
@@ -248,8 +247,8 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
   Matrix J;
   Vector by_mu;
   if (!system->derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
-  const Eigen::FullPivLU<Matrix> lu(J);
-  if (!lu.isInvertible()) return std::nullopt;
+  const FullPivotLu lu(J);
+  if (!lu.is_invertible()) return std::nullopt;
   const Vector rate = -lu.solve(by_mu);
   const double size = std::max(1.0, rate.lpNorm<Eigen::Infinity>());
   if (!rate.allFinite() || system->unfolding(rate) > kept_within * size) return std::nullopt;

@@ -27,6 +27,8 @@ double Lu::largest_pivot() const {
   return factors_.matrixLU().size() > 0 ? factors_.matrixLU().diagonal().cwiseAbs().maxCoeff() : 0;
 }
 
+double Lu::reciprocal_condition() const { return smallest_pivot() > 0 ? factors_.rcond() : 0; }
+
 int Lu::sign() const {
   const Index negative = (factors_.matrixLU().diagonal().array() < 0).count();
   return static_cast<int>(factors_.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
@@ -73,13 +75,17 @@ Vector body_eigenvalues(const Matrix& A) {
                          : symmetric_eigenvalues(0.5 * (A + A.transpose()));
 }
 
+Vector eigenvalues_of_pair(const Matrix& A, const Matrix& B) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(A, B, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
 Eigen::VectorXcd eigenvalues(const Matrix& A) {
   return Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
 }
 
 double spectral_radius(const SmallMatrix& A) {
-  if (A.size() == 0)
-    return 0;
+  if (A.size() == 0) return 0;
   const Eigen::EigenSolver<SmallMatrix> solver(A, false);
   double largest = 0;
   for (Index i = 0; i < A.rows(); ++i)

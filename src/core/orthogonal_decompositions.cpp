@@ -90,6 +90,10 @@ Vector least_squares(const Matrix& A, const Vector& right, std::optional<double>
   return complete(A, threshold).solve(right);
 }
 
+Matrix least_squares_of_columns(const Matrix& A, const Matrix& right) {
+  return complete(A, {}).solve(right);
+}
+
 std::optional<Matrix> unique_least_squares(const Matrix& A, const Matrix& right, double threshold) {
   const Complete decomposition = complete(A, threshold);
   if (decomposition.rank() < A.cols()) return std::nullopt;

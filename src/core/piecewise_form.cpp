@@ -1,12 +1,11 @@
 #include "springfold/core/piecewise_form.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold {
 namespace {
@@ -50,6 +49,13 @@ Matrix generic_metric(Index r) {
   return B;
 }
 
+/// B^-1/2 of a positive definite B.
+Matrix inverse_root(const Matrix& B) {
+  const SymmetricEigen eigen = symmetric_eigen(B);
+  return eigen.vectors * eigen.values.cwiseSqrt().cwiseInverse().asDiagonal() *
+         eigen.vectors.transpose();
+}
+
 /// Rows and columns divided so that the form with all its jumps has a diagonal of about one.
 PiecewiseForm of_one_size(PiecewiseForm form) {
   const Index r = form.H.rows();
@@ -72,10 +78,7 @@ double value_of(const PiecewiseForm& form, const Vector& v) {
 class Pieces {
  public:
   explicit Pieces(const PiecewiseForm& form)
-      : form_{form},
-        inverse_(Matrix(generic_metric(form.H.rows()).llt().matrixL())
-                     .triangularView<Eigen::Lower>()
-                     .solve(Matrix::Identity(form.H.rows(), form.H.rows()))) {}
+      : form_{form}, inverse_(inverse_root(generic_metric(form.H.rows()))) {}
 
   void look_at(unsigned pattern, FormJudgement& result) {
     const Index k = form_.directions.rows();
@@ -85,14 +88,14 @@ class Pieces {
       if (acts) H += form_.jumps[j] * sides.row(j).transpose() * sides.row(j);
       if (!acts) sides.row(j) *= -1;
     }
-    // L^-1 H L^-T has the eigenvalues of the pair (H, B).
-    const Matrix C = inverse_ * H * inverse_.transpose();
-    solver_.compute(0.5 * (C + C.transpose()));
+    // B^-1/2 H B^-1/2 has the eigenvalues of the pair (H, B).
+    const Matrix C = inverse_ * H * inverse_;
+    const SymmetricEigen eigen = symmetric_eigen(0.5 * (C + C.transpose()));
     Index negative = 0;
     for (Index i = 0; i < C.rows(); ++i) {
-      negative += solver_.eigenvalues()[i] < 0 ? 1 : 0;
-      if (solver_.eigenvalues()[i] > form_rounding) continue;
-      const Vector v = inverse_.transpose() * solver_.eigenvectors().col(i);
+      negative += eigen.values[i] < 0 ? 1 : 0;
+      if (eigen.values[i] > form_rounding) continue;
+      const Vector v = inverse_ * eigen.vectors.col(i);
       result.least = std::min({result.least, value_of(form_, v), value_of(form_, -v)});
     }
     if (k > 0 && !inside_cone(sides)) return;
@@ -103,8 +106,7 @@ class Pieces {
 
  private:
   const PiecewiseForm& form_;
-  Matrix inverse_;  ///< of the metric's Cholesky factor
-  Eigen::SelfAdjointEigenSolver<Matrix> solver_{};
+  Matrix inverse_;  ///< of the square root of the metric
   bool seen_ = false;
 };
 
@@ -124,7 +126,7 @@ Vector nonnegative_least_squares(const Matrix& A, const Vector& b) {
     if (best < 0) break;
     used.push_back(best);
     while (!used.empty()) {
-      const Vector z = A(Eigen::all, used).completeOrthogonalDecomposition().solve(b);
+      const Vector z = least_squares(A(Eigen::all, used), b);
       if (z.minCoeff() > 0) {
         w.setZero();
         w(used) = z;
@@ -195,8 +197,8 @@ std::optional<CondensedForm> condensed_form(const Matrix& G, Index negative, con
     size[j] = row > 0 ? 1 / std::sqrt(row) : 1.0;
   }
   const Matrix scaled = size.asDiagonal() * (0.5 * (G + G.transpose())) * size.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scaled);
-  const Vector& values = solver.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const Vector& values = eigen.values;
   const double least = compliance_rounding * std::max(values.cwiseAbs().maxCoeff(), 1e-300);
   std::vector<Index> range;
   Index below = 0;
@@ -206,7 +208,7 @@ std::optional<CondensedForm> condensed_form(const Matrix& G, Index negative, con
     below += values[i] < 0 ? 1 : 0;
   }
   CondensedForm result{.across = negative - below};
-  const Matrix V = solver.eigenvectors()(Eigen::all, range);
+  const Matrix V = eigen.vectors(Eigen::all, range);
   const Vector inverse = values(range).cwiseInverse();
   result.form.directions = size.cwiseInverse().asDiagonal() * V;
   result.form.jumps = jumps;

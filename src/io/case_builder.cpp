@@ -125,6 +125,7 @@ class Builder {
     const std::vector<double> numbers = study.numbers.values(draft_->book, parameters).values;
     PlannedRun planned{.study = study.name, .run = run};
     planned.label = label_of(study, run, parameters);
+    planned.has_given_label = study.vary && !study.vary->labels.empty();
     const std::vector<double> of_mechanism =
         draft_->mechanism.numbers.values(draft_->book, parameters).values;
     planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "result_access.hpp"
-#include "springfold/io/shown_text.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
 
@@ -58,14 +57,14 @@ std::vector<PlotSpec> plots_of(const Case& the_case, const std::vector<StudyResu
   return specs;
 }
 
-std::string axis_title(const std::string& given, const std::string& quantity, double factor,
-                       const StudyResult& result, const UnitLabels& units) {
-  if (!given.empty()) return given;
+FigureText axis_title(const FigureText& given, const std::string& quantity, double factor,
+                      const StudyResult& result, const UnitLabels& units) {
+  if (!given.text.empty()) return given;
   const auto column = column_of(result, quantity);
-  std::string title = factor == 1 ? quantity : shortest(factor) + " · " + quantity;
-  if (!column) return title;
+  const std::string title = factor == 1 ? quantity : shortest(factor) + " · " + quantity;
+  if (!column) return {title};
   const auto unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
-  return unit.empty() ? title : title + " [" + unit + "]";
+  return {unit.empty() ? title : title + " [" + unit + "]"};
 }
 
 /// End of range is where a curve ends: that is seen without a mark.
@@ -91,12 +90,11 @@ void add_mark(Figure& figure, FigureMark mark) {
 }
 
 void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, const Branch& branch,
-                const std::string& label, int hue) {
+                const FigureText& label, int hue) {
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
-  figure.curves.push_back(
-      {shown(label), parts_of(points, stability_of_steps(result, branch)), hue});
+  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch)), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
       add_mark(figure,
@@ -131,7 +129,8 @@ void number_branches(Figure& figure, std::size_t first) {
         done[k] = true;
         numbers += ", " + std::to_string(curves[k].hue);
       }
-    curves[i].label += (curves[i].label.empty() ? "" : ": ") + numbers;
+    std::string& text = curves[i].label.text;
+    text += (text.empty() ? "" : ": ") + numbers;
   }
 }
 
@@ -149,17 +148,17 @@ void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result)
                        axes.spec.y_factor * value(e.sample, axes.spec.y)}});
 }
 
-void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
-             const std::string& label) {
+void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const FigureText& label) {
   const auto& [spec, units] = axes;
-  if (figure.x_title.empty()) {
-    figure.x_title = axis_title(spec.x_label, spec.x, spec.x_factor, result, units);
-    figure.y_title = axis_title(spec.y_label, spec.y, spec.y_factor, result, units);
+  if (figure.x_title.text.empty()) {
+    const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
+    figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
+    figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
   }
   const std::size_t first_curve = figure.curves.size();
   const bool is_diagram = result.branches.size() > 1;
   for (std::size_t b = 0; b < result.branches.size(); ++b)
-    add_branch(figure, axes, result, result.branches[b], b == 0 ? label : "",
+    add_branch(figure, axes, result, result.branches[b], b == 0 ? label : FigureText{},
                is_diagram ? static_cast<int>(b) + 1 : 0);
   if (is_diagram) number_branches(figure, first_curve);
   add_equilibria(figure, axes, result);
@@ -168,13 +167,17 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result,
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});
 }
 
-/// Runs of the study that the figure shows, with their labels.
-std::vector<std::pair<const StudyResult*, std::string>> shown_runs(
-    const PlotCurves& curves, const std::vector<StudyResult>& results) {
-  std::vector<std::pair<const StudyResult*, std::string>> shown;
+/// Runs of the study that the figure shows, with their labels. Texts that the program made are no markup.
+std::vector<std::pair<const StudyResult*, FigureText>> shown_runs(
+    const Case& the_case, bool markup, const PlotCurves& curves,
+    const std::vector<StudyResult>& results) {
+  std::vector<std::pair<const StudyResult*, FigureText>> shown;
   const auto add = [&](const StudyResult& result, std::size_t position) {
-    const bool has_label = position < curves.labels.size();
-    shown.emplace_back(&result, has_label ? curves.labels[position] : result.label);
+    if (position < curves.labels.size())
+      return void(shown.emplace_back(&result, FigureText{curves.labels[position], markup}));
+    const PlannedRun* planned = plan_of(the_case, result);
+    const bool is_given = planned != nullptr && planned->has_given_label;
+    shown.emplace_back(&result, FigureText{result.label, markup && is_given});
   };
   for (std::size_t i = 0; i < curves.runs.size(); ++i)
     if (const auto* result = result_of(results, curves.study, curves.runs[i])) add(*result, i);
@@ -230,10 +233,11 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
   std::vector<Figure> figures;
   UniqueNames names;
   for (const PlotSpec& spec : plots_of(the_case, results)) {
-    Figure figure{.name = names.make(safe_file_name(spec.name)), .title = spec.title};
+    Figure figure{.name = names.make(safe_file_name(spec.name)),
+                  .title = {spec.title, spec.markup}};
     bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
     for (const auto& curves : spec.curves) {
-      for (const auto& [result, label] : shown_runs(curves, results)) {
+      for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
         if (has_columns(spec, *result, problems))
           add_run(figure, {spec, the_case.units}, *result, label);

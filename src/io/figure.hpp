@@ -13,6 +13,12 @@ namespace springfold::io {
 using PlotPoint = std::pair<double, double>;  // in the units of the axes
 using Polyline = std::vector<PlotPoint>;
 
+/// A text of a figure. In gnuplot's markup "K_v" has a subscript; otherwise all characters stand for themselves.
+struct FigureText {
+  std::string text{};
+  bool is_markup = false;
+};
+
 /// What a part of a curve is worth.
 enum class Stability {
   stable,    ///< under the study's control and under dead load
@@ -27,7 +33,7 @@ struct CurvePart {
 
 /// One branch, cut where its stability changes and where it is not defined.
 struct FigureCurve {
-  std::string label{};             ///< empty: not labelled
+  FigureText label{};              ///< empty: not labelled
   std::vector<CurvePart> parts{};  ///< in the order of the branch
   int hue = 0;  ///< n: colour of the n-th branch of a diagram; 0: colours tell stability
 };
@@ -41,7 +47,7 @@ struct FigureMark {
 
 struct Figure {
   std::string name{};  ///< file name without ending, unique in its folder
-  std::string title{}, x_title{}, y_title{};
+  FigureText title{}, x_title{}, y_title{};
   PlotPoint low{}, high{};  ///< corners of the axes
   std::vector<FigureCurve> curves{};
   std::vector<FigureMark> marks{};

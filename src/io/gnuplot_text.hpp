@@ -4,11 +4,26 @@
 #include <string>
 #include <string_view>
 
+#include "figure.hpp"
+
 namespace springfold::io {
 
 /// A gnuplot string between single quotes, within which nothing but the quote is special: neither
 /// `command`, $(command), @macro nor \ are taken apart there. Ends of lines become blanks, and what
 /// else is not visible is written out (see shown()), so that the string ends where it should.
 std::string gnuplot_string(std::string_view text);
+
+/// 'enhanced' or 'noenhanced': how gnuplot is told whether a text has markup.
+std::string gnuplot_mode(const FigureText& text);
+
+/// The lines that set a text and the way it is drawn: "x_title = '...'" and "x_title_mode = '...'".
+std::string gnuplot_assignment(const std::string& name, const FigureText& text);
+
+/// What is seen of a text in gnuplot's markup, about: enough to know how much room it needs.
+std::string without_markup(std::string_view text);
+
+/// What is wrong with a text in gnuplot's markup; empty if nothing is. Names of fonts, "{/Symbol q}", stand
+/// unquoted in SVG files: what could end them there is refused.
+std::string markup_problem(std::string_view text);
 
 }  // namespace springfold::io

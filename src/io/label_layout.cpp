@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "gnuplot_text.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -90,7 +91,8 @@ Scene scene_of(const Figure& figure, const Canvas& canvas) {
 }
 
 /// A text of average letters; a little too wide is better than too narrow.
-Box box_of(const std::string& text, const Canvas& canvas) {
+Box box_of(const FigureText& label, const Canvas& canvas) {
+  const std::string text = label.is_markup ? without_markup(label.text) : label.text;
   const double width = 0.56 * canvas.text_height * static_cast<double>(width_of(text));
   return {{}, width / 2, canvas.text_height / 2};
 }
@@ -159,6 +161,8 @@ void try_around(Candidate& best, const Scene& scene, Box box, const PlotPoint& a
     const double larger = std::max(std::abs(c), std::abs(s));  // along the sides of a rectangle
     box.centre = {anchor.first + box.half_width * c / larger + gap * c,
                   anchor.second + box.half_height * s / larger + gap * s};
+    // A text wider than the frame is seen in part, rather than not at all.
+    if (box.half_width > scene.frame.half_width) box.centre.first = scene.frame.centre.first;
     consider(best, scene, box, anchor, extra + 0.01 * static_cast<double>(i), owner);
   }
 }
@@ -195,7 +199,7 @@ std::string shared_label(const Figure& figure, const Scene& scene, std::size_t m
   return text;
 }
 
-PlacedLabel placed(const std::string& text, const Candidate& best) {
+PlacedLabel placed(const FigureText& text, const Candidate& best) {
   PlacedLabel label{.text = text, .at = best.box.centre};
   label.leader_from = best.anchor;
   label.leader_to = best.box.nearest(best.anchor);
@@ -236,20 +240,20 @@ Candidate place_on_curve(const Scene& scene, const Box& box, std::size_t own) {
 std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas) {
   Scene scene = scene_of(figure, canvas);
   std::vector<PlacedLabel> labels;
-  const auto keep = [&](const std::string& text, const Candidate& best, bool is_curve_label) {
+  const auto keep = [&](const FigureText& text, const Candidate& best, bool is_curve_label) {
     scene.labels.push_back(best.box);
     labels.push_back(placed(text, best));
     labels.back().is_curve_label = is_curve_label;
   };
   for (std::size_t i = 0; i < figure.marks.size(); ++i) {
     if (is_labelled_already(figure, scene, i)) continue;
-    const std::string text = shared_label(figure, scene, i);
-    if (text.empty()) continue;
+    const FigureText text{shared_label(figure, scene, i)};
+    if (text.text.empty()) continue;
     keep(text, place_of_mark(scene, box_of(text, canvas), scene.marks[i].centre), false);
   }
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const auto& text = figure.curves[i].label;
-    if (text.empty() || scene.curves[i].empty()) continue;
+    if (text.text.empty() || scene.curves[i].empty()) continue;
     keep(text, place_on_curve(scene, box_of(text, canvas), i), true);
   }
   return labels;

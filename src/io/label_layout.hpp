@@ -18,7 +18,7 @@ struct Canvas {
 
 /// A text centred at `at`, in pixels.
 struct PlacedLabel {
-  std::string text{};
+  FigureText text{};
   PlotPoint at{};
   bool is_curve_label = false;
   bool has_leader = false;  ///< too far from its point to be understood without a line

@@ -126,14 +126,14 @@ std::vector<MapPlotSpec> specs_of(const Case& the_case) {
   return specs;
 }
 
-std::string title_of(const std::string& given, const std::string& name, double factor,
-                     const StudyResult& result, const UnitLabels& units) {
-  if (!given.empty()) return given;
+FigureText title_of(const FigureText& given, const std::string& name, double factor,
+                    const StudyResult& result, const UnitLabels& units) {
+  if (!given.text.empty()) return given;
   const auto column = column_of(result, name);
   const std::string unit =
       column ? unit_label(result.quantities[*column].unit, result.lambda_unit, units) : "";
-  return (factor == 1 ? name : shortest(factor) + " · " + name) +
-         (unit.empty() ? "" : " [" + unit + "]");
+  return {(factor == 1 ? name : shortest(factor) + " · " + name) +
+          (unit.empty() ? "" : " [" + unit + "]")};
 }
 
 void scale(std::vector<Segment>& segments, double x, double y) {
@@ -179,7 +179,8 @@ std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<St
                                       std::vector<std::string>& problems) {
   std::vector<MapFigure> figures;
   for (const MapPlotSpec& spec : specs_of(the_case)) {
-    MapFigure figure{.name = spec.name, .title = spec.title};
+    const auto given = [&spec](const std::string& text) { return FigureText{text, spec.markup}; };
+    MapFigure figure{.name = spec.name, .title = given(spec.title)};
     std::vector<Plane> planes;
     for (const MapPanelSpec& wanted : spec.panels) {
       const StudyResult* result = result_of(results, wanted.study, wanted.run);
@@ -189,14 +190,15 @@ std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<St
       if (!planned || planned->plan.map.axes.size() < 2 || !column) continue;
       const auto& axes = planned->plan.map.axes;
       planes.emplace_back(*planned, *result, wanted.slice);
-      MapPanel panel{.title = wanted.title, .field = planes.back().quantity(*column, spec.factor)};
+      MapPanel panel{.title = given(wanted.title),
+                     .field = planes.back().quantity(*column, spec.factor)};
       for (double& x : panel.field.xs) x *= spec.x_factor;
       for (double& y : panel.field.ys) y *= spec.y_factor;
       figure.panels.push_back(std::move(panel));
       const UnitLabels& units = the_case.units;
-      figure.x_title = title_of(spec.x_label, axes[0].name, spec.x_factor, *result, units);
-      figure.y_title = title_of(spec.y_label, axes[1].name, spec.y_factor, *result, units);
-      figure.value_title = title_of(spec.label, spec.quantity, spec.factor, *result, units);
+      figure.x_title = title_of(given(spec.x_label), axes[0].name, spec.x_factor, *result, units);
+      figure.y_title = title_of(given(spec.y_label), axes[1].name, spec.y_factor, *result, units);
+      figure.value_title = title_of(given(spec.label), spec.quantity, spec.factor, *result, units);
     }
     const bool has_values =
         std::any_of(figure.panels.begin(), figure.panels.end(), [](const MapPanel& panel) {

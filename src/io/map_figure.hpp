@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "figure.hpp"
 #include "springfold/analysis/result.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -28,7 +29,7 @@ std::vector<Segment> contour(const GridField& field, double level,
                              const std::vector<std::string>& pieces = {});
 
 struct MapPanel {
-  std::string title{};
+  FigureText title{};
   GridField field{};  ///< the quantity, in the units of the figure
   std::vector<Segment> contours{};
   std::vector<Segment> edge{};        ///< of the workspace
@@ -37,7 +38,8 @@ struct MapPanel {
 };
 
 struct MapFigure {
-  std::string name{}, title{}, x_title{}, y_title{}, value_title{};
+  std::string name{};
+  FigureText title{}, x_title{}, y_title{}, value_title{};
   double low = 0, high = 1;  ///< of the colours
   std::vector<double> levels{};
   std::vector<MapPanel> panels{};

@@ -11,12 +11,13 @@ class MapPlotReader {
       : table_{*item.node,
                item.key,
                {"name", "title", "quantity", "label", "x_label", "y_label", "factor", "x_factor",
-                "y_factor", "levels", "range", "activation", "panels"},
+                "y_factor", "levels", "range", "activation", "markup", "panels"},
                reading},
+        item_{item},
         studies_{studies},
         reading_{reading} {}
 
-  MapPlotDraft read(const std::vector<std::string>& taken) {
+  MapPlotDraft read(const std::set<std::string>& taken) {
     MapPlotSpec& spec = draft_.spec;
     spec.name = table_.required_text("name", "a file name without ending").value_or("");
     check_plot_name(table_, spec.name, taken, reading_);
@@ -34,12 +35,8 @@ class MapPlotReader {
     draft_.levels =
         read_numbers(table_.list("levels", "a list of values"), {}, draft_.numbers, reading_);
     read_range();
-    if (const Node* node = table_.find("activation")) {
-      if (node->kind != Node::Kind::boolean)
-        reading_.problems.add(node->place, table_.key_of("activation"),
-                              "got " + described(*node) + ", need true or false");
-      spec.activation = node->number != 0;
-    }
+    spec.activation = table_.truth("activation", spec.activation);
+    spec.markup = read_markup(table_, item_, reading_);
     read_panels();
     return std::move(draft_);
   }
@@ -100,6 +97,7 @@ class MapPlotReader {
   }
 
   TableReader table_;
+  const Item& item_;
   const std::vector<StudyDraft>& studies_;
   Reading& reading_;
   MapPlotDraft draft_{};
@@ -110,12 +108,12 @@ class MapPlotReader {
 std::vector<MapPlotDraft> read_map_plots(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies,
                                          const std::vector<PlotDraft>& plots, Reading& reading) {
-  std::vector<std::string> taken;
-  for (const PlotDraft& plot : plots) taken.push_back(plot.spec.name);
+  std::set<std::string> taken;
+  for (const PlotDraft& plot : plots) taken.insert(plot.spec.name);
   std::vector<MapPlotDraft> drafts;
   for (const Item& item : tables) {
     drafts.push_back(MapPlotReader{item, studies, reading}.read(taken));
-    taken.push_back(drafts.back().spec.name);
+    taken.insert(drafts.back().spec.name);
   }
   return drafts;
 }

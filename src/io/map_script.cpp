@@ -46,10 +46,10 @@ std::string map_script(const MapFigure& figure, const std::string& style,
     script += name + " = " + value + "\n";
   };
   assign("figure_name", gnuplot_string(figure.name));
-  assign("figure_title", gnuplot_string(figure.title));
-  assign("x_title", gnuplot_string(figure.x_title));
-  assign("y_title", gnuplot_string(figure.y_title));
-  assign("value_title", gnuplot_string(figure.value_title));
+  script += gnuplot_assignment("figure_title", figure.title) +
+            gnuplot_assignment("x_title", figure.x_title) +
+            gnuplot_assignment("y_title", figure.y_title) +
+            gnuplot_assignment("value_title", figure.value_title);
   assign("value_low", shortest(figure.low));
   assign("value_high", shortest(figure.high));
   std::string levels;
@@ -63,12 +63,13 @@ std::string map_script(const MapFigure& figure, const std::string& style,
   assign("x_high", shortest(std::max(xs.front(), xs.back())));
   assign("y_low", shortest(std::min(ys.front(), ys.back())));
   assign("y_high", shortest(std::max(ys.front(), ys.back())));
+  assign("panel_title_mode", "'" + gnuplot_mode(figure.panels.front().title) + "'");
   bool edge = false, activation = false, unstable = false;
   script += "array panel_title[" + std::to_string(figure.panels.size()) + "]\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const MapPanel& panel = figure.panels[i];
     const std::string k = std::to_string(i + 1);
-    script += "panel_title[" + k + "] = " + gnuplot_string(panel.title) + "\n";
+    script += "panel_title[" + k + "] = " + gnuplot_string(panel.title.text) + "\n";
     add_field(script, "field_" + k, panel.field, figure.low, figure.high);
     add_block(script, "contours_" + k, panel.contours);
     add_block(script, "edge_" + k, panel.edge);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gnuplot_text.hpp"
+
 namespace springfold::io {
 namespace {
 
@@ -27,6 +29,31 @@ PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies,
         labels->place, table.key_of("labels"),
         "got " + described(*labels) + ", need " + std::to_string(count) + ": one for every run");
   return curves;
+}
+
+/// Reports all texts of a plot that are not usable as markup.
+void check_markup(const Item& item, Reading& reading) {
+  const Node& node = *item.node;
+  if (const std::string problem = markup_problem(node.text);
+      node.kind == Node::Kind::text && !problem.empty())
+    reading.problems.add(node.place, item.key, problem + ", which markup does not allow");
+  for (const Node& one : node.items) check_markup({&one, item.key}, reading);
+  for (const NodeEntry& entry : node.entries)
+    check_markup({&entry.value, item.key + "." + entry.key}, reading);
+}
+
+/// Labels of `vary` stand beside curves that have none of their own.
+void check_vary_labels(const Item& markup, const PlotCurves& curves,
+                       const std::vector<StudyDraft>& studies, Reading& reading) {
+  if (!curves.labels.empty()) return;
+  for (const StudyDraft& study : studies) {
+    if (study.name != curves.study || !study.vary) continue;
+    for (const std::string& label : study.vary->labels)
+      if (const std::string problem = markup_problem(label); !problem.empty())
+        reading.problems.add(markup.node->place, markup.key,
+                             "vary.labels of study \"" + study.name + "\": " + problem +
+                                 ", which markup does not allow");
+  }
 }
 
 /// How `curves` is written, with what was meant if that can be seen.
@@ -65,7 +92,7 @@ std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& 
 }
 
 void check_plot_name(const TableReader& table, const std::string& name,
-                     const std::vector<std::string>& taken, Reading& reading) {
+                     const std::set<std::string>& taken, Reading& reading) {
   if (name.empty()) return;
   const Item at{table.find("name"), table.key_of("name")};
   const auto fits = [](char c) {
@@ -76,7 +103,7 @@ void check_plot_name(const TableReader& table, const std::string& name,
     reading.problems.add(
         at.node->place, at.key,
         "got \"" + name + "\", need a file name without ending: letters, digits, '_', '-', '.'");
-  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+  if (taken.contains(name))
     reading.problems.add(at.node->place, at.key,
                          "\"" + name +
                              "\" is already the name of another plot, need different "
@@ -96,19 +123,25 @@ std::optional<std::size_t> study_number(const std::string& name, const Item& at,
   return std::nullopt;
 }
 
+bool read_markup(const TableReader& table, const Item& plot, Reading& reading) {
+  const bool markup = table.truth("markup", false);
+  if (markup) check_markup(plot, reading);
+  return markup;
+}
+
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
-  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",     "x_label",
-                                             "y_label", "x_factor", "y_factor", "curves"};
+  static const std::vector<std::string> keys{"name",    "title",    "x",        "y",      "x_label",
+                                             "y_label", "x_factor", "y_factor", "markup", "curves"};
   std::vector<PlotDraft> plots;
+  std::set<std::string> taken;
   for (const Item& item : tables) {
     const TableReader table{*item.node, item.key, keys, reading};
     PlotDraft draft;
     PlotSpec& spec = draft.spec;
     spec.name = table.required_text("name", "a file name without ending").value_or("");
-    std::vector<std::string> taken;
-    for (const PlotDraft& other : plots) taken.push_back(other.spec.name);
     check_plot_name(table, spec.name, taken, reading);
+    taken.insert(spec.name);
     spec.title = table.text("title").value_or("");
     draft.x = read_quantity(table, "x", spec.x);
     draft.y = read_quantity(table, "y", spec.y);
@@ -118,12 +151,16 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     spec.y_label = table.text("y_label").value_or("");
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
+    spec.markup = read_markup(table, item, reading);
     const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");
     for (const Item& curve : table.tables("curves", curves_example(curves, studies)))
       spec.curves.push_back(read_curves(curve, studies, reading));
     if (curves && curves->kind == Node::Kind::array && curves->items.empty())
       reading.problems.add(curves->place, table.key_of("curves"),
                            "got an empty list, need at least one curve");
+    if (spec.markup)
+      for (const PlotCurves& of : spec.curves)
+        check_vary_labels({table.find("markup"), table.key_of("markup")}, of, studies, reading);
     plots.push_back(std::move(draft));
   }
   return plots;

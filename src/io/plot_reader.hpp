@@ -1,6 +1,7 @@
 // [[plot]] tables and the file of expected values.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "case_draft.hpp"
@@ -22,7 +23,10 @@ std::vector<MapPlotDraft> read_map_plots(const std::vector<Item>& tables,
 
 /// Reports a name that cannot be a file name, or that another plot has already.
 void check_plot_name(const TableReader& table, const std::string& name,
-                     const std::vector<std::string>& taken, Reading& reading);
+                     const std::set<std::string>& taken, Reading& reading);
+
+/// Key `markup` of a plot. If it is true, all texts of the plot are checked. @param plot  the same table
+bool read_markup(const TableReader& table, const Item& plot, Reading& reading);
 
 /// A whole number from 1 to the number of the study's runs, written as such.
 std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading);

@@ -154,19 +154,22 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
     if (label.has_leader)
       gnuplot << "set arrow from " << on_screen(label.leader_from, canvas) << " to "
               << on_screen(label.leader_to, canvas) << " nohead linestyle 4 back\n";
-    gnuplot << "set label " << gnuplot_string(label.text) << " at " << on_screen(label.at, canvas)
-            << " center noenhanced front font "
-            << (label.is_curve_label ? "curve_label_font" : "point_label_font") << " textcolor rgb "
+    gnuplot << "set label " << gnuplot_string(label.text.text) << " at "
+            << on_screen(label.at, canvas) << " center " << gnuplot_mode(label.text)
+            << " front font " << (label.is_curve_label ? "curve_label_font" : "point_label_font")
+            << " textcolor rgb "
             << (label.is_curve_label ? "curve_label_color" : "point_label_color") << "\n";
   }
 }
 
 void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
-  gnuplot << assignment("figure_name", figure.name) << assignment("figure_title", figure.title)
-          << assignment("x_title", figure.x_title) << assignment("y_title", figure.y_title)
-          << assignment("x_low", figure.low.first) << assignment("x_high", figure.high.first)
-          << assignment("y_low", figure.low.second) << assignment("y_high", figure.high.second)
-          << assignment("figure_width", canvas.width) << assignment("figure_height", canvas.height)
+  gnuplot << assignment("figure_name", figure.name)
+          << gnuplot_assignment("figure_title", figure.title)
+          << gnuplot_assignment("x_title", figure.x_title)
+          << gnuplot_assignment("y_title", figure.y_title) << assignment("x_low", figure.low.first)
+          << assignment("x_high", figure.high.first) << assignment("y_low", figure.low.second)
+          << assignment("y_high", figure.high.second) << assignment("figure_width", canvas.width)
+          << assignment("figure_height", canvas.height)
           << assignment("frame_left", canvas.left / canvas.width)
           << assignment("frame_right", canvas.right / canvas.width)
           << assignment("frame_bottom", canvas.bottom / canvas.height)

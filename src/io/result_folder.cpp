@@ -104,8 +104,10 @@ void remove_leftovers(const fs::path& folder) {
   for (const char* part : {".", "branches", "equilibria", "plots"}) {
     std::error_code error;
     std::vector<fs::path> leftovers;
-    for (const auto& entry : fs::directory_iterator{folder / part, error})
-      if (is_leftover(entry.path().filename().string())) leftovers.push_back(entry.path());
+    // A folder that cannot be read to its end keeps what is left over there: the run goes on.
+    for (fs::directory_iterator entry{folder / part, error}, end; !error && entry != end;
+         entry.increment(error))
+      if (is_leftover(entry->path().filename().string())) leftovers.push_back(entry->path());
     for (const fs::path& leftover : leftovers) fs::remove_all(leftover, error);
   }
 }

@@ -26,4 +26,12 @@ std::string start_problem(const analysis::StartReport& start, const PlannedRun* 
          (start.advice.empty() ? "" : "; " + start.advice);
 }
 
+std::string with_place(const std::string& text, const PlannedRun* planned) {
+  const std::string key = text.substr(0, text.find(": "));
+  const bool has_key = planned != nullptr && !key.empty() && key != text &&
+                       std::any_of(planned->places.begin(), planned->places.end(),
+                                   [&key](const PartPlace& entry) { return entry.part == key; });
+  return has_key ? place_of(key, *planned) + text.substr(key.size() + 2) : text;
+}
+
 }  // namespace springfold::io

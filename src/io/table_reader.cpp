@@ -64,6 +64,15 @@ std::optional<std::string> TableReader::required_text(const std::string& name,
   return std::nullopt;
 }
 
+bool TableReader::truth(const std::string& name, bool otherwise) const {
+  const Node* found = find(name);
+  if (!found) return otherwise;
+  if (found->kind == Node::Kind::boolean) return found->number != 0;
+  reading_->problems.add(found->place, key_of(name),
+                         "got " + described(*found) + ", need true or false");
+  return otherwise;
+}
+
 std::size_t TableReader::choice(const std::string& name, const std::vector<std::string>& words,
                                 std::size_t otherwise) const {
   const Node* found = find(name);

@@ -49,6 +49,9 @@ class TableReader {
   std::optional<std::string> text(const std::string& name) const;
   std::optional<std::string> required_text(const std::string& name, const std::string& need) const;
 
+  /// true or false; `otherwise` if missing or wrong.
+  bool truth(const std::string& name, bool otherwise) const;
+
   /// Position of the word in `words`; `otherwise` if missing or wrong.
   std::size_t choice(const std::string& name, const std::vector<std::string>& words,
                      std::size_t otherwise) const;

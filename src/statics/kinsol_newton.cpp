@@ -7,6 +7,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <memory>
+#include <new>
 
 namespace springfold::statics {
 namespace {
@@ -44,29 +45,50 @@ auto owned(T* pointer, Free free) {
   return std::unique_ptr<std::remove_pointer_t<T*>, Free>(pointer, free);
 }
 
+/// What could not be made for want of memory; the library itself would go on with nothing.
+template <class T>
+T* made(T* pointer) {
+  if (pointer == nullptr) throw std::bad_alloc{};
+  return pointer;
+}
+
+/// Calls that prepare fail for want of memory only.
+void prepared(int flag) {
+  if (flag < 0) throw std::bad_alloc{};
+}
+
+/// SUNDIALS does not look whether there is memory for a context, so there must be.
+void require_room() {
+  constexpr std::size_t context = 1U << 16U;
+  ::operator delete(::operator new(context));
+}
+
+N_Vector cloned(N_Vector vector) { return made(N_VClone_Serial(vector)); }
+
 }  // namespace
 
 KinsolResult solve_by_kinsol(const SquareSystem& system, const Vector& start, double tolerance,
                              double largest_step) {
   KinsolResult result{false, start, 0};
   SUNContext raw_context = nullptr;
-  if (SUNContext_Create(nullptr, &raw_context) != 0) return result;
+  require_room();
+  prepared(SUNContext_Create(nullptr, &raw_context) == 0 ? 0 : -1);
   const auto context = owned(raw_context, [](SUNContext c) { SUNContext_Free(&c); });
   const auto n = static_cast<sunindextype>(system.size);
-  const auto y = owned(N_VNew_Serial(n, raw_context), N_VDestroy);
-  const auto ones = owned(N_VNew_Serial(n, raw_context), N_VDestroy);
-  const auto J = owned(SUNDenseMatrix(n, n, raw_context), SUNMatDestroy);
-  const auto solver = owned(SUNLinSol_Dense(y.get(), J.get(), raw_context), SUNLinSolFree);
-  const auto kinsol = owned(KINCreate(raw_context), [](void* memory) { KINFree(&memory); });
-  if (!y || !ones || !J || !solver || !kinsol) return result;
+  const auto y = owned(made(N_VNew_Serial(n, raw_context)), N_VDestroy);
+  y->ops->nvclone = cloned;
+  const auto ones = owned(made(N_VNew_Serial(n, raw_context)), N_VDestroy);
+  const auto J = owned(made(SUNDenseMatrix(n, n, raw_context)), SUNMatDestroy);
+  const auto solver = owned(made(SUNLinSol_Dense(y.get(), J.get(), raw_context)), SUNLinSolFree);
+  const auto kinsol = owned(made(KINCreate(raw_context)), [](void* memory) { KINFree(&memory); });
 
   view(y.get()) = start;
   N_VConst(1.0, ones.get());
   UserData data{&system, {}, {}, {}};
   KINSetErrHandlerFn(kinsol.get(), ignore_messages, nullptr);
   KINSetUserData(kinsol.get(), &data);
-  KINInit(kinsol.get(), residual_callback, y.get());
-  KINSetLinearSolver(kinsol.get(), solver.get(), J.get());
+  prepared(KINInit(kinsol.get(), residual_callback, y.get()));
+  prepared(KINSetLinearSolver(kinsol.get(), solver.get(), J.get()));
   KINSetJacFn(kinsol.get(), jacobian_callback);
   KINSetMaxSetupCalls(kinsol.get(), 1);  // an exact Jacobian in every iteration
   KINSetNumMaxIters(kinsol.get(), 300);

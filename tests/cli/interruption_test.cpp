@@ -101,6 +101,49 @@ TEST_F(Interruption, OfACurveKeepsItsPoints) {
   EXPECT_GE(text_in(scratch.path() / "out/branches/press-1.csv").size(), 1000u);
 }
 
+/// Many stiff point bodies, all joined to one: a matrix that takes seconds to factorise.
+std::string large_mechanism(int bodies) {
+  std::string text;
+  for (int i = 0; i < bodies; ++i) {
+    const std::string b = "b" + std::to_string(i);
+    text += "[[body]]\nname = \"" + b + "\"\ntask_space = \"xyz\"\n[[chain]]\nname = \"c" +
+            std::to_string(i) + "\"\nto = \"" + b + "\"\nelements = [\n";
+    for (const char* axis : {"x", "y", "z"})
+      text += std::string{"  { joint = \"prismatic\", axis = \""} + axis +
+              "\", role = \"virtual\", name = \"" + axis + "\", stiffness = 1 },\n";
+    text += "]\n";
+  }
+  return text +
+         "[[study]]\nname = \"push\"\nbody = \"b0\"\ncontrol = \"load\"\ndirection = [1, 0, "
+         "0]\nuntil = { lambda = [0, 1] }\n";
+}
+
+TEST_F(Interruption, InTheMiddleOfALongStepEndsAllTheSame) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    EXPECT_EQ(interrupted(large_mechanism(250), signal, 2), 128 + signal);
+    EXPECT_THAT(messages(), HasSubstr("0 of 1 runs are complete"));
+    EXPECT_FALSE(fs::exists(scratch.path() / "out" / ".springfold.lock"));
+  }
+}
+
+TEST_F(Interruption, WhileRowsAreFilledKeepsTheStudyBefore) {
+  std::string again = strut(quick_press + "trace = { spacing = 2e-6 }\n");
+  again = again.substr(again.find("[[study]]"));
+  again.replace(again.find("\"press\""), 7, "\"rows\"");
+  EXPECT_EQ(interrupted(strut(quick_press, again), SIGINT, 1.5), 130);
+  expect_consistent();
+  EXPECT_EQ(summary()["runs"][0]["complete"], true);
+  EXPECT_THAT(messages(), HasSubstr("1 of 2 runs are complete"));
+}
+
+TEST_F(Interruption, OfACheckThatSolvesForLong) {
+  put_text(scratch.path() / "case.toml", large_mechanism(250));
+  Child child{scratch.path(), {"check", "case.toml"}};
+  child.wait_until_used(2);
+  child.send(SIGINT);
+  EXPECT_EQ(child.wait(allowed), 130);
+}
+
 TEST_F(Interruption, WhileAPipeIsReadWritesNothing) {
   const fs::path pipe = scratch.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -51,5 +51,31 @@ TEST(EntryChecks, AProblemWhoseMembersDisagreeIsRefused) {
   EXPECT_THROW(rays_from(WrongMetric{}, origin, 0, above({true}), {}), std::invalid_argument);
 }
 
+/// Two springs of very different stiffness that give way by the same length.
+struct StiffBesideSoft {
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  static bool residual(const Vector& x, double lambda, Vector& F) {
+    F = Vector{{x[0] - lambda, soft * (x[1] - lambda)}};
+    return true;
+  }
+  static bool derivatives(const Vector&, double, Matrix& dF_dx, Vector& dF_dlambda) {
+    dF_dx = Matrix{{1, 0}, {0, soft}};
+    dF_dlambda = Vector{{-1, -soft}};
+    return true;
+  }
+  static constexpr double soft = 3e-13;
+};
+
+TEST(RaysFrom, AStartAmongStiffAndSoftSpringsAreTheTwoOfItsCurve) {
+  const Rays rays = rays_from(StiffBesideSoft{}, Vector::Zero(2), 0, {}, {});
+  EXPECT_TRUE(rays.complete) << rays.why;
+  ASSERT_EQ(rays.rays.size(), 2u);
+  for (const Ray& ray : rays.rays) {
+    EXPECT_NEAR(ray.tangent.dx[0], ray.tangent.dlambda, 1e-13);
+    EXPECT_NEAR(ray.tangent.dx[1], ray.tangent.dlambda, 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

@@ -91,6 +91,7 @@ TEST(Svd, SolvesInTheLeastSquaresSenseWithTheSmallestNorm) {
   EXPECT_LT((A.transpose() * (A * x - b)).norm(), 10 * exact);
   EXPECT_LT((kernel_of(A, 1e-10).transpose() * x).norm(), 10 * exact);
   EXPECT_LT((least_squares(A, b, 1e-10) - x).norm(), 1000 * exact);
+  EXPECT_LT((least_squares_of_columns(A, b) - x).norm(), 1000 * exact);
 }
 
 TEST(SymmetricEigenvalues, AreAscendingAndReproduceTheMatrix) {
@@ -101,6 +102,22 @@ TEST(SymmetricEigenvalues, AreAscendingAndReproduceTheMatrix) {
   EXPECT_TRUE(std::is_sorted(eigen.values.begin(), eigen.values.end()));
   EXPECT_LT((symmetric_eigenvalues(A) - eigen.values).norm(), 10 * exact);
   EXPECT_LT((body_eigenvalues(A) - eigen.values).norm(), 10 * exact);
+}
+
+TEST(EigenvaluesOfAPair, AreThoseOfTheProductWithTheInverse) {
+  const Matrix M = random_matrix(5, 5, 13), A = M + M.transpose(),
+               B = M * M.transpose() + Matrix::Identity(5, 5);
+  const Vector values = eigenvalues_of_pair(A, B);
+  EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
+  for (const double value : values) EXPECT_LT(jacobi_svd(A - value * B).values[4], 100 * exact);
+}
+
+TEST(Lu, EstimatesTheReciprocalCondition) {
+  Matrix A = Matrix::Identity(3, 3);
+  A(2, 2) = 1e-6;
+  EXPECT_NEAR(Lu(A).reciprocal_condition(), 1e-6, 1e-12);
+  A(2, 2) = 0;
+  EXPECT_EQ(Lu(A).reciprocal_condition(), 0);
 }
 
 TEST(Eigenvalues, OfARotationLieOnTheUnitCircle) {

@@ -150,9 +150,9 @@ TEST(FigureOfADiagram, HasAColourForEveryBranchAndOneNumberForThoseThatLookAlike
   ASSERT_THAT(figures, SizeIs(1));
   const auto& curves = figures[0].curves;
   ASSERT_THAT(curves, SizeIs(3));
-  EXPECT_EQ(curves[0].label, "soft: 1");
-  EXPECT_EQ(curves[1].label, "2, 3");
-  EXPECT_EQ(curves[2].label, "");
+  EXPECT_EQ(curves[0].label.text, "soft: 1");
+  EXPECT_EQ(curves[1].label.text, "2, 3");
+  EXPECT_EQ(curves[2].label.text, "");
   EXPECT_EQ(curves[1].hue, 2);
 }
 
@@ -162,7 +162,7 @@ TEST(FigureOfADiagram, MarksAPointWhereBranchesMeetOnce) {
   ASSERT_THAT(figures, SizeIs(1));
   int marks = 0, labels = 0;
   for (const auto& mark : figures[0].marks) marks += mark.label == "BP1";
-  for (const auto& label : place_labels(figures[0], {})) labels += label.text == "BP1";
+  for (const auto& label : place_labels(figures[0], {})) labels += label.text.text == "BP1";
   EXPECT_EQ(marks, 1);
   EXPECT_EQ(labels, 1);
 }
@@ -176,7 +176,7 @@ TEST(FigureOfADiagram, SaysTheLabelsOfPointsThatLieOnEachOtherTogether) {
                   {"LP", "LP3", {0.8, 0.5}},
                   {"LP", "LP1", {0.5, 0.5}}};
   std::vector<std::string> texts;
-  for (const auto& label : place_labels(figure, {})) texts.push_back(label.text);
+  for (const auto& label : place_labels(figure, {})) texts.push_back(label.text.text);
   EXPECT_THAT(texts, ElementsAre("LP1, LP2", "BP1", "LP3"));
 }
 

@@ -86,10 +86,10 @@ TEST(FiguresOf, ShowOneFigurePerStudyWhenTheCaseAsksForNone) {
   EXPECT_THAT(problems, IsEmpty());
   const Figure& figure = figures.front();
   EXPECT_EQ(figure.name, "push_from_Q2");
-  EXPECT_EQ(figure.x_title, "deflection [m]");
-  EXPECT_EQ(figure.y_title, "force [N]");
+  EXPECT_EQ(figure.x_title.text, "deflection [m]");
+  EXPECT_EQ(figure.y_title.text, "force [N]");
   ASSERT_THAT(figure.curves, SizeIs(2));
-  EXPECT_EQ(figure.curves[1].label, "Kv = 0.01");
+  EXPECT_EQ(figure.curves[1].label.text, "Kv = 0.01");
   ASSERT_THAT(figure.curves[0].parts, SizeIs(3)) << "stable, unstable between the folds, stable";
   EXPECT_EQ(figure.curves[0].parts[1].stability, unstable);
   EXPECT_THAT(figure.marks, SizeIs(6)) << "two folds and a start each, no ends";
@@ -103,10 +103,10 @@ TEST(FiguresOf, ApplyFactorsLabelsAndTheChoiceOfRuns) {
   const auto figures = figures_of(the_case, sample::two_results(), problems);
   ASSERT_THAT(figures, SizeIs(1));
   EXPECT_EQ(figures[0].name, "a_b");
-  EXPECT_EQ(figures[0].x_title, "x");
-  EXPECT_EQ(figures[0].y_title, "-1 · force [N]");
+  EXPECT_EQ(figures[0].x_title.text, "x");
+  EXPECT_EQ(figures[0].y_title.text, "-1 · force [N]");
   ASSERT_THAT(figures[0].curves, SizeIs(1));
-  EXPECT_EQ(figures[0].curves[0].label, "(2)");
+  EXPECT_EQ(figures[0].curves[0].label.text, "(2)");
   ASSERT_EQ(figures[0].marks[0].label, "LP1");
   EXPECT_NEAR(figures[0].marks[0].at.first, 2 * 0.20587635, 1e-7);
   EXPECT_NEAR(figures[0].marks[0].at.second, -0.027008033908, 1e-11);
@@ -119,7 +119,7 @@ TEST(FiguresOf, KeepTheLabelsOfTheirRunsWhenOneIsMissing) {
   auto results = sample::two_results();
   results.erase(results.begin());
   std::vector<std::string> problems;
-  EXPECT_EQ(figures_of(the_case, results, problems).at(0).curves.at(0).label, "(2)");
+  EXPECT_EQ(figures_of(the_case, results, problems).at(0).curves.at(0).label.text, "(2)");
 }
 
 TEST(FiguresOf, SayWhichQuantityDoesNotExist) {
@@ -158,7 +158,7 @@ TEST(FiguresOf, GiveASinglePointRoomAroundIt) {
 /// Rough size of a label, as the layout counts.
 bool overlap(const PlacedLabel& a, const PlacedLabel& b) {
   const auto half = [](const PlacedLabel& label) {
-    return 4.5 * static_cast<double>(label.text.size());
+    return 4.5 * static_cast<double>(label.text.text.size());
   };
   return std::abs(a.at.first - b.at.first) < half(a) + half(b) &&
          std::abs(a.at.second - b.at.second) < 17;
@@ -178,7 +178,8 @@ TEST(PlaceLabels, KeepTextsApartAndInsideTheFrame) {
     EXPECT_GT(labels[i].at.second, canvas.bottom);
     EXPECT_LT(labels[i].at.second, canvas.top);
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_FALSE(overlap(labels[i], labels[j])) << labels[i].text << " on " << labels[j].text;
+      EXPECT_FALSE(overlap(labels[i], labels[j]))
+          << labels[i].text.text << " on " << labels[j].text.text;
   }
 }
 
@@ -212,7 +213,7 @@ TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
       {"LP", "LP1", {0.5, 0.5}}, {"LP", "LP1", {0.501, 0.5}}, {"LP", "LP2", {0.5, 0.5}}};
   const auto labels = place_labels(figure, {});
   ASSERT_THAT(labels, SizeIs(1));
-  EXPECT_EQ(labels[0].text, "LP1, LP2");
+  EXPECT_EQ(labels[0].text.text, "LP1, LP2");
 }
 
 }  // namespace

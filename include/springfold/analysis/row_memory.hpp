@@ -14,4 +14,12 @@ constexpr double bytes_of_row(std::size_t columns) {
   return 160 + 8 * static_cast<double>(columns);
 }
 
+/// The same row as text, about, while its table is written [byte].
+constexpr double bytes_of_text(std::size_t columns) { return 20 * static_cast<double>(columns); }
+
+/// A point of a curve from which a row is made: unknowns and tangent, and what is noted beside them [byte].
+constexpr double bytes_of_point(std::size_t unknowns) {
+  return 400 + 16 * static_cast<double>(unknowns);
+}
+
 }  // namespace springfold::analysis

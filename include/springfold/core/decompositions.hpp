@@ -33,7 +33,8 @@ class Lu {
 
   double smallest_pivot() const;  ///< magnitudes; 0 if there are none
   double largest_pivot() const;
-  int sign() const;  ///< of the determinant, a pivot of zero taken as positive
+  double reciprocal_condition() const;  ///< estimate in the norm of columns; 0 where A is singular
+  int sign() const;                     ///< of the determinant, a pivot of zero taken as positive
 
  private:
   Vector solve_vector(const Vector& right) const;
@@ -98,6 +99,9 @@ Vector symmetric_eigenvalues(const Matrix& A);
 /// Of the symmetric part of the matrix of one body: 2, 3 or 6 rows take no memory from the heap but the result.
 Vector body_eigenvalues(const Matrix& A);
 
+/// Ascending lambda with A v = lambda B v for symmetric A and positive definite B, of which the lower triangles are read.
+Vector eigenvalues_of_pair(const Matrix& A, const Matrix& B);
+
 /// Of any square matrix, in no particular order.
 Eigen::VectorXcd eigenvalues(const Matrix& A);
 
@@ -127,6 +131,8 @@ Matrix kernel_of(const Matrix& A, std::optional<double> threshold = {});
 /// Of smallest norm among those that make |A X - right| smallest, by a complete orthogonal decomposition.
 /// @param threshold  pivots below it, of the largest, count as zero; if it is not given, rounding
 Vector least_squares(const Matrix& A, const Vector& right, std::optional<double> threshold = {});
+/// The same for each column of `right`.
+Matrix least_squares_of_columns(const Matrix& A, const Matrix& right);
 /// @returns nothing where the columns of A are dependent
 std::optional<Matrix> unique_least_squares(const Matrix& A, const Matrix& right, double threshold);
 /// X that makes |A X - right| smallest. @pre more rows than columns, which are independent

@@ -39,8 +39,9 @@ struct PartPlace {
 /// One study with one set of parameter values.
 struct PlannedRun {
   std::string study{};
-  int run = 1;          ///< 1, 2, ... along the study's `vary` list
-  std::string label{};  ///< "Kv = 0.01", or empty
+  int run = 1;                   ///< 1, 2, ... along the study's `vary` list
+  std::string label{};           ///< "Kv = 0.01", or empty
+  bool has_given_label = false;  ///< the label is a text of the case: vary.labels
   model::Mechanism mechanism{};
   analysis::Study plan{};
   std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
@@ -62,6 +63,8 @@ struct PlotSpec {
   std::string x = "deflection", y = "force";  ///< quantity names
   std::string x_label{}, y_label{};           ///< empty: made from quantity and unit
   double x_factor = 1, y_factor = 1;          ///< plotted value = factor * quantity
+  bool markup =
+      false;  ///< its texts are in the markup of gnuplot; false: they are drawn as they stand
   std::vector<PlotCurves> curves{};
 };
 
@@ -85,6 +88,7 @@ struct MapPlotSpec {
   std::vector<double> levels{};  ///< contour lines; empty: about ten round numbers
   std::optional<std::pair<double, double>> range{};  ///< of the colours; none: all that occurs
   bool activation = true;                            ///< lines at which springs switch
+  bool markup = false;                               ///< as PlotSpec::markup
   std::vector<MapPanelSpec> panels{};
 };
 

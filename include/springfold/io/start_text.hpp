@@ -14,4 +14,8 @@ namespace springfold::io {
 /// @param planned  the run, or nullptr: without a place
 std::string start_problem(const analysis::StartReport& start, const PlannedRun* planned);
 
+/// A text that begins with a key of the study, "trace.spacing: ...", with the place of that key in the case
+/// before it; other texts as they are. @param planned  of the run, or nullptr
+std::string with_place(const std::string& text, const PlannedRun* planned);
+
 }  // namespace springfold::io
