@@ -25,6 +25,8 @@ constexpr const char* examples =
     "      for other programs\n"
     "  springfold check case.toml\n"
     "      reads the case, solves its starts, says what it contains or what is wrong with it\n"
+    "  springfold draw case.toml --at push/LP1 --output lp1.svg\n"
+    "      the mechanism in its posture at a special point\n"
     "  springfold verify cases\n"
     "      all cases of a folder against their expected values, one table\n"
     "\n"
@@ -44,6 +46,45 @@ bool add_override(const std::string& text, std::map<std::string, std::string>& o
   if (overrides.emplace(name, text.substr(equals + 1)).second) return true;
   error = "--set " + name + "=...: given twice";
   return false;
+}
+
+/// A name that ends in .svg or .png.
+std::string picture_problem(const std::string& name) {
+  const auto extension = std::filesystem::path{name}.extension();
+  return extension == ".svg" || extension == ".png" ? "" : "need a name that ends in .svg or .png";
+}
+
+/// Options of pictures.
+void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
+  for (CLI::App* command : {&draw, &check})
+    command
+        ->add_option("--output", arguments.picture_file,
+                     "File for the picture, .svg or .png (drawing.svg in the results' folder)")
+        ->type_name("FILE")
+        ->check(picture_problem);
+  check.add_flag("--draw", arguments.draws, "Draw the mechanism as it was understood");
+  draw.add_option("--study", arguments.studies, "Draw this study's mechanism (the first study)")
+      ->type_name("NAME")
+      ->expected(1);
+  const auto at =
+      draw.add_option("--at", arguments.draw_at,
+                      "Posture at a special point, \"press/LP1\"; also start, end (the first "
+                      "equilibrium when not given)")
+          ->type_name("STUDY/LABEL");
+  const auto all = draw.add_option("--all", arguments.draw_all,
+                                   "Postures at the start and all special points of a study")
+                       ->type_name("STUDY")
+                       ->excludes(at);
+  draw.add_flag("--guess", arguments.draws_guess, "The guess of the case, before it is solved")
+      ->excludes(at)
+      ->excludes(all);
+  draw.add_option("--run", arguments.run_number, "Run of the study, along its vary list")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  draw.add_option("--colour", arguments.colour, "What colours stand for")
+      ->check(CLI::IsMember({"stability", "force", "energy", "none"}));
+  draw.add_option("--view", arguments.view, "Plane that is looked at")
+      ->check(CLI::IsMember({"xy", "xz", "yz"}));
 }
 
 /// The first word, if it is no command: with the nearest one, or with all of them.
@@ -77,7 +118,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   CLI::App* run = app.add_subcommand("run", "Run the studies of a case file");
   CLI::App* check =
       app.add_subcommand("check", "Read and check a case file and solve its starts, trace nothing");
-  for (CLI::App* command : {run, check}) {
+  CLI::App* draw = app.add_subcommand("draw", "Draw the mechanism in a posture (SVG, PNG)");
+  for (CLI::App* command : {run, check, draw}) {
     command->add_option("CASE", arguments.case_file, "Case file (TOML)")->required();
     command
         ->add_option("--set", settings, "Replace a parameter's value or formula; may be repeated")
@@ -85,6 +127,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
         ->allow_extra_args(false);
   }
   bool is_without_solving = false;
+  add_drawing(*draw, *check, arguments);
   check->add_flag("--no-solve", is_without_solving, "Do not close the chains and solve the starts");
   run->add_option("--study", arguments.studies, "Run this study only; may be repeated")
       ->type_name("NAME")
@@ -102,6 +145,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
       "the folder");
   bool is_without_plots = false;
   run->add_flag("--no-plots", is_without_plots, "Draw no figures");
+  run->add_flag("--report", arguments.makes_report,
+                "Write report.html too: curves, and the mechanism in the posture under the cursor");
   run->add_flag("--json", arguments.prints_json,
                 "Print summary.json instead of tables on standard output");
 
@@ -134,6 +179,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   arguments.solves_starts = !is_without_solving;
   arguments.command = run->parsed()      ? Command::run
                       : verify->parsed() ? Command::verify
+                      : draw->parsed()   ? Command::draw
                                          : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;

@@ -9,7 +9,7 @@
 
 namespace springfold::cli {
 
-enum class Command { run, check, verify };
+enum class Command { run, check, verify, draw };
 
 struct Arguments {
   Command command = Command::run;
@@ -20,7 +20,16 @@ struct Arguments {
   int threads = 0;                                 ///< --threads; 0: all cores
   bool resumes = false;                            ///< --resume
   bool draws_plots = true;
-  bool solves_starts = true;  ///< check only
+  bool makes_report = false;                            ///< run: --report
+  bool solves_starts = true;                            ///< check only
+  bool draws = false;                                   ///< check only: --draw
+  std::optional<std::filesystem::path> picture_file{};  ///< draw, check --draw: --output
+  std::string draw_at{};                                ///< draw: "STUDY/LABEL" or "LABEL"
+  std::string draw_all{};                               ///< draw: a study
+  bool draws_guess = false;                             ///< draw: --guess
+  std::string colour = "stability";                     ///< draw
+  std::string view{};                                   ///< draw: "xy", "xz", "yz"; empty: natural
+  int run_number = 1;                                   ///< draw: --run
   bool prints_json = false;
   bool prints_csv = false;                     ///< verify only
   std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them

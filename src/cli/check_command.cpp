@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "draw_command.hpp"
 #include "exit_code.hpp"
 #include "messages.hpp"
 #include "selection.hpp"
@@ -224,7 +225,9 @@ int check_command(const Arguments& arguments, const Session& session) {
       io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
   session.out << description_of(the_case);
   for (const auto& hint : the_case.hints) session.out << "  hint      " << io::shown(hint) << "\n";
-  const int code = arguments.solves_starts ? check_starts(the_case, session) : all_done;
+  int code = all_done;
+  if (arguments.draws) code = draw_guess(arguments, the_case, session);
+  if (arguments.solves_starts && code == all_done) code = check_starts(the_case, session);
   session.out.flush();
   if (session.out.good()) return code;
   say(session.err, "cannot write to standard output");

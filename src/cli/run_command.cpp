@@ -16,6 +16,7 @@
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/plots.hpp"
 #include "springfold/io/read_case.hpp"
+#include "springfold/io/report.hpp"
 #include "springfold/io/result_folder.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
@@ -194,7 +195,8 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
   const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
   const auto write = [&] {
     io::write_results(folder, the_case, results,
-                      arguments.draws_plots ? io::SetState::being_written : state);
+                      arguments.draws_plots ? io::SetState::being_written : state,
+                      arguments.makes_report);
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
   if (!is_done(write, session)) return {input_output, gave_up};
@@ -205,6 +207,7 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
     for (const auto& hint : the_case.hints) say(session, "hint: " + hint);
   say(session,
       "curves in " + (folder / "branches").string() + ", tables and summary in " + folder.string());
+  if (arguments.makes_report) say(session, "page in " + (folder / "report.html").string());
   std::vector<std::string> missing;
   if (arguments.draws_plots) {
     missing = draw(folder, the_case, results, session);
@@ -228,6 +231,10 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
 }  // namespace
 
 int run_command(const Arguments& arguments, const Session& session) {
+  if (arguments.makes_report && !io::has_report()) {
+    say(session, "--report: this springfold was built without the page (-DSPRINGFOLD_REPORT=OFF)");
+    return wrong_usage;
+  }
   auto loaded = done_in_time<Case>(
       [arguments, session] {
         return io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));

@@ -7,6 +7,7 @@
 
 #include "arguments.hpp"
 #include "check_command.hpp"
+#include "draw_command.hpp"
 #include "exit_code.hpp"
 #include "in_time.hpp"
 #include "interrupt.hpp"
@@ -67,6 +68,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return run_whole(check_command, *parsed.arguments, session);
     case Command::verify:
       return run_whole(verify_command, *parsed.arguments, session);
+    case Command::draw:
+      return run_whole(draw_command, *parsed.arguments, session);
     case Command::run:
       break;
   }

@@ -8,6 +8,7 @@
 #include "manifest.hpp"
 #include "result_tables.hpp"
 #include "sha256.hpp"
+#include "springfold/io/report.hpp"
 #include "springfold/io/results.hpp"
 #include "sweep_tables.hpp"
 
@@ -39,7 +40,7 @@ std::string timings_json(const std::vector<StudyResult>& results) {
 }
 
 std::vector<PlannedFile> planned_files(const Case& the_case,
-                                       const std::vector<StudyResult>& results) {
+                                       const std::vector<StudyResult>& results, bool with_report) {
   std::vector<PlannedFile> files;
   const auto names = branch_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)
@@ -56,6 +57,7 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
     files.push_back({"jumps.csv", jumps_csv(results)});
   files.push_back({"steps.csv", steps_csv(results)});
   files.push_back({"summary.json", summary_json(the_case, results)});
+  if (with_report) files.push_back({"report.html", report_html(the_case, results)});
   files.push_back({"timings.json", timings_json(results), false});
   return files;
 }
@@ -78,13 +80,14 @@ void remove_file(const fs::path& path) {
 }  // namespace
 
 std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case,
-                                    const std::vector<StudyResult>& results, SetState state) {
+                                    const std::vector<StudyResult>& results, SetState state,
+                                    bool with_report) {
   make_folder(folder / "branches");
   if (std::any_of(results.begin(), results.end(),
                   [](const StudyResult& result) { return result.equilibria.has_value(); }))
     make_folder(folder / "equilibria");
   if (!the_case.sweeps.empty()) make_folder(folder / "sweeps");
-  const auto files = planned_files(the_case, results);
+  const auto files = planned_files(the_case, results, with_report);
   std::vector<ListedFile> list;
   for (const auto& file : files) list.push_back(listed(file));
   std::vector<ListedFile> leftovers;

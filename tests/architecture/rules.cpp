@@ -20,8 +20,9 @@ const std::map<std::string, Layers> below{
     {"model", {"core"}},
     {"statics", {"core", "model"}},
     {"analysis", {"core", "continuation", "model", "statics"}},
-    {"io", {"core", "continuation", "model", "statics", "analysis"}},
-    {"cli", {"core", "continuation", "model", "statics", "analysis", "io"}},
+    {"drawing", {"core", "model", "statics"}},
+    {"io", {"core", "continuation", "model", "statics", "analysis", "drawing"}},
+    {"cli", {"core", "continuation", "model", "statics", "analysis", "drawing", "io"}},
 };
 
 struct Library {

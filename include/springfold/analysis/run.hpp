@@ -43,4 +43,10 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
 std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
                                        const ParameterFamily* family = nullptr);
 
+/// The mechanism `now` (the same, or that of another value of a parameter) with the springs that are
+/// counted from the start pose moved there, as they act in the study. Unchanged where there are none, or
+/// where the chains cannot be closed in the start pose.
+model::Mechanism with_springs_from_start(const model::Mechanism& mechanism, const Study& study,
+                                         const model::Mechanism& now);
+
 }  // namespace springfold::analysis

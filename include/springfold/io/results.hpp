@@ -40,11 +40,13 @@ enum class SetState {
 /// Writes branch CSVs, events.csv, steps.csv, summary.json, manifest.json and timings.json, each to
 /// a temporary name first, then renamed; returns the files written.
 /// @param state  what the manifest says at the end: being_written if figures follow
+/// @param with_report  write report.html too; needs has_report()
 /// @throws std::filesystem::filesystem_error or std::runtime_error when something cannot be written
 std::vector<std::filesystem::path> write_results(const std::filesystem::path& folder,
                                                  const Case& the_case,
                                                  const std::vector<analysis::StudyResult>& results,
-                                                 SetState state = SetState::whole);
+                                                 SetState state = SetState::whole,
+                                                 bool with_report = false);
 
 /// Says in the manifest that nothing more is written.
 /// @param pending  pictures that were wanted and are not there, "plots/push.png"

@@ -1,0 +1,17 @@
+// Pictures on disk.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "springfold/drawing/picture.hpp"
+
+namespace springfold::io {
+
+/// Writes the picture as `file`, whose name ends in .svg or .png; folders are made. A PNG file is made by
+/// the program rsvg-convert (Debian: librsvg2-bin) from an SVG file of the same name beside it.
+/// @returns what is missing, in words; empty when the file is there
+/// @throws std::runtime_error "cannot write <path>: <reason>"
+std::string write_picture(const drawing::Picture& picture, const std::filesystem::path& file);
+
+}  // namespace springfold::io

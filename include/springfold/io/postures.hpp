@@ -1,0 +1,58 @@
+// Rows of a result as postures of the mechanism, and pictures of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/drawing/illustration.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// Turns rows of one run into scenes. Keeps references to the plan and the result.
+class RowScenes {
+ public:
+  RowScenes(const PlannedRun& planned, const analysis::StudyResult& result);
+
+  /// Do the rows say where everything is? Those of a workspace or of critical points do not.
+  bool has_postures() const { return has_columns_; }
+
+  /// The mechanism in the posture of the row, with the loads that act there; nothing where a position
+  /// is not known.
+  std::optional<drawing::Scene> scene_of(const analysis::Sample& row) const;
+
+  /// The same as a panel: stability, and the values of lambda, force and deflection as a note.
+  std::optional<drawing::Panel> panel_of(const analysis::Sample& row, const std::string& title,
+                                         const UnitLabels& units) const;
+
+ private:
+  double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
+  statics::System system_at(double lambda) const;
+  void add_wrenches(const analysis::Sample& row, double lambda, drawing::Posture& posture) const;
+
+  const PlannedRun& planned_;
+  const analysis::StudyResult& result_;
+  statics::System system_{};  ///< at the study's start
+  bool has_columns_ = false;
+  std::vector<std::optional<std::size_t>> z_columns_{}, rho_columns_{};
+  std::optional<std::size_t> lambda_{}, force_{}, deflection_{}, dead_{}, driven_{};
+};
+
+/// The mechanism of a run as the case gives it, before anything is solved.
+drawing::Panel guess_panel(const PlannedRun& planned, const std::string& title);
+
+/// One row of a result, by name.
+struct FoundRow {
+  const analysis::Sample* row = nullptr;  ///< nullptr: there is none of this name
+  std::string title{};                    ///< "LP1", "start", "EQ2"
+};
+
+/// @param label  of an event or an equilibrium ("LP1", "EQ2"), "start" or "end"
+FoundRow row_at(const analysis::StudyResult& result, const std::string& label);
+
+/// The start, then all special points of all branches, each once; of a study of kind equilibria these.
+std::vector<FoundRow> special_rows(const analysis::StudyResult& result);
+
+}  // namespace springfold::io

@@ -1,0 +1,176 @@
+#include "springfold/io/postures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "result_access.hpp"
+#include "springfold/analysis/run.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::ControlMode;
+using analysis::Sample;
+using analysis::StudyKind;
+using analysis::StudyResult;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A wrench of d entries as vectors of space.
+drawing::BodyWrench wrench_of(const PlannedRun& planned, const Vector& w) {
+  const Index body = planned.plan.body;
+  const auto space = planned.mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
+  drawing::BodyWrench wrench{.body = body};
+  wrench.force.head(translations(space)) = w.head(translations(space));
+  if (space == model::TaskSpace::planar) wrench.moment.z() = w[2];
+  if (space == model::TaskSpace::spatial) wrench.moment = w.tail(3);
+  return wrench;
+}
+
+std::optional<int> count_of(double value) {
+  if (!std::isfinite(value)) return std::nullopt;
+  return static_cast<int>(std::lround(value));
+}
+
+}  // namespace
+
+RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
+    : planned_{planned}, result_{result} {
+  system_ = statics::prepare(
+      analysis::with_springs_from_start(planned.mechanism, planned.plan, planned.mechanism));
+  has_columns_ = true;
+  for (Index i = 0; i < system_.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    z_columns_.push_back(column_of(result, system_.coordinate_names[k]));
+    has_columns_ &= z_columns_.back().has_value() || system_.is_wrench[k];
+  }
+  for (const std::string& name : system_.command_names) {
+    rho_columns_.push_back(column_of(result, name + ".rho"));
+    has_columns_ &= rho_columns_.back().has_value();
+  }
+  lambda_ = column_of(result, "lambda");
+  force_ = column_of(result, "force");
+  deflection_ = column_of(result, "deflection");
+  dead_ = column_of(result, "index_force");
+  driven_ = column_of(result, "index");
+}
+
+double RowScenes::value(const Sample& row, std::optional<std::size_t> column) const {
+  return column && *column < row.values.size() ? row.values[*column] : unknown;
+}
+
+statics::System RowScenes::system_at(double lambda) const {
+  if (planned_.plan.control != ControlMode::parameter || !planned_.family ||
+      planned_.plan.kind != StudyKind::force_deflection)
+    return system_;
+  return statics::prepare(analysis::with_springs_from_start(planned_.mechanism, planned_.plan,
+                                                            planned_.family->at(lambda).mechanism));
+}
+
+void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture& posture) const {
+  const analysis::Study& plan = planned_.plan;
+  const bool traces = plan.kind == StudyKind::force_deflection;
+  Vector w = plan.constant_load;
+  if (traces && plan.control == ControlMode::parameter && planned_.family)
+    w = planned_.family->at(lambda).constant_load;
+  if (traces && plan.control == ControlMode::load && plan.direction.size() > 0)
+    w = (w.size() > 0 ? w : Vector::Zero(plan.direction.size())) + lambda * plan.direction;
+  if (w.size() > 0) posture.wrenches.push_back(wrench_of(planned_, w));
+  const bool drives =
+      traces && (plan.control == ControlMode::pose || plan.control == ControlMode::mixed);
+  const bool pushes = traces && plan.control == ControlMode::load;
+  if (plan.direction.size() == 0 || (!drives && !pushes)) return;
+  posture.wrenches.push_back(wrench_of(planned_, plan.direction));
+  posture.wrenches.back().is_direction = true;
+  if (!drives) return;
+  // What holds the body where it is driven to, along the direction.
+  const double force = value(row, force_);
+  drawing::BodyWrench reaction = wrench_of(planned_, plan.direction);
+  const double size = reaction.force.norm();
+  reaction.force *= size > 0 && std::isfinite(force) ? force / size : 0;
+  reaction.moment.setZero();
+  posture.wrenches.push_back(reaction);
+}
+
+std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
+  if (!has_columns_) return std::nullopt;
+  const double lambda = value(row, lambda_);
+  const statics::System system = system_at(lambda);
+  drawing::Posture posture{.z = Vector(system.size),
+                           .rho = Vector(system.commands.size()),
+                           .lambda = std::isfinite(lambda) ? lambda : 0};
+  for (Index i = 0; i < system.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    posture.z[i] = value(row, z_columns_[k]);
+    if (!system.is_wrench[k] && !std::isfinite(posture.z[i])) return std::nullopt;
+  }
+  for (Index i = 0; i < posture.rho.size(); ++i)
+    posture.rho[i] = value(row, rho_columns_[static_cast<std::size_t>(i)]);
+  if (!posture.rho.allFinite()) return std::nullopt;
+  add_wrenches(row, posture.lambda, posture);
+  return drawing::scene_of(system, posture);
+}
+
+std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::string& title,
+                                                  const UnitLabels& units) const {
+  auto scene = scene_of(row);
+  if (!scene) return std::nullopt;
+  drawing::Panel panel{.scene = std::move(*scene),
+                       .title = title,
+                       .unstable_dead = count_of(value(row, dead_)),
+                       .unstable_driven = count_of(value(row, driven_))};
+  for (const auto column : {lambda_, force_, deflection_}) {
+    const double v = value(row, column);
+    if (!column || !std::isfinite(v)) continue;
+    const analysis::Quantity& q = result_.quantities[*column];
+    const std::string unit = unit_label(q.unit, result_.lambda_unit, units);
+    panel.notes.push_back(q.name + " = " + rounded(v, 5) + (unit.empty() ? "" : " " + unit));
+  }
+  return panel;
+}
+
+drawing::Panel guess_panel(const PlannedRun& planned, const std::string& title) {
+  model::Mechanism mechanism = planned.mechanism;
+  const auto body = static_cast<std::size_t>(planned.plan.body - 1);
+  if (planned.plan.start.pose.size() > 0) mechanism.bodies[body].pose = planned.plan.start.pose;
+  const statics::System system = statics::prepare(
+      analysis::with_springs_from_start(planned.mechanism, planned.plan, mechanism));
+  drawing::Posture posture = drawing::guess_posture(system);
+  if (planned.plan.constant_load.size() > 0)
+    posture.wrenches.push_back(wrench_of(planned, planned.plan.constant_load));
+  if (planned.plan.direction.size() > 0) {
+    posture.wrenches.push_back(wrench_of(planned, planned.plan.direction));
+    posture.wrenches.back().is_direction = true;
+  }
+  return {.scene = drawing::scene_of(system, posture), .title = title};
+}
+
+FoundRow row_at(const StudyResult& result, const std::string& label) {
+  for (const FoundRow& found : special_rows(result))
+    if (found.title == label) return found;
+  if (label != "end" || result.branches.empty() || result.branches.front().samples.empty())
+    return {};
+  return {&result.branches.front().samples.back(), label};
+}
+
+std::vector<FoundRow> special_rows(const StudyResult& result) {
+  std::vector<FoundRow> rows;
+  if (result.equilibria)
+    for (const analysis::Equilibrium& at : result.equilibria->list)
+      rows.push_back({&at.sample, at.label});
+  std::set<std::string> seen;
+  for (const analysis::Branch& branch : result.branches) {
+    const bool is_first = &branch == &result.branches.front();
+    if (is_first && branch.start_row < branch.samples.size())
+      rows.push_back({&branch.samples[branch.start_row], "start"});
+    for (const analysis::Event& event : branch.events)
+      if (event.row < branch.samples.size() && seen.insert(event.label).second)
+        rows.push_back({&branch.samples[event.row], event.label});
+  }
+  return rows;
+}
+
+}  // namespace springfold::io
