@@ -56,6 +56,8 @@ std::string explanation_of(analysis::EventKind kind) {
       return "The second parameter turns back here.";
     case EventKind::extremum:
       return "The critical value is stationary here.";
+    case EventKind::jump:
+      return "The first critical load of the path jumps here: another point comes first behind it.";
     case EventKind::threshold:
       return "The value that the study looks for.";
   }
