@@ -5,6 +5,7 @@
 
 #include "coincide.hpp"
 #include "normalised.hpp"
+#include "numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -152,8 +153,9 @@ bool attach_to_junction(const Walker& walker, const DiagramOptions& options,
   if (gap > tolerance) {
     WayBack back = trace_back(walker, options, junction, way, gap);
     const auto found = length_back(walker, junction, way, gap, tolerance, back);
-    if (!found) return false;
-    length = *found;
+    if (!found && gap > told_apart) return false;
+    if (!found) back = {};
+    length = found.value_or(gap);
     for (auto p = back.curve.points.rbegin(); p != back.curve.points.rend(); ++p)
       if (p->s > 0 && p->s < length) points.push_back(turned(*p, length));
     for (auto h = back.met.rbegin(); h != back.met.rend(); ++h) {

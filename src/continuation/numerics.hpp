@@ -26,6 +26,10 @@ inline constexpr double most_bend = 0.1;
 /// A model that is farther off than this share of the size is not continued: the step is then judged by its tangent.
 inline constexpr double most_surprise = 1e-7;
 
+/// Special points that are nearer to each other than this arc length need not be told apart. A way that begins nearer to its
+/// junction leads there as the reduced equation says, which was followed into the point; a trace may be lost in rounding.
+inline constexpr double told_apart = 1e-4;
+
 /// Is this error one that rounding leaves on a curve of this size?
 inline bool is_exact(double error, double size) {
   return error <= exact_model * std::max(1.0, size);
