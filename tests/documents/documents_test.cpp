@@ -121,8 +121,8 @@ TEST(Documents, ShowTheFirstCaseAsItIs) {
 TEST(Documents, ShowTheStrutAsItIsCompiledByThePackageTest) {
   const std::string strut = text_of(root / "docs/examples/strut.cpp");
   const std::string printed = text_of(root / "docs/examples/strut.txt");
-  EXPECT_TRUE(shows(root / "docs/continuation.md", "```cpp\n" + strut + "```"));
-  EXPECT_TRUE(shows(root / "docs/continuation.md", "```text\n" + printed + "```"));
+  EXPECT_TRUE(shows(root / "docs/engine.md", "```cpp\n" + strut + "```"));
+  EXPECT_TRUE(shows(root / "docs/engine.md", "```text\n" + printed + "```"));
   EXPECT_TRUE(shows(root / "tests/package/CMakeLists.txt", "examples/strut.cpp"));
 }
 
