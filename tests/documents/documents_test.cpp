@@ -113,6 +113,14 @@ TEST(Documents, HaveLinesOfProseThatEndAt120Characters) {
   for (const fs::path& document : documents()) EXPECT_THAT(long_lines(document), IsEmpty());
 }
 
+TEST(Documents, AllStandInTheReadingOrder) {
+  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".md" || name == "README.md") continue;
+    EXPECT_TRUE(shows(root / "docs/README.md", "](" + name + ")")) << name;
+  }
+}
+
 TEST(Documents, ShowTheFirstCaseAsItIs) {
   const std::string first = text_of(root / "docs/examples/first.toml");
   EXPECT_TRUE(shows(root / "README.md", "```toml\n" + first + "```"));
