@@ -12,16 +12,23 @@ from pathlib import Path
 WIDTH = 120
 BEGIN, END = "<!-- contents -->", "<!-- /contents -->"
 ITEM = re.compile(r"^(\s*)([-*+]|\d+\.)(\s+)")
+WORD = re.compile(r"(?:`[^`]*`|\S)+")
 # At the beginning of a line these would mean something else.
 NOT_FIRST = re.compile(r"^([-+*=#>|]+|\d+[.)])$|^[#>|]")
 
 
 def fill(text, first, rest):
-    """The words of text in lines of at most WIDTH characters."""
+    """The words of text in lines of at most WIDTH characters. A piece of code is one word."""
+    words = []
+    for word in WORD.findall(text):
+        if words and NOT_FIRST.match(word):
+            words[-1] += " " + word
+        else:
+            words.append(word)
     lines, line = [], first
     empty = True
-    for word in text.split():
-        if not empty and len(line) + 1 + len(word) > WIDTH and not NOT_FIRST.match(word):
+    for word in words:
+        if not empty and len(line) + 1 + len(word) > WIDTH:
             lines.append(line)
             line, empty = rest, True
         line += word if empty else " " + word
@@ -65,7 +72,7 @@ def wrapped(text):
 
     for line in text.split("\n"):
         fence = re.match(r"^\s*```", line)
-        indented = before_blank and not pending and re.match(r"^ {4}\S", line) and not ITEM.match(line)
+        indented = before_blank and not pending and re.match(r"^ {4}", line) and not ITEM.match(line)
         if fence or code or not line.strip() or is_alone(line) or indented:
             flush()
             out.append(line)

@@ -82,6 +82,37 @@ TEST(Documents, LinkOnlyToWhatIsThere) {
   for (const fs::path& document : documents()) EXPECT_THAT(broken_links(document), IsEmpty());
 }
 
+/// Characters of a line of UTF-8: all bytes but those that go on with a character.
+long characters_of(const std::string& line) {
+  return std::count_if(line.begin(), line.end(),
+                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+}
+
+/// Lines of prose with more than 120 characters. Code, tables, headings, and lines that are one link or picture are none.
+std::vector<std::string> long_lines(const fs::path& document) {
+  static const std::regex no_prose{R"(\s*(\||#|<).*|\s*([-*] )?!?\[[^\]]*\]\([^)]*\)\s*)"};
+  std::vector<std::string> found;
+  std::ifstream lines{document};
+  bool in_code = false, after_blank = true, indented = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto text = line.find_first_not_of(' ');
+    const bool fence = text != std::string::npos && line.compare(text, 3, "```") == 0;
+    indented = text != std::string::npos && text >= 4 && (indented || after_blank);
+    after_blank = text == std::string::npos;
+    if (fence) in_code = !in_code;
+    if (fence || in_code || indented || characters_of(line) <= 120) continue;
+    if (!std::regex_match(line, no_prose))
+      found.push_back(document.lexically_relative(root).string() + ":" + std::to_string(number));
+  }
+  return found;
+}
+
+TEST(Documents, HaveLinesOfProseThatEndAt120Characters) {
+  for (const fs::path& document : documents()) EXPECT_THAT(long_lines(document), IsEmpty());
+}
+
 TEST(Documents, ShowTheFirstCaseAsItIs) {
   const std::string first = text_of(root / "docs/examples/first.toml");
   EXPECT_TRUE(shows(root / "README.md", "```toml\n" + first + "```"));
@@ -90,8 +121,8 @@ TEST(Documents, ShowTheFirstCaseAsItIs) {
 TEST(Documents, ShowTheStrutAsItIsCompiledByThePackageTest) {
   const std::string strut = text_of(root / "docs/examples/strut.cpp");
   const std::string printed = text_of(root / "docs/examples/strut.txt");
-  EXPECT_TRUE(shows(root / "docs/continuation.md", "```cpp\n" + strut + "```"));
-  EXPECT_TRUE(shows(root / "docs/continuation.md", "```text\n" + printed + "```"));
+  EXPECT_TRUE(shows(root / "docs/engine.md", "```cpp\n" + strut + "```"));
+  EXPECT_TRUE(shows(root / "docs/engine.md", "```text\n" + printed + "```"));
   EXPECT_TRUE(shows(root / "tests/package/CMakeLists.txt", "examples/strut.cpp"));
 }
 

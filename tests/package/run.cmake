@@ -29,8 +29,8 @@ run("${work}/user/user")
 run("${work}/user/user_of_engine")
 run("${work}/user/user_of_all" "${source}/cases/orthoglide-planar/case.toml")
 
-# docs/continuation.md shows each example's source and what it prints, as they are.
-file(READ "${source}/docs/continuation.md" document)
+# docs/engine.md shows each example's source and what it prints, as they are.
+file(READ "${source}/docs/engine.md" document)
 foreach(example strut smooth piecewise)
   execute_process(COMMAND "${work}/user/${example}" OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
   file(READ "${source}/docs/examples/${example}.txt" shown)
@@ -41,6 +41,6 @@ foreach(example strut smooth piecewise)
   string(FIND "${document}" "```cpp\n${code}```" code_place)
   string(FIND "${document}" "```text\n${shown}```" shown_place)
   if(code_place EQUAL -1 OR shown_place EQUAL -1)
-    message(FATAL_ERROR "docs/continuation.md does not show docs/examples/${example} as it is")
+    message(FATAL_ERROR "docs/engine.md does not show docs/examples/${example} as it is")
   endif()
 endforeach()
