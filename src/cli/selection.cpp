@@ -54,7 +54,7 @@ std::string unknown_study(const io::Case& the_case, const std::vector<std::strin
     std::string message = "there is no study \"" + name + "\"";
     if (edit_distance(name, *nearest) <= std::max<std::size_t>(2, name.size() / 3))
       message += ", did you mean \"" + *nearest + "\"?";
-    message += " Studies of this case:";
+    message += message.ends_with('?') ? " Studies of this case:" : "; studies of this case:";
     for (const auto& other : known)
       message += (&other == &known.front() ? " \"" : ", \"") + other + "\"";
     return message;
