@@ -27,6 +27,8 @@ constexpr const char* examples =
     "      reads the case, solves its starts, says what it contains or what is wrong with it\n"
     "  springfold draw case.toml --at push/LP1 --output lp1.svg\n"
     "      the mechanism in its posture at a special point\n"
+    "  springfold animate case.toml --study push --output push.svg\n"
+    "      the mechanism moved along the curve, beside it\n"
     "  springfold verify cases\n"
     "      all cases of a folder against their expected values, one table\n"
     "\n"
@@ -54,6 +56,16 @@ std::string picture_problem(const std::string& name) {
   return extension == ".svg" || extension == ".png" ? "" : "need a name that ends in .svg or .png";
 }
 
+void add_run_and_colours(CLI::App& command, Arguments& arguments) {
+  command.add_option("--run", arguments.run_number, "Run of the study, along its vary list")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--colour", arguments.colour, "What colours stand for")
+      ->check(CLI::IsMember({"stability", "force", "energy", "none"}));
+  command.add_option("--view", arguments.view, "Plane that is looked at")
+      ->check(CLI::IsMember({"xy", "xz", "yz"}));
+}
+
 /// Options of pictures.
 void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
   for (CLI::App* command : {&draw, &check})
@@ -65,7 +77,8 @@ void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
   check.add_flag("--draw", arguments.draws, "Draw the mechanism as it was understood");
   draw.add_option("--study", arguments.studies, "Draw this study's mechanism (the first study)")
       ->type_name("NAME")
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);
   const auto at =
       draw.add_option("--at", arguments.draw_at,
                       "Posture at a special point, \"press/LP1\"; also start, end (the first "
@@ -78,13 +91,42 @@ void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
   draw.add_flag("--guess", arguments.draws_guess, "The guess of the case, before it is solved")
       ->excludes(at)
       ->excludes(all);
-  draw.add_option("--run", arguments.run_number, "Run of the study, along its vary list")
+  add_run_and_colours(draw, arguments);
+}
+
+/// Options of movies.
+void add_animation(CLI::App& animate, Arguments& arguments) {
+  animate
+      .add_option("--output", arguments.picture_file,
+                  "File for the movie, .svg (animation.svg in the results' folder)")
+      ->type_name("FILE")
+      ->check([](const std::string& name) {
+        return std::filesystem::path{name}.extension() == ".svg" ? ""
+                                                                 : "need a name that ends in .svg";
+      });
+  animate
+      .add_option("--study", arguments.studies,
+                  "Along the curve of this study (the first that has one)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->allow_extra_args(false);
+  const auto from =
+      animate
+          .add_option("--from", arguments.film_from, "Begin at this special point; also start, end")
+          ->type_name("LABEL");
+  const auto to =
+      animate.add_option("--to", arguments.film_to, "End at this one")->type_name("LABEL");
+  animate
+      .add_option("--mode", arguments.film_mode,
+                  "To and fro in the mode of this limit point instead of along the curve")
+      ->type_name("LABEL")
+      ->excludes(from)
+      ->excludes(to);
+  constexpr int fewest = 2, most = 100;  // more make large files that look the same
+  animate.add_option("--frames", arguments.frames, "At most as many pictures (60)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  draw.add_option("--colour", arguments.colour, "What colours stand for")
-      ->check(CLI::IsMember({"stability", "force", "energy", "none"}));
-  draw.add_option("--view", arguments.view, "Plane that is looked at")
-      ->check(CLI::IsMember({"xy", "xz", "yz"}));
+      ->check(CLI::Range(fewest, most));
+  add_run_and_colours(animate, arguments);
 }
 
 /// The first word, if it is no command: with the nearest one, or with all of them.
@@ -119,7 +161,9 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   CLI::App* check =
       app.add_subcommand("check", "Read and check a case file and solve its starts, trace nothing");
   CLI::App* draw = app.add_subcommand("draw", "Draw the mechanism in a posture (SVG, PNG)");
-  for (CLI::App* command : {run, check, draw}) {
+  CLI::App* animate =
+      app.add_subcommand("animate", "Move the mechanism along its curve (animated SVG)");
+  for (CLI::App* command : {run, check, draw, animate}) {
     command->add_option("CASE", arguments.case_file, "Case file (TOML)")->required();
     command
         ->add_option("--set", settings, "Replace a parameter's value or formula; may be repeated")
@@ -128,6 +172,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   }
   bool is_without_solving = false;
   add_drawing(*draw, *check, arguments);
+  add_animation(*animate, arguments);
   check->add_flag("--no-solve", is_without_solving, "Do not close the chains and solve the starts");
   run->add_option("--study", arguments.studies, "Run this study only; may be repeated")
       ->type_name("NAME")
@@ -177,10 +222,11 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
     if (!add_override(text, arguments.overrides, parsed.error)) return parsed;
   arguments.draws_plots = !is_without_plots;
   arguments.solves_starts = !is_without_solving;
-  arguments.command = run->parsed()      ? Command::run
-                      : verify->parsed() ? Command::verify
-                      : draw->parsed()   ? Command::draw
-                                         : Command::check;
+  arguments.command = run->parsed()       ? Command::run
+                      : verify->parsed()  ? Command::verify
+                      : draw->parsed()    ? Command::draw
+                      : animate->parsed() ? Command::animate
+                                          : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;
 }

@@ -9,7 +9,7 @@
 
 namespace springfold::cli {
 
-enum class Command { run, check, verify, draw };
+enum class Command { run, check, verify, draw, animate };
 
 struct Arguments {
   Command command = Command::run;
@@ -29,7 +29,10 @@ struct Arguments {
   bool draws_guess = false;                             ///< draw: --guess
   std::string colour = "stability";                     ///< draw
   std::string view{};                                   ///< draw: "xy", "xz", "yz"; empty: natural
-  int run_number = 1;                                   ///< draw: --run
+  int run_number = 1;                                   ///< draw, animate: --run
+  std::string film_from{}, film_to{};                   ///< animate: --from, --to
+  std::string film_mode{};                              ///< animate: --mode
+  int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
   bool prints_csv = false;                     ///< verify only
   std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them

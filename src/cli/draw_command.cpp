@@ -5,6 +5,7 @@
 
 #include "exit_code.hpp"
 #include "messages.hpp"
+#include "picture_choice.hpp"
 #include "selection.hpp"
 #include "springfold/io/picture_files.hpp"
 #include "springfold/io/postures.hpp"
@@ -37,16 +38,6 @@ Target target_of(const Arguments& arguments) {
   if (slash == std::string::npos)
     return {arguments.studies.empty() ? "" : arguments.studies.front(), arguments.draw_at};
   return {arguments.draw_at.substr(0, slash), arguments.draw_at.substr(slash + 1)};
-}
-
-const PlannedRun* run_of(const io::Case& the_case, const std::string& study, int number) {
-  for (const PlannedRun& run : the_case.runs)
-    if ((study.empty() || run.study == study) && run.run == number) return &run;
-  return nullptr;
-}
-
-std::string heading_of(const PlannedRun& run, const std::string& what) {
-  return run.study + (run.label.empty() ? "" : ", " + run.label) + ": " + what;
 }
 
 StudyResult result_of(const PlannedRun& run, const Session& session) {
@@ -118,23 +109,6 @@ Wanted at_points(const Arguments& arguments, const io::Case& the_case, const Pla
     say(session.err, "there is no posture \"" + label + "\" in " + run.study +
                          "; there are: " + labels_of(result));
   return wanted;
-}
-
-drawing::IllustrationOptions options_of(const Arguments& arguments, const io::Case& the_case) {
-  drawing::IllustrationOptions options;
-  options.title = the_case.title;
-  options.force_unit = the_case.units.force;
-  options.energy_unit = the_case.units.force + "·" + the_case.units.length;
-  options.colouring = arguments.colour == "force"    ? drawing::Colouring::force
-                      : arguments.colour == "energy" ? drawing::Colouring::energy
-                      : arguments.colour == "none"   ? drawing::Colouring::none
-                                                     : drawing::Colouring::stability;
-  if (arguments.view == "xy") options.view = drawing::View{};
-  if (arguments.view == "xz")
-    options.view = drawing::View{model::Vec3<double>::UnitX(), model::Vec3<double>::UnitZ()};
-  if (arguments.view == "yz")
-    options.view = drawing::View{model::Vec3<double>::UnitY(), model::Vec3<double>::UnitZ()};
-  return options;
 }
 
 /// @returns the exit code

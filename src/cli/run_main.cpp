@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "animate_command.hpp"
 #include "arguments.hpp"
 #include "check_command.hpp"
 #include "draw_command.hpp"
@@ -70,6 +71,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return run_whole(verify_command, *parsed.arguments, session);
     case Command::draw:
       return run_whole(draw_command, *parsed.arguments, session);
+    case Command::animate:
+      return run_whole(animate_command, *parsed.arguments, session);
     case Command::run:
       break;
   }

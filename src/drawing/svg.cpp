@@ -1,8 +1,8 @@
+#include "svg.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-
-#include "springfold/drawing/picture.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -113,7 +113,11 @@ std::string svg(const Words& words) {
 
 }  // namespace
 
-std::string svg_text(const Picture& picture) {
+std::string svg_mark(const Mark& mark) {
+  return std::visit([](const auto& m) { return svg(m); }, mark);
+}
+
+std::string svg_head(const Picture& picture) {
   const std::string w = number(picture.width), h = number(picture.height);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -122,9 +126,10 @@ std::string svg_text(const Picture& picture) {
       "\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n";
   if (!picture.title.empty()) text += "<title>" + escaped(picture.title) + "</title>\n";
   text += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-  for (const Mark& mark : picture.marks)
-    text += std::visit([](const auto& m) { return svg(m); }, mark);
-  return text + "</svg>\n";
+  for (const Mark& mark : picture.marks) text += svg_mark(mark);
+  return text;
 }
+
+std::string svg_text(const Picture& picture) { return svg_head(picture) + "</svg>\n"; }
 
 }  // namespace springfold::drawing

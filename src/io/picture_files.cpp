@@ -53,4 +53,10 @@ std::string write_picture(const drawing::Picture& picture, const fs::path& file)
          std::string(converter ? ", which failed" : "") + "; the picture is in " + svg.string();
 }
 
+void write_movie(const drawing::Movie& movie, const fs::path& file) {
+  const fs::path path = fs::absolute(file);
+  make_folder(path.parent_path());
+  write_file(path, drawing::svg_text(movie));
+}
+
 }  // namespace springfold::io

@@ -114,6 +114,29 @@ std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
   return drawing::scene_of(system, posture);
 }
 
+std::vector<model::Vec3<double>> RowScenes::motion_at(const Sample& row,
+                                                      const std::vector<double>& rates) const {
+  if (rates.size() != result_.quantities.size()) return {};
+  double fastest = 0;
+  Sample ahead = row, behind = row;
+  for (const double rate : rates)
+    if (std::isfinite(rate)) fastest = std::max(fastest, std::abs(rate));
+  if (!(fastest > 0)) return {};
+  constexpr double relative = 1e-5;  // of the values' sizes: error of the order of its square
+  const double h = relative / fastest;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double by = std::isfinite(rates[i]) ? h * rates[i] : 0;
+    ahead.values[i] += by;
+    behind.values[i] -= by;
+  }
+  const auto a = scene_of(ahead), b = scene_of(behind);
+  if (!a || !b || a->points.size() != b->points.size()) return {};
+  std::vector<model::Vec3<double>> motion;
+  for (std::size_t i = 0; i < a->points.size(); ++i)
+    motion.emplace_back((a->points[i] - b->points[i]) / (2 * h));
+  return motion;
+}
+
 std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::string& title,
                                                   const UnitLabels& units) const {
   auto scene = scene_of(row);

@@ -127,33 +127,17 @@ void add_row(const StudyResult& result, const Sample& row, const std::optional<S
   for (const auto& load : scene->loads) add(load.vector, 3, rows.loads);
 }
 
-/// How fast the points move along the branch: central differences of exact positions. Empty where not
-/// all rates are known.
-std::vector<double> motion_at(const StudyResult& result, const RowScenes& scenes, const Sample& row,
+std::vector<double> motion_at(const RowScenes& scenes, const Sample& row,
                               const std::vector<double>& rates) {
-  if (rates.size() != result.quantities.size()) return {};
-  double fastest = 0;
-  Sample ahead = row, behind = row;
-  for (std::size_t i = 0; i < rates.size(); ++i)
-    if (std::isfinite(rates[i])) fastest = std::max(fastest, std::abs(rates[i]));
-  if (!(fastest > 0)) return {};
-  constexpr double relative = 1e-5;  // of the values' sizes: error of the order of its square
-  const double h = relative / fastest;
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    const double by = std::isfinite(rates[i]) ? h * rates[i] : 0;
-    ahead.values[i] += by;
-    behind.values[i] -= by;
-  }
-  const auto a = scenes.scene_of(ahead), b = scenes.scene_of(behind);
-  if (!a || !b || a->points.size() != b->points.size()) return {};
+  const auto scene = scenes.scene_of(row);
   std::vector<double> motion;
-  for (std::size_t i = 0; i < a->points.size(); ++i)
-    add((a->points[i] - b->points[i]) / (2 * h), a->is_planar ? 2 : 3, motion);
+  for (const auto& velocity : scenes.motion_at(row, rates))
+    add(velocity, scene && scene->is_planar ? 2 : 3, motion);
   return motion;
 }
 
-Json json_of(const analysis::Event& event, const StudyResult& result,
-             const analysis::Branch& branch, const RowScenes& scenes) {
+Json json_of(const analysis::Event& event, const analysis::Branch& branch,
+             const RowScenes& scenes) {
   Json json = {{"label", event.label},
                {"code", analysis::code_of(event.kind)},
                {"row", event.row},
@@ -161,7 +145,7 @@ Json json_of(const analysis::Event& event, const StudyResult& result,
                {"sentence", explanation_of(event.kind)}};
   const auto& rates = event.rates_after.empty() ? event.rates_before : event.rates_after;
   if (event.row < branch.samples.size() && scenes.has_postures())
-    json["motion"] = base64_of(motion_at(result, scenes, branch.samples[event.row], rates));
+    json["motion"] = base64_of(motion_at(scenes, branch.samples[event.row], rates));
   if (event.stiffness.size() > 0) {
     json["stiffness"] = Json::array();
     for (Index i = 0; i < event.stiffness.rows(); ++i) {
@@ -209,8 +193,7 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
       add_row(result, row, first ? scenes.scene_of(row) : std::nullopt, first ? *first : Scene{},
               rows);
     Json events = Json::array();
-    for (const auto& event : branch.events)
-      events.push_back(json_of(event, result, branch, scenes));
+    for (const auto& event : branch.events) events.push_back(json_of(event, branch, scenes));
     json["branches"].push_back({{"file", b < files.size() ? files[b] : ""},
                                 {"rows", branch.samples.size()},
                                 {"start", branch.start_row},

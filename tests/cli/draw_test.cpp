@@ -50,6 +50,11 @@ TEST_F(Draw, ShowsTheFirstEquilibriumOfTheFirstStudy) {
   EXPECT_THAT(picture(), HasSubstr("stable under dead load"));
 }
 
+TEST_F(Draw, TheCaseMayStandBehindTheStudy) {
+  EXPECT_EQ(run({"draw", "--study", "rest"}), all_done);
+  EXPECT_THAT(picture(), HasSubstr(">rest: first equilibrium</text>"));
+}
+
 TEST_F(Draw, ShowsAPostureByTheLabelOfItsPoint) {
   EXPECT_EQ(run({"draw", "--at", "push/EP2"}), all_done);
   // Driven to the end of its range: the spring of stiffness 2 is 0.3 longer.

@@ -121,6 +121,22 @@ TEST(Documents, AllStandInTheReadingOrder) {
   }
 }
 
+TEST(Gallery, NamesEveryFolderOfTheLibraryAndCountsItsCases) {
+  std::size_t count = 0;
+  for (const auto& folder : fs::directory_iterator(root / "cases")) {
+    if (!folder.is_directory()) continue;
+    const std::string name = folder.path().filename().string();
+    EXPECT_TRUE(shows(root / "docs/gallery.md", "](../cases/" + name + "/README.md)")) << name;
+    for (const auto& file : fs::directory_iterator(folder)) {
+      const std::string base = file.path().filename().string();
+      count += base.starts_with("case") && base.ends_with(".toml") ? 1 : 0;
+    }
+  }
+  // The last row is that of the last picture of the sheet.
+  EXPECT_TRUE(shows(root / "docs/gallery.md", "\n| " + std::to_string(count) + " | "));
+  EXPECT_FALSE(shows(root / "docs/gallery.md", "\n| " + std::to_string(count + 1) + " | "));
+}
+
 TEST(Documents, ShowTheFirstCaseAsItIs) {
   const std::string first = text_of(root / "docs/examples/first.toml");
   EXPECT_TRUE(shows(root / "README.md", "```toml\n" + first + "```"));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "springfold/drawing/movie.hpp"
 #include "springfold/drawing/picture.hpp"
 
 namespace springfold::io {
@@ -13,5 +14,9 @@ namespace springfold::io {
 /// @returns what is missing, in words; empty when the file is there
 /// @throws std::runtime_error "cannot write <path>: <reason>"
 std::string write_picture(const drawing::Picture& picture, const std::filesystem::path& file);
+
+/// Writes the movie as an SVG file; folders are made.
+/// @throws std::runtime_error "cannot write <path>: <reason>"
+void write_movie(const drawing::Movie& movie, const std::filesystem::path& file);
 
 }  // namespace springfold::io

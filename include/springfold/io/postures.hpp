@@ -27,6 +27,12 @@ class RowScenes {
   std::optional<drawing::Panel> panel_of(const analysis::Sample& row, const std::string& title,
                                          const UnitLabels& units) const;
 
+  /// How fast the points of the scene move along the branch, per arc length: central differences of exact
+  /// positions. Empty where not all is known.
+  /// @param rates  d(values)/ds at the row, as in analysis::Event
+  std::vector<model::Vec3<double>> motion_at(const analysis::Sample& row,
+                                             const std::vector<double>& rates) const;
+
  private:
   double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
   statics::System system_at(double lambda) const;

@@ -1,0 +1,159 @@
+#include "diagram.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "glyphs.hpp"
+#include "name_places.hpp"
+#include "painter.hpp"
+
+namespace springfold::drawing {
+namespace {
+
+std::string brief(double value) {
+  char buffer[40];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr;
+  return {buffer, end};
+}
+
+/// Smallest and largest value, a little wider; a range around a single one.
+void measure(std::vector<double> values, double& from, double& to) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return;
+  from = *std::min_element(values.begin(), values.end());
+  to = *std::max_element(values.begin(), values.end());
+  // What rounding leaves of a constant is no range.
+  constexpr double resolution = 1e-9;
+  const double size = std::max(std::abs(from), std::abs(to));
+  const double room =
+      to - from > resolution * size ? 0.06 * (to - from) : (size > 0 ? 0.5 * size : 1);
+  from -= room;
+  to += room;
+}
+
+/// About five round numbers (1, 2 or 5 times a power of ten) within the range.
+std::vector<double> ticks_within(double from, double to) {
+  const double coarse = (to - from) / 5, power = std::pow(10, std::floor(std::log10(coarse)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= coarse) step = factor * power;
+  std::vector<double> ticks;
+  const auto first = std::llround(std::ceil(from / step)),
+             last = std::llround(std::floor(to / step));
+  for (auto i = first; i <= last; ++i) ticks.push_back(static_cast<double>(i) * step);
+  return ticks;
+}
+
+/// The curve between two points is as unstable as the worse of them: special points count fewer modes.
+std::string colour_between(const DiagramPoint& a, const DiagramPoint& b) {
+  Panel panel;
+  if (a.unstable_dead && b.unstable_dead)
+    panel.unstable_dead = std::max(*a.unstable_dead, *b.unstable_dead);
+  if (a.unstable_driven && b.unstable_driven)
+    panel.unstable_driven = std::max(*a.unstable_driven, *b.unstable_driven);
+  return stability_colour(panel);
+}
+
+}  // namespace
+
+bool is_known(const DiagramPoint& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+
+DiagramAxes::DiagramAxes(const Diagram& diagram, const Box& frame)
+    : diagram_{diagram}, frame_{frame} {
+  std::vector<double> xs, ys;
+  for (const DiagramPoint& point : diagram.points)
+    if (is_known(point)) {
+      xs.push_back(point.x);
+      ys.push_back(point.y);
+    }
+  measure(std::move(xs), left_, right_);
+  measure(std::move(ys), low_, high_);
+}
+
+Place DiagramAxes::place(const DiagramPoint& point) const {
+  return {frame_.left + (frame_.right - frame_.left) * (point.x - left_) / (right_ - left_),
+          frame_.bottom - (frame_.bottom - frame_.top) * (point.y - low_) / (high_ - low_)};
+}
+
+void DiagramAxes::paint(Picture& picture) const {
+  paint_ticks(picture);
+  paint_curve(picture);
+  paint_points(picture);
+}
+
+void DiagramAxes::paint_ticks(Picture& picture) const {
+  const Ink faint{"#e4e4e4", "", 1, {}}, edge{"#777777", "", 1, {}};
+  const auto line = [&](Place a, Place b) {
+    picture.marks.emplace_back(Path{{a, b}, false, faint, "", false});
+  };
+  const auto words = [&](Place at, const std::string& text, Anchor anchor) {
+    picture.marks.emplace_back(
+        Words{.at = at, .text = text, .anchor = anchor, .size = 11, .colour = "#444444"});
+  };
+  for (const double tick : ticks_within(left_, right_)) {
+    const double x = place({.x = tick}).x;
+    line({x, frame_.top}, {x, frame_.bottom});
+    words({x, frame_.bottom + 15}, brief(tick), Anchor::middle);
+  }
+  for (const double tick : ticks_within(low_, high_)) {
+    const double y = place({.y = tick}).y;
+    line({frame_.left, y}, {frame_.right, y});
+    words({frame_.left - 6, y + 4}, brief(tick), Anchor::end);
+  }
+  picture.marks.emplace_back(Path{{{frame_.left, frame_.top},
+                                   {frame_.right, frame_.top},
+                                   {frame_.right, frame_.bottom},
+                                   {frame_.left, frame_.bottom}},
+                                  true,
+                                  edge});
+  words({(frame_.left + frame_.right) / 2, frame_.bottom + 33}, diagram_.x_name, Anchor::middle);
+  words({frame_.left, frame_.top - 8}, diagram_.y_name, Anchor::start);
+}
+
+void DiagramAxes::paint_curve(Picture& picture) const {
+  constexpr double visible = 0.6;  // pixels between points of a line
+  Path path;
+  const auto finish = [&] {
+    if (path.places.size() > 1) picture.marks.emplace_back(path);
+    path.places.clear();
+  };
+  for (std::size_t i = 1; i < diagram_.points.size(); ++i) {
+    const DiagramPoint &a = diagram_.points[i - 1], &b = diagram_.points[i];
+    if (!is_known(a) || !is_known(b)) {
+      finish();
+      continue;
+    }
+    const std::string colour = colour_between(a, b);
+    if (!path.places.empty() && path.ink.stroke != colour) {
+      path.places.push_back(place(a));
+      finish();
+    }
+    if (path.places.empty()) {
+      path.ink = {colour, "", 2, {}};
+      if (colour == driven_colour) path.ink.dashes = {8, 4};
+      if (colour == unstable_colour) path.ink.dashes = {3, 4};
+      path.places.push_back(place(a));
+    }
+    const bool is_last = i + 1 == diagram_.points.size() || !is_known(diagram_.points[i + 1]);
+    if (is_last || length(place(b) - path.places.back()) > visible) path.places.push_back(place(b));
+  }
+  finish();
+}
+
+void DiagramAxes::paint_points(Picture& picture) const {
+  constexpr double radius = 3;
+  std::vector<WantedName> names;
+  for (const DiagramPoint& point : diagram_.points) {
+    if (point.label.empty() || !is_known(point)) continue;
+    picture.marks.emplace_back(Disc{place(point), radius, {ink_colour, "#ffffff", 1.4, {}}});
+    names.push_back({place(point), {.text = point.label, .size = 11}, radius + 1});
+  }
+  place_names(names, frame_, picture);
+}
+
+}  // namespace springfold::drawing

@@ -1,0 +1,196 @@
+#include "springfold/io/film.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "result_access.hpp"
+#include "springfold/io/postures.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::Branch;
+using analysis::StudyResult;
+using drawing::Film;
+
+std::optional<int> count_at(const StudyResult& result, const Branch& branch, std::size_t row,
+                            const char* name) {
+  const double value = value_at(result, branch, row, name);
+  if (!std::isfinite(value)) return std::nullopt;
+  return static_cast<int>(std::lround(value));
+}
+
+bool is_known_on(const StudyResult& result, const Branch& branch, const std::string& name) {
+  for (std::size_t row = 0; row < branch.samples.size(); ++row)
+    if (std::isfinite(value_at(result, branch, row, name))) return true;
+  return false;
+}
+
+std::string name_with_unit(const StudyResult& result, const std::string& name,
+                           const UnitLabels& units) {
+  const auto column = column_of(result, name);
+  if (!column) return name;
+  const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
+  return name + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+/// Force over deflection; without them lambda over arc length.
+drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch,
+                            const UnitLabels& units) {
+  const std::string x = is_known_on(result, branch, "deflection") ? "deflection" : "s";
+  const std::string y = is_known_on(result, branch, "force") ? "force" : "lambda";
+  drawing::Diagram diagram{.x_name = name_with_unit(result, x, units),
+                           .y_name = name_with_unit(result, y, units)};
+  for (std::size_t row = 0; row < branch.samples.size(); ++row)
+    diagram.points.push_back({.x = value_at(result, branch, row, x),
+                              .y = value_at(result, branch, row, y),
+                              .unstable_dead = count_at(result, branch, row, "index_force"),
+                              .unstable_driven = count_at(result, branch, row, "index"),
+                              .label = branch.samples[row].event});
+  return diagram;
+}
+
+/// Arc length of a row; its number where the study has none.
+double length_at(const StudyResult& result, const Branch& branch, std::size_t row) {
+  const double s = value_at(result, branch, row, "s");
+  return std::isfinite(s) ? s : static_cast<double>(row);
+}
+
+/// @param fallback  row for no label
+std::optional<std::size_t> row_of(const Branch& branch, const std::string& label,
+                                  std::size_t fallback) {
+  if (label.empty()) return fallback;
+  for (const analysis::Event& event : branch.events)
+    if (event.label == label) return event.row;
+  if (label == "start") return branch.start_row;
+  if (label == "end") return branch.samples.size() - 1;
+  return std::nullopt;
+}
+
+std::string labels_on(const Branch& branch) {
+  std::string list = "start";
+  for (const analysis::Event& event : branch.events) list += ", " + event.label;
+  return list + ", end";
+}
+
+/// Rows in time slots of even arc length; a special point lasts longer, so that it can be seen.
+std::vector<std::size_t> slots_between(const StudyResult& result, const Branch& branch,
+                                       std::size_t from, std::size_t to, int count) {
+  const auto [first, last] = std::minmax(from, to);
+  const double begin = length_at(result, branch, first), end = length_at(result, branch, last);
+  std::vector<std::size_t> slots;
+  std::size_t row = first;
+  for (int i = 0; i < count; ++i) {
+    const double s = begin + (end - begin) * i / (count - 1);
+    const auto distance = [&](std::size_t r) { return std::abs(length_at(result, branch, r) - s); };
+    while (row < last && distance(row + 1) <= distance(row)) ++row;
+    slots.push_back(row);
+  }
+  // The slot nearest to a special point has that point.
+  for (const analysis::Event& event : branch.events) {
+    if (event.row < first || event.row > last || end <= begin) continue;
+    const double part = (length_at(result, branch, event.row) - begin) / (end - begin);
+    slots[static_cast<std::size_t>(std::lround(part * (count - 1)))] = event.row;
+  }
+  constexpr std::size_t held = 7;
+  std::vector<std::size_t> order;
+  for (const std::size_t slot : slots)
+    order.insert(order.end(), branch.samples[slot].event.empty() ? 1 : held, slot);
+  if (from > to) std::reverse(order.begin(), order.end());
+  return order;
+}
+
+FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
+                const FilmWish& wish) {
+  const Branch& branch = result.branches.front();
+  const auto from = row_of(branch, wish.from, 0);
+  const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
+  if (!from || !to)
+    return {.problem = "there is no point \"" + (from ? wish.to : wish.from) +
+                       "\" on the first branch of " + result.study +
+                       "; there are: " + labels_on(branch)};
+  if (*from == *to) return {.problem = result.study + ": the way is a single posture"};
+  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, units)};
+  std::vector<std::optional<std::size_t>> frame_of(branch.samples.size());
+  for (const std::size_t row : slots_between(result, branch, *from, *to, wish.frames)) {
+    if (!frame_of[row]) {
+      auto panel = scenes.panel_of(branch.samples[row], branch.samples[row].event, units);
+      if (!panel) continue;
+      frame_of[row] = film.frames.size();
+      film.frames.push_back({std::move(*panel), row});
+    }
+    film.order.push_back(*frame_of[row]);
+  }
+  if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
+  return {.film = std::move(film)};
+}
+
+std::string limit_points_on(const Branch& branch) {
+  std::string list;
+  for (const analysis::Event& event : branch.events)
+    if (event.kind == analysis::EventKind::limit_point)
+      list += (list.empty() ? "" : ", ") + event.label;
+  return list.empty() ? "none" : list;
+}
+
+FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
+                 const FilmWish& wish) {
+  const Branch& branch = result.branches.front();
+  const auto event =
+      std::find_if(branch.events.begin(), branch.events.end(), [&](const analysis::Event& e) {
+        return e.label == wish.mode && e.kind == analysis::EventKind::limit_point;
+      });
+  if (event == branch.events.end())
+    return {.problem = "there is no limit point \"" + wish.mode + "\" on the first branch of " +
+                       result.study + "; there are: " + limit_points_on(branch)};
+  const auto& rates = event->rates_after.empty() ? event->rates_before : event->rates_after;
+  const analysis::Sample& row = branch.samples[event->row];
+  const auto panel = scenes.panel_of(row, wish.mode + ": mode, enlarged", units);
+  const auto motion = scenes.motion_at(row, rates);
+  double largest = 0;
+  for (const auto& velocity : motion) largest = std::max(largest, velocity.norm());
+  if (!panel || !(largest > 0)) return {.problem = "the mode at " + wish.mode + " is not known"};
+  constexpr double part = 0.07;  // of the mechanism's size: large enough to be seen
+  const double amplitude = part * drawing::size_of(panel->scene) / largest;
+  const int count = std::min(wish.frames, 24);  // of half a period
+  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, units)};
+  for (int i = 0; i < count; ++i) {
+    const double phase = std::numbers::pi * (static_cast<double>(i) / (count - 1) - 0.5);
+    drawing::Frame frame{*panel, event->row};
+    for (std::size_t p = 0; p < motion.size(); ++p)
+      frame.panel.scene.points[p] += amplitude * std::sin(phase) * motion[p];
+    frame.panel.scene.gaps.clear();  // chains close in the first order, which is what is shown
+    film.order.push_back(film.frames.size());
+    film.frames.push_back(std::move(frame));
+  }
+  return {.film = std::move(film)};
+}
+
+}  // namespace
+
+FilmOutcome film_of(const PlannedRun& planned, const StudyResult& result, const UnitLabels& units,
+                    const FilmWish& wish) {
+  const RowScenes scenes{planned, result};
+  if (result.branches.empty() || result.branches.front().samples.empty() || !scenes.has_postures())
+    return {.problem = result.study +
+                       ": a study of this kind has no branch of postures; "
+                       "try springfold draw"};
+  return wish.mode.empty() ? way(scenes, result, units, wish) : mode(scenes, result, units, wish);
+}
+
+PlannedRun with_rows_for(const FilmWish& wish, PlannedRun planned, const StudyResult& result) {
+  if (result.branches.empty() || result.branches.front().samples.size() < 2) return planned;
+  const Branch& branch = result.branches.front();
+  const auto from = row_of(branch, wish.from, 0);
+  const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
+  if (!from || !to || *from == *to) return planned;
+  const double way = std::abs(length_at(result, branch, *to) - length_at(result, branch, *from));
+  double& spacing = planned.plan.trace.spacing;
+  const double wanted = way / wish.frames;
+  spacing = spacing > 0 ? std::min(spacing, wanted) : wanted;
+  return planned;
+}
+
+}  // namespace springfold::io
