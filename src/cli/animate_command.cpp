@@ -56,8 +56,7 @@ io::FilmOutcome film_of(const io::Case& the_case, const io::PlannedRun& run,
   if (!result.start.found && !result.start.message.empty())
     return {.problem = run.study + ": " + io::start_problem(result.start, &run),
             .has_start = false};
-  if (session.signal() != 0 || !wish.mode.empty())
-    return io::film_of(run, result, the_case.units, wish);
+  if (session.signal() != 0) return {};
   const io::PlannedRun fine = io::with_rows_for(wish, run, result);
   return io::film_of(fine, traced(fine), the_case.units, wish);
 }

@@ -1,5 +1,6 @@
 #include "springfold/drawing/movie.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "diagram.hpp"
@@ -42,6 +43,21 @@ std::vector<Mark> marks_of(const Frame& frame, const Sheet& sheet, Place dot, bo
   return std::move(picture.marks);
 }
 
+/// The legend explains what occurs on the curve too: a panel more for each stability that no frame has.
+void add_states_of(const Diagram& diagram, std::vector<Panel>& panels) {
+  for (const DiagramPoint& point : diagram.points) {
+    const auto is_same = [&](const Panel& panel) {
+      return panel.unstable_dead == point.unstable_dead &&
+             panel.unstable_driven == point.unstable_driven;
+    };
+    if (std::any_of(panels.begin(), panels.end(), is_same)) continue;
+    Panel panel = panels.front();
+    panel.unstable_dead = point.unstable_dead;
+    panel.unstable_driven = point.unstable_driven;
+    panels.push_back(std::move(panel));
+  }
+}
+
 }  // namespace
 
 Place place_in_movie(const Film& film, const DiagramPoint& point) {
@@ -61,6 +77,7 @@ Movie animate(const Film& film, const IllustrationOptions& options) {
   add_line(film.heading, 12, false, edge, width - 2 * edge, y, movie.still);
   const DiagramAxes axes{film.diagram, diagram_frame()};
   axes.paint(movie.still);
+  add_states_of(film.diagram, panels);
   const double bottom = head + notes + height;
   movie.still.height = bottom + add_legend(panels, sheet, options, bottom, movie.still);
   for (const Frame& frame : film.frames) {

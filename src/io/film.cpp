@@ -36,10 +36,24 @@ std::string name_with_unit(const StudyResult& result, const std::string& name,
   return name + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-/// Force over deflection; without them lambda over arc length.
-drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch,
+/// Is there a deflection, and is it more than what rounding leaves of none?
+/// @param size  of the mechanism [length]
+bool moves_on(const StudyResult& result, const Branch& branch, double size) {
+  const auto column = column_of(result, "deflection");
+  if (!column) return false;
+  const bool is_length = result.quantities[*column].unit == analysis::Unit::length;
+  constexpr double rounding = 1e-9;  // of the size, or rad
+  for (std::size_t row = 0; row < branch.samples.size(); ++row)
+    if (std::abs(value_at(result, branch, row, "deflection")) > rounding * (is_length ? size : 1))
+      return true;
+  return false;
+}
+
+/// Force over deflection; without them lambda, or over arc length.
+/// @param size  of the mechanism [length]
+drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch, double size,
                             const UnitLabels& units) {
-  const std::string x = is_known_on(result, branch, "deflection") ? "deflection" : "s";
+  const std::string x = moves_on(result, branch, size) ? "deflection" : "s";
   const std::string y = is_known_on(result, branch, "force") ? "force" : "lambda";
   drawing::Diagram diagram{.x_name = name_with_unit(result, x, units),
                            .y_name = name_with_unit(result, y, units)};
@@ -112,7 +126,7 @@ FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const UnitLa
                        "\" on the first branch of " + result.study +
                        "; there are: " + labels_on(branch)};
   if (*from == *to) return {.problem = result.study + ": the way is a single posture"};
-  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, units)};
+  Film film{.heading = heading_of(result)};
   std::vector<std::optional<std::size_t>> frame_of(branch.samples.size());
   for (const std::size_t row : slots_between(result, branch, *from, *to, wish.frames)) {
     if (!frame_of[row]) {
@@ -124,6 +138,8 @@ FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const UnitLa
     film.order.push_back(*frame_of[row]);
   }
   if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
+  const double size = drawing::size_of(film.frames.front().panel.scene);
+  film.diagram = diagram_of(result, branch, size, units);
   return {.film = std::move(film)};
 }
 
@@ -153,9 +169,9 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitL
   for (const auto& velocity : motion) largest = std::max(largest, velocity.norm());
   if (!panel || !(largest > 0)) return {.problem = "the mode at " + wish.mode + " is not known"};
   constexpr double part = 0.07;  // of the mechanism's size: large enough to be seen
-  const double amplitude = part * drawing::size_of(panel->scene) / largest;
+  const double size = drawing::size_of(panel->scene), amplitude = part * size / largest;
   const int count = std::min(wish.frames, 24);  // of half a period
-  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, units)};
+  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, size, units)};
   for (int i = 0; i < count; ++i) {
     const double phase = std::numbers::pi * (static_cast<double>(i) / (count - 1) - 0.5);
     drawing::Frame frame{*panel, event->row};

@@ -196,5 +196,20 @@ TEST_F(OrthoglideFilm, TheModeOfTheLimitPointSwingsAboutItsPostureAlongTheDiagon
   EXPECT_NEAR(way.x(), way.y(), 1e-6 * way.norm());  // the mechanism is symmetric about it
 }
 
+TEST(SymmetricFilm, ADeflectionThatIsZeroButForRoundingIsNoAxis) {
+  const io::Case the_case =
+      io::load_case(std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/rpr-platform/case.toml");
+  for (const auto& run : the_case.runs) {
+    if (run.study != "swell") continue;  // the middle position stays where it is
+    const auto result = analysis::run_study(run.mechanism, run.plan, &*run.family, {});
+    const auto outcome = io::film_of(run, result, the_case.units, {});
+    EXPECT_EQ(outcome.problem, "");
+    EXPECT_EQ(outcome.film.diagram.x_name, "s");
+    EXPECT_EQ(outcome.film.diagram.y_name, "lambda");
+    return;
+  }
+  FAIL() << "no study \"swell\"";
+}
+
 }  // namespace
 }  // namespace springfold::cli

@@ -120,6 +120,15 @@ TEST(Movie, WordsOfTheDiagramCoverNeitherEachOtherNorLines) {
   EXPECT_THAT(unreadable_words(animate(small_film(), {.title = "title"}).still), SizeIs(0));
 }
 
+TEST(Movie, TheLegendExplainsStatesThatOnlyTheCurveHas) {
+  Film film = small_film();
+  for (Frame& frame : film.frames) frame.panel.unstable_dead = 0;
+  for (DiagramPoint& point : film.diagram.points) point.unstable_dead = 0;
+  EXPECT_THAT(svg_text(animate(film, {})), Not(HasSubstr(">unstable<")));
+  film.diagram.points[2].unstable_dead = 1;
+  EXPECT_THAT(svg_text(animate(film, {})), HasSubstr(">unstable<"));
+}
+
 TEST(Movie, TheSameFilmGivesTheSameBytes) {
   EXPECT_EQ(svg_text(animate(small_film(), {})), svg_text(animate(small_film(), {})));
 }
