@@ -205,8 +205,10 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
   int code = judge_all(the_case, all, comparisons, session);
   if (code != all_done)
     for (const auto& hint : the_case.hints) say(session, "hint: " + hint);
-  say(session,
-      "curves in " + (folder / "branches").string() + ", tables and summary in " + folder.string());
+  const bool has_curves = std::any_of(results.begin(), results.end(),
+                                      [](const StudyResult& r) { return !r.branches.empty(); });
+  say(session, (has_curves ? "curves in " + (folder / "branches").string() + ", " : std::string{}) +
+                   "tables and summary in " + folder.string());
   if (arguments.makes_report) say(session, "page in " + (folder / "report.html").string());
   std::vector<std::string> missing;
   if (arguments.draws_plots) {

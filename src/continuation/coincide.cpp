@@ -79,7 +79,7 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to) {
   if (target.piece != from.piece) return std::nullopt;
   Direction& offset = walker.memory->direction;
-  // Where the trace had other units of lambda, s is not the length of the step in this metric.
+  // The points' s may be of another metric: that of this walker counts.
   set_between(walker, from, to, offset);
   const double h = std::max(to.s - from.s, metric_product(walker.weights, offset, from.tangent));
   set_between(walker, from, target, offset);
