@@ -30,6 +30,8 @@ PlannedRun start_of(PlannedRun run) {
   run.plan.marks.clear();
   run.plan.branches = {};
   run.plan.snap.reset();
+  // At the start they are zero, and an equilibrium has no lambda.
+  std::erase_if(run.mechanism.loads, [](const model::Load& load) { return load.with_lambda; });
   return run;
 }
 
