@@ -59,6 +59,12 @@ struct CompiledSpring {
     return S(segments[i].torque) + segments[i].stiffness * (c - segments[i].anchor);
   }
 
+  /// Slope of the torque of segment i at c, continued analytically beyond its ends.
+  template <class S>
+  S stiffness(std::size_t i, const S& /*c*/) const {
+    return S(segments[i].stiffness);
+  }
+
   /// Energy of segment i, continued analytically beyond its ends.
   template <class S>
   S energy(std::size_t i, const S& c) const {
