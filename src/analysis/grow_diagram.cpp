@@ -55,7 +55,7 @@ class Grower {
     const auto observe = [&](const CurvePoint& point) {
       ++points;
       if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
-      stopped_ = stopped_ || (t_.observer && !t_.observer(points, point.s));
+      stopped_ = stopped_ || t_.crawl.sees(point) || (t_.observer && !t_.observer(points, point.s));
       return !stopped_;
     };
     grown_.diagram = trace_diagram(t_.problem, grown_.starts, events_, options_, observe);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "branch_rows.hpp"
+#include "lambda_crawl.hpp"
 #include "quantities.hpp"
 #include "springfold/analysis/row_memory.hpp"
 #include "springfold/analysis/run.hpp"
@@ -25,6 +26,8 @@ struct Tracing {
   const Observer& observer;
   double lambda_scale = 1;  ///< physical lambda = lambda_scale * dimensionless lambda
   RowBudget& budget;        ///< for all branches of the run
+  LambdaCrawl&
+      crawl;  ///< asked at every point; where it sees one, the run is to begin again in another unit
 };
 
 continuation::TraceOptions options_of(const TraceSettings& settings);

@@ -9,6 +9,7 @@
 #include "closure_rank.hpp"
 #include "cpu_time.hpp"
 #include "equilibria.hpp"
+#include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "run_kinds.hpp"
 #include "run_traced.hpp"
@@ -38,6 +39,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   const auto observe = [&](double sign) {
     return [&points, &t, sign](const CurvePoint& point) {
       ++points;
+      if (t.crawl.sees(point)) return false;
       return !t.observer || t.observer(points, sign * point.s);
     };
   };
@@ -117,6 +119,7 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
   const auto rays =
       rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
   const bool ordinary = rays.rays.size() == 2 && rays.complete;
+  if (ordinary) t.crawl.begin(rays.rays.front().tangent);
   if (ordinary) report_rates(t, start, rays, result.start);
   result.start.situation = situation_of(t, start, rays);
   const auto outside = limit_passed(t.study, t.evaluator, t.quantities, start);
@@ -220,6 +223,58 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   return run_from_start(mechanism, study, family, observer, {});
 }
 
+namespace {
+
+/// A study whose start is found, in the units of `setup`.
+struct Begun {
+  const model::Mechanism& mechanism;
+  const Study& study;
+  const Observer& observer;
+  const TraceBy& trace_by;
+  const statics::FirstEquilibrium& first;
+};
+
+void report_start(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
+  report.stiffness = evaluator.platform_stiffness(start);
+  report.compliance = evaluator.rigid_compliance(start);
+  report.sides = sides_of_start(evaluator, start);
+  report.chain_stiffnesses = evaluator.chain_stiffnesses(start);
+}
+
+/// @param setup    begins at the start
+/// @param largest  factor by which the unit of lambda may still grow
+/// @returns by which factor it should grow: then the result is worthless; 1: all is done
+double run_in_units(const Begun& begun, const Setup& setup, double largest, StudyResult& result) {
+  const Study& study = begun.study;
+  const PathProblem problem(setup.system, setup.rule);
+  const Evaluator evaluator(problem, study, setup.scales);
+  const auto quantities =
+      quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
+  CurvePoint start = start_point(problem, setup, begun.first);
+  count_negative(problem, start);
+  refuse_contradiction(evaluator, start, result.start);
+  if (!result.start.found) return 1;
+  report_tangent(evaluator, start, begun.first.z, result.start);
+  report_range(study, evaluator, quantities, start, result.start);
+  report_start(evaluator, start, result.start);
+  RowBudget budget;
+  LambdaCrawl crawl(problem, largest);
+  const Tracing tracing{problem, study, evaluator, quantities, begun.observer, setup.lambda_scale,
+                        budget,  crawl};
+  if (study.kind == StudyKind::equilibrium) {
+    result.start.situation = situation_of(tracing, start, {});
+    result.branches.push_back(single_point(start, evaluator, quantities, problem));
+  } else if (begun.trace_by) {
+    begun.trace_by(tracing, setup.scales, start, result);
+  } else {
+    trace_study(tracing, start, result);
+  }
+  if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
+  return crawl.factor();
+}
+
+}  // namespace
+
 StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study,
                            const ParameterFamily* family, const Observer& observer,
                            const TraceBy& trace_by) {
@@ -239,31 +294,20 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    begin_at(study, first, setup);
-    const PathProblem problem(setup.system, setup.rule);
-    const Evaluator evaluator(problem, study, setup.scales);
-    CurvePoint start = start_point(problem, setup, first);
-    count_negative(problem, start);
-    refuse_contradiction(evaluator, start, result.start);
-    if (!result.start.found) return result;
-    report_tangent(evaluator, start, first.z, result.start);
-    report_range(study, evaluator, quantities, start, result.start);
-    result.start.stiffness = evaluator.platform_stiffness(start);
-    result.start.compliance = evaluator.rigid_compliance(start);
-    result.start.sides = sides_of_start(evaluator, start);
-    result.start.chain_stiffnesses = evaluator.chain_stiffnesses(start);
-    RowBudget budget;
-    const Tracing tracing{problem, study, evaluator, quantities, observer, setup.lambda_scale,
-                          budget};
-    if (study.kind == StudyKind::equilibrium) {
-      result.start.situation = situation_of(tracing, start, {});
-      result.branches.push_back(single_point(start, evaluator, quantities, problem));
-    } else if (trace_by) {
-      trace_by(tracing, setup.scales, start, result);
-    } else {
-      trace_study(tracing, start, result);
+    const Begun begun{mechanism, study, observer, trace_by, first};
+    double largest = largest_change_of_lambda_unit;
+    for (;;) {
+      StudyResult attempt = result;
+      Setup at_start = setup;
+      begin_at(study, first, at_start);
+      const double factor = run_in_units(begun, at_start, largest, attempt);
+      if (!(factor > 1)) {
+        result = std::move(attempt);
+        break;
+      }
+      largest /= factor;
+      enlarge_lambda_unit(mechanism, study, family, factor, first, setup);
     }
-    if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
   }
   result.seconds = thread_seconds() - began;
   return result;

@@ -37,16 +37,20 @@ double stiffest_spring(const model::Mechanism& mechanism, const Setup& setup) {
   return springs.empty() ? 0 : *std::max_element(springs.begin(), springs.end());
 }
 
-/// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a large
-/// value, and no longer than the range that is asked for.
-double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& start, double unit) {
-  constexpr double largest_lambda = 64;
-  unit = std::max(unit, std::abs(start.lambda) / largest_lambda);
+/// A unit of lambda in that of the setup, no longer than the range that is asked for.
+double within_range(const Study& study, const Setup& setup, double unit) {
   for (const Limit& limit : study.until)
     if (limit.quantity == "lambda" && limit.high > limit.low &&
         std::isfinite(limit.high - limit.low))
       unit = std::min(unit, (limit.high - limit.low) / setup.lambda_scale);
   return power_of_two_near(unit);
+}
+
+/// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a large
+/// value, and no longer than the range that is asked for.
+double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& start, double unit) {
+  constexpr double largest_lambda = 64;
+  return within_range(study, setup, std::max(unit, std::abs(start.lambda) / largest_lambda));
 }
 
 /// Wrenches of the start in another unit of force.
@@ -145,6 +149,14 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
   const Units before{setup.scales.force, {}};
   if (change_units(given, {stiffest, {}}, first, setup) && !settle(given, first, setup))
     change_units(given, before, first, setup);
+}
+
+void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
+                         const ParameterFamily* family, double factor,
+                         statics::FirstEquilibrium& first, Setup& setup) {
+  const double unit = std::max(1.0, within_range(study, setup, factor));
+  change_units({mechanism, study, family}, {setup.scales.force, unit * setup.lambda_scale}, first,
+               setup);
 }
 
 }  // namespace springfold::analysis

@@ -28,4 +28,10 @@ continuation::CurvePoint start_point(const PathProblem& problem, const Setup& se
 void settle_units(const model::Mechanism& mechanism, const Study& study,
                   const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup);
 
+/// The same setup with a unit of lambda that is larger by the factor, a power of two, but not beyond the range that is
+/// asked for.
+void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
+                         const ParameterFamily* family, double factor,
+                         statics::FirstEquilibrium& first, Setup& setup);
+
 }  // namespace springfold::analysis

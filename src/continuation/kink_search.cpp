@@ -14,8 +14,11 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr double flat = 1e-9;        // rates below this run along a surface
-constexpr double resolution = 1e-9;  // of zeros on one step
+constexpr double rounding_of_points = 1e-12;  // in switching functions, of their size
+constexpr double flat = 1e-9;                 // rates below this run along a surface
+constexpr double resolution = 1e-9;           // of zeros on one step
+/// Of the accuracy to which kinks are placed: so far apart they are two.
+constexpr double between_places = 100;
 
 /// One switching function on one step, positive on the side of the step's piece.
 struct Watched {
@@ -253,17 +256,47 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   kink.after = std::max(kink.after, point.s - from.s);
 }
 
-double largest(const CurvePoint& p) {
-  return std::max({1.0, p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda)});
-}
-
 bool read_switches(const Walker& walker, const CurvePoint& p, WorkingMemory::Switches& at) {
   return walker.problem.switches(p.x, p.lambda, at.g) &&
          walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
 }
 
+/// Size of what a switching function is made of: multipliers beside it do not count.
+double size_of(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+  return at.dg_dx.row(j).cwiseAbs().dot(p.x.cwiseAbs()) + std::abs(at.dg_dlambda[j] * p.lambda);
+}
+
 double rate_along(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
   return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
+}
+
+/// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
+/// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
+/// zero. What runs along its surface, or is led by rounding, acts here.
+bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+                       const WorkingMemory::Switches& before, const WorkingMemory::Switches& here,
+                       Index j) {
+  const double length = kink.s - from.s, change = here.g[j] - before.g[j];
+  const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
+  if (!(length > resolution) || !(std::min(std::abs(rate), std::abs(rate_before)) > flat))
+    return false;
+  constexpr double alike = 0.25;
+  const bool follows =
+      std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
+      rate * rate_before > 0;
+  return follows && std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous;
+}
+
+/// Switches that are zero at the kink, and not just near to zero there.
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink) {
+  std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
+  WorkingMemory::Switches before, here;
+  if (active.size() < 2 || !read_switches(walker, from, before) ||
+      !read_switches(walker, kink, here))
+    return active;
+  std::erase_if(active,
+                [&](Index j) { return is_zero_elsewhere(walker, from, kink, before, here, j); });
+  return active;
 }
 
 }  // namespace
@@ -308,13 +341,15 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     return {.status = KinkSearch::Status::suspicious};
   // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
   const double along = metric_product(walker.weights, to.tangent, from.tangent);
-  const double h = to.s - from.s, noise = 1e-12 * std::max(largest(from), largest(to));
+  const double h = to.s - from.s;
   const auto among = [](const std::vector<Index>& list, Index j) {
     return std::find(list.begin(), list.end(), j) != list.end();
   };
   for (Index j = 0; j < m; ++j) {
     if (among(resting, j)) continue;
     const double side = from.piece[static_cast<std::size_t>(j)];
+    const double noise =
+        rounding_of_points * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
     const Watched watched{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};
@@ -331,7 +366,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   }
   if (result.status != KinkSearch::Status::found) return result;
   settle_on_branch_point(walker, from, result);
-  result.active = active_switches(walker, result.point.x, result.point.lambda);
+  result.active = acting_at(walker, from, result.point);
   return result;
 }
 

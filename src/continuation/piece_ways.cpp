@@ -81,18 +81,19 @@ struct Kernel {
 };
 
 std::optional<Kernel> kernel_of(const Walker& walker, const CurvePoint& at) {
-  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
-  const auto J = scaled_jacobian(walker, U, root, at.piece);
-  if (!J) return std::nullopt;
-  const Index n = J->rows();
-  const Svd svd = jacobi_svd(*J, SingularVectors::none, SingularVectors::full);
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return std::nullopt;
+  const Index n = own->J.rows();
+  const Svd svd = jacobi_svd(own->J, SingularVectors::none, SingularVectors::full);
   const Vector& values = svd.values;
-  const double size = std::max(values[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
+  const double size = std::max(values[0], 1.0);  // entries nearby are of size 1
   Index rank = n;
   while (rank > 0 && values[rank - 1] <= located_rank * size) --rank;
-  Kernel kernel{.N = svd.V.rightCols(n + 1 - rank), .corank = static_cast<int>(n - rank)};
-  kernel.N = (root.cwiseInverse().asDiagonal() * kernel.N).eval();
-  return kernel;
+  const Vector root = metric_roots(walker.weights);
+  const Matrix scaled =
+      root.cwiseProduct(own->columns).asDiagonal() * svd.V.rightCols(n + 1 - rank);
+  return Kernel{.N = root.cwiseInverse().asDiagonal() * orthonormal_columns(scaled),
+                .corank = static_cast<int>(n - rank)};
 }
 
 /// Rates of the active switches along the columns of the kernel, on their sides of the piece.
@@ -151,7 +152,7 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   const PivotedQr qr = pivoted_qr(A.transpose());
   const double size = std::max(qr.pivots[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
   if (!(qr.pivots[n - 1] > full_rank * size)) {
-    const auto tangent = polished ? equilibrated_tangent(walker, at, full_rank) : std::nullopt;
+    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : located_rank);
     return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
   }
   const auto d = unit(qr.last_column, walker.weights);

@@ -12,9 +12,6 @@
 namespace springfold::continuation {
 namespace {
 
-/// Of |dlambda| for |dx| = 1 in a unit of lambda.
-constexpr double slopes = 16;
-
 /// First critical loads in a unit of lambda: a few steps of ordinary length lie before the first one.
 constexpr double critical_loads = 8;
 
@@ -156,7 +153,7 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   double change = 1;  // in lambda: what multipliers are measured over
   if (moved > 0 && way * moved >= clear_motion) {
     change = 1 / moved;
-    response.lambda = slopes * change;
+    response.lambda = slopes_in_a_unit * change;
   } else if (std::isfinite(way)) {
     change = critical_loads * way;
     response.lambda = change;

@@ -7,6 +7,9 @@
 
 namespace springfold::continuation {
 
+/// Of |dlambda| for |dx| = 1 in a unit of lambda.
+inline constexpr double slopes_in_a_unit = 16;
+
 /// In the problem's units; other units of x, with the metric changed accordingly, of F and of lambda change nothing else.
 struct Response {
   /// A unit of lambda for the arc length. Where x moves, |dlambda| for |dx| = 1 in the metric, and sixteen times that:

@@ -1,0 +1,58 @@
+#include "lambda_crawl.hpp"
+
+#include <cmath>
+
+#include "springfold/continuation/response.hpp"
+#include "springfold/core/scaling.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Lambda crawls where x moves by less than this share of it.
+constexpr double alone = 1.0 / 64;
+
+/// A curve has become steeper by orders of magnitude.
+constexpr double much_steeper = 16;
+
+/// Over so many units of arc length, 160 of the longest default steps, before the unit is taken to be too small.
+constexpr double long_way = 16;
+
+double length_in(const Vector& weights, const Vector& dx) {
+  return std::sqrt(dx.cwiseAbs2().dot(weights));
+}
+
+}  // namespace
+
+void LambdaCrawl::begin(const continuation::Direction& tangent) {
+  slope_at_start_ = length_in(weights_, tangent.dx) / std::abs(tangent.dlambda);
+  counting_ = false;
+}
+
+void LambdaCrawl::count_from(const continuation::CurvePoint& point) {
+  counting_ = true;
+  last_ = point;
+  by_x_ = by_lambda_ = 0;
+}
+
+bool LambdaCrawl::sees(const continuation::CurvePoint& point) {
+  if (factor_ > 1) return true;
+  if (!counting_ || !(point.s > last_.s)) {
+    count_from(point);
+    return false;
+  }
+  const double dx = length_in(weights_, point.x - last_.x),
+               dlambda = std::abs(point.lambda - last_.lambda);
+  if (!(dx < alone * dlambda) || !(dx > 0)) {
+    count_from(point);
+    return false;
+  }
+  by_x_ += dx;
+  by_lambda_ += dlambda;
+  last_ = point;
+  if (by_lambda_ < long_way || by_x_ > slope_at_start_ / much_steeper * by_lambda_) return false;
+  factor_ =
+      std::min(largest_, power_of_two_near(continuation::slopes_in_a_unit * by_lambda_ / by_x_));
+  return factor_ > 1;
+}
+
+}  // namespace springfold::analysis
