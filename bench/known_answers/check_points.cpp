@@ -1,4 +1,5 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "judge.hpp"
 
@@ -21,6 +22,13 @@ Index negative_count(const Draw& draw, const Vector& z, const CurvePoint& p, boo
   return (values.array() < 0).count();
 }
 
+/// Does the curve say that it may have changed its branch before this place?
+bool is_unresolved_before(const continuation::Curve& curve, double s) {
+  return std::any_of(curve.hits.begin(), curve.hits.end(), [s](const continuation::Hit& hit) {
+    return hit.kind == continuation::HitKind::unresolved && hit.s_before <= s;
+  });
+}
+
 }  // namespace
 
 void check_points(const Embedded& problem, const Draw& draw, const continuation::Curve& curve,
@@ -29,7 +37,8 @@ void check_points(const Embedded& problem, const Draw& draw, const continuation:
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const CurvePoint& p = curve.points[i];
     const Vector z = problem.base_point(p.x);
-    if (draw.on_curve && !draw.on_curve(z, p.lambda)) verdict.jumped = true;
+    const bool silent = !is_unresolved_before(curve, p.s);
+    if (silent && draw.on_curve && !draw.on_curve(z, p.lambda)) verdict.jumped = true;
     const double parameter = draw.parameter(z, p.lambda);
     if (i == 1) sense = parameter > before ? 1 : -1;
     if (i > 1 && (parameter - before) * sense < -1e-9 * draw.size) verdict.jumped = true;

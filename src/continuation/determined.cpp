@@ -34,6 +34,27 @@ double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const Curv
 
 }  // namespace
 
+std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point) {
+  const auto E = arc.matrix(point);
+  if (!E) return std::nullopt;
+  const Borders weakest = borders_of(*E, 1);
+  const auto seen = [&](const ExtendedMatrix& M) {
+    return (weakest.B.transpose() * product(M, weakest.C))(0, 0);
+  };
+  const Index n = point.x.size();
+  const Direction v{weakest.C.col(0).head(n), weakest.C(n, 0)};
+  const double length = std::sqrt(metric_product(arc.walker().weights, v, v)), here = seen(*E);
+  double change = 0;
+  for (const double side : {-1.0, 1.0}) {
+    CurvePoint aside = point;
+    aside.x += side * told_apart / length * v.dx;
+    aside.lambda += side * told_apart / length * v.dlambda;
+    const auto there = arc.matrix(aside);
+    if (there) change = std::max(change, std::abs(seen(*there) - here));
+  }
+  return Separation{blur_of_point(arc, *E, point), told_apart * std::abs(here) / change};
+}
+
 bool is_determined(const WatchedStep& arc, const CurvePoint& point) {
   constexpr double most_blur = 3e-5;
   const auto E = arc.matrix(point);

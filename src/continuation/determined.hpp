@@ -10,4 +10,13 @@ namespace springfold::continuation {
 /// smaller than the second: E may not change by more than a share of itself when the point is moved by it, both ways.
 bool is_determined(const WatchedStep& arc, const CurvePoint& point);
 
+struct Separation {
+  double blur = 0;  ///< how far rounding may have moved the point
+  double distance =
+      0;  ///< to the next branch, as the smallest singular value of E and its rate say; infinity: none
+};
+
+/// @returns nothing where E is not defined
+std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point);
+
 }  // namespace springfold::continuation

@@ -65,7 +65,8 @@ std::optional<Direction> equilibrated_tangent(const Walker& walker, const CurveP
   if (!own) return std::nullopt;
   const PivotedQr qr = pivoted_qr(own->J.transpose());
   const Index n = own->J.rows();
-  if (!(qr.pivots[n - 1] > full_rank * qr.pivots[0])) return std::nullopt;
+  // Entries a little away are of size 1, whatever vanishes here.
+  if (!(qr.pivots[n - 1] > full_rank * std::max(qr.pivots[0], 1.0))) return std::nullopt;
   return unit(own->columns.cwiseProduct(qr.last_column), walker.weights);
 }
 
@@ -152,7 +153,7 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   const PivotedQr qr = pivoted_qr(A.transpose());
   const double size = std::max(qr.pivots[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
   if (!(qr.pivots[n - 1] > full_rank * size)) {
-    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : located_rank);
+    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : perhaps_singular);
     return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
   }
   const auto d = unit(qr.last_column, walker.weights);

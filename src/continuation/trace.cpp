@@ -11,6 +11,7 @@
 #include "events.hpp"
 #include "kink_passage.hpp"
 #include "many_points.hpp"
+#include "narrow_places.hpp"
 #include "normalised.hpp"
 #include "numerics.hpp"
 #include "samples.hpp"
@@ -357,6 +358,7 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
 
   follow(walker, events, observer, at_hit, progress, curve);
   settle_families(curve);
+  check_narrow_places(walker, curve);
   return curve;
 }
 
