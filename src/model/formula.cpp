@@ -1,5 +1,6 @@
 #include "springfold/model/formula.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "integer_power.hpp"
@@ -134,8 +135,8 @@ Jet<S> function_of(Operation operation, const Jet<S>& g) {
 }
 
 template <class S>
-Jet<S> result_of(const Formula& formula, const FormulaStep& step,
-                 const std::vector<Jet<S>>& results, const S& variable) {
+Jet<S> result_of(const Formula& formula, const FormulaStep& step, const Jet<S>* results,
+                 const S& variable) {
   const auto a = [&]() -> const Jet<S>& { return results[step.a]; };
   const auto b = [&]() -> const Jet<S>& { return results[step.b]; };
   switch (step.operation) {
@@ -168,12 +169,15 @@ Jet<S> result_of(const Formula& formula, const FormulaStep& step,
 
 template <class S>
 Jet<S> evaluate(const Formula& formula, const S& variable) {
-  if (formula.steps.empty()) return {};
-  std::vector<Jet<S>> results;
-  results.reserve(formula.steps.size());
-  for (const FormulaStep& step : formula.steps)
-    results.push_back(result_of(formula, step, results, variable));
-  return results.back();
+  const std::size_t count = formula.steps.size();
+  if (count == 0) return {};
+  constexpr std::size_t most_on_stack = 64;  // longer ones take memory from the heap
+  std::array<Jet<S>, most_on_stack> few;
+  std::vector<Jet<S>> many(count > most_on_stack ? count : 0);
+  Jet<S>* const results = many.empty() ? few.data() : many.data();
+  for (std::size_t i = 0; i < count; ++i)
+    results[i] = result_of(formula, formula.steps[i], results, variable);
+  return results[count - 1];
 }
 
 template Jet<double> evaluate(const Formula&, const double&);

@@ -92,6 +92,13 @@ TEST(Formula, AVariableExponentIsAnExponential) {  // 3^x
   EXPECT_NEAR(jet.bend, ln3 * ln3 * jet.value, 1e-13);
 }
 
+TEST(Formula, MayHaveManySteps) {  // u added up a hundred times
+  Formula formula{{{Operation::variable}}};
+  for (std::size_t i = 0; i < 100; ++i) formula.steps.push_back({Operation::add, i, 0});
+  EXPECT_NEAR(evaluate(formula, 0.5).value, 50.5, 1e-12);
+  EXPECT_NEAR(evaluate(formula, 0.5).slope, 101, 1e-12);
+}
+
 TEST(Formula, IsNotFiniteOutsideItsDomain) {
   EXPECT_FALSE(std::isfinite(evaluate(of_variable(Operation::sqrt), -1.0).value));
   EXPECT_FALSE(std::isfinite(evaluate(of_variable(Operation::log), 0.0).value));
