@@ -104,12 +104,14 @@ std::string switching_detail(const statics::System& system, const Hit& hit, cons
     const statics::CoordinateSpring& spring =
         system.springs[system.switches[static_cast<std::size_t>(j)].spring];
     const std::size_t from = segment_of(spring, before), to = segment_of(spring, after);
-    const double k_from = spring.law.segments[from].stiffness;
-    const double k_to = spring.law.segments[to].stiffness;
-    const char* word = k_from == 0 && k_to > 0   ? "becomes active"
-                       : k_from > 0 && k_to == 0 ? "is released"
-                       : k_to > k_from           ? "gets stiffer"
-                                                 : "gets softer";
+    const double at = system.switches[static_cast<std::size_t>(j)].breakpoint;
+    const double k_from = spring.law.stiffness(from, at), k_to = spring.law.stiffness(to, at);
+    const bool was_flat = k_from == 0 && spring.law.is_straight(from);
+    const bool gets_flat = k_to == 0 && spring.law.is_straight(to);
+    const char* word = was_flat && !gets_flat   ? "becomes active"
+                       : !was_flat && gets_flat ? "is released"
+                       : k_to > k_from          ? "gets stiffer"
+                                                : "gets softer";
     text += (text.empty() ? "spring " : ", spring ") + spring.name + " " + word + " (segment " +
             std::to_string(from) + " to " + std::to_string(to) + ")";
   }

@@ -73,7 +73,8 @@ inline Frame frame_of_joint(const model::Joint& joint, Complex c) {
   return c == 0.0 ? Frame(Frame::Identity()) : frame_of(rotation_by(c * axis), Point::Zero());
 }
 
-/// Energy of a spring: its torque added up from the free coordinate, segment by segment.
+/// Energy of a spring: its torque added up from the free coordinate, segment by segment. That of curves is
+/// checked in tests/model.
 inline Complex energy_of(const model::SpringLaw& law, Complex c) {
   if (const auto* s = std::get_if<model::LinearSpring>(&law))
     return 0.5 * s->stiffness * (c - s->free) * (c - s->free);
@@ -81,6 +82,10 @@ inline Complex energy_of(const model::SpringLaw& law, Complex c) {
     const bool above = s->side == model::OneSidedSpring::Side::above;
     const bool active = above ? c.real() >= s->from : c.real() < s->from;
     return active ? 0.5 * s->stiffness * (c - s->from) * (c - s->from) : 0.0;
+  }
+  if (!std::holds_alternative<model::PiecewiseLinearSpring>(law)) {
+    const model::CompiledSpring spring = model::compile(law);
+    return spring.energy(spring.segment_at(c.real()), c);
   }
   const auto& s = std::get<model::PiecewiseLinearSpring>(law);
   const bool up = c.real() >= s.free;

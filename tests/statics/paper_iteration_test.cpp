@@ -31,7 +31,8 @@ std::vector<model::SpringLaw> knees() {
           model::LinearSpring{0.05, 0.2},
           model::OneSidedSpring{0.5, std::numbers::pi / 12, Side::above},
           model::OneSidedSpring{0.5, 0.1, Side::below},
-          model::PiecewiseLinearSpring{{-0.2, 0.2}, {0.4, 0, 0.3}, 0, 0.02}};
+          model::PiecewiseLinearSpring{{-0.2, 0.2}, {0.4, 0, 0.3}, 0, 0.02},
+          model::PolynomialSpring{{0.01, 0.1, 0, 0.2}, 0.1}};
 }
 
 TEST(PaperIteration, HoldsTheOrthoglideWithTheWrenchOfNewtonsMethod) {

@@ -16,13 +16,23 @@ INSTANTIATE_TEST_SUITE_P(Statics, EveryTaskSpace,
 
 model::SpringLaw random_law(std::mt19937& random) {
   const auto number = [&random](double size) { return random_vector(random, 1, size)[0]; };
-  switch (std::uniform_int_distribution<int>(0, 3)(random)) {
+  switch (std::uniform_int_distribution<int>(0, 7)(random)) {
     case 0:
       return model::LinearSpring{1 + number(0.9), number(1)};
     case 1:
       return model::OneSidedSpring{1 + number(0.9), number(1), model::OneSidedSpring::Side::above};
     case 2:
       return model::OneSidedSpring{1 + number(0.9), number(1), model::OneSidedSpring::Side::below};
+    case 3:
+      return model::PolynomialSpring{{number(1), 1, number(1), 2}, number(1), {}, true};
+    case 4:
+      return model::LogarithmicSpring{2, 9, number(1)};
+    case 5:
+      return model::PowerSpring{3, 0.5, 3, number(1), number(1) > 0};
+    case 6:
+      return model::FormulaSpring{
+          {{{model::FormulaStep::Operation::variable}, {model::FormulaStep::Operation::sinh, 0}}},
+          number(1)};
     default:
       return model::PiecewiseLinearSpring{
           {-0.7, -0.1 + number(0.2), 0.6}, {3, 0, 0.5, 2}, number(1.5), number(1)};

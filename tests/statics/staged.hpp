@@ -28,7 +28,9 @@ inline int choice(std::mt19937& random, int count) {
 
 inline model::SpringLaw random_law(std::mt19937& random) {
   const double k = 0.2 + std::abs(number(random, 3)), at = number(random, 1);
-  switch (choice(random, 3)) {
+  switch (choice(random, 4)) {
+    case 3:
+      return model::PolynomialSpring{{0, k, 0.1, 0.2}, at, {}, true};
     case 0:
       return model::LinearSpring{k, at};
     case 1:
