@@ -101,6 +101,11 @@ JointUnits units_of(model::JointKind kind, const UnitLabels& labels) {
 
 std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
                                        NumberTable& numbers, Reading& reading) {
+  return read_spring(item, units_of(kind, reading.units), numbers, reading);
+}
+
+std::optional<SpringDraft> read_spring(const Item& item, const JointUnits& units,
+                                       NumberTable& numbers, Reading& reading) {
   static const std::vector<std::string> laws{"linear", "one_sided", "piecewise_linear", "gap",
                                              "stops"};
   const std::string need = "a table such as { law = \"linear\", stiffness = ... }";
@@ -110,7 +115,7 @@ std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
     reading.problems.add(item.node->place, item.key + ".law", "missing, need " + choices(laws));
     return std::nullopt;
   }
-  const SpringReader reader{item, units_of(kind, reading.units), numbers, reading};
+  const SpringReader reader{item, units, numbers, reading};
   if (law->kind == Node::Kind::text) {
     if (law->text == "linear") return reader.placed(reader.linear());
     if (law->text == "one_sided") return reader.placed(reader.one_sided());
