@@ -8,6 +8,7 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
+#include "switch_words.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -95,32 +96,6 @@ std::vector<Entry> reversed(std::vector<Entry> entries) {
     }
   }
   return entries;
-}
-
-std::string switching_detail(const statics::System& system, const Hit& hit, const Piece& before,
-                             const Piece& after) {
-  std::string text;
-  for (const Index j : hit.switches) {
-    const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
-    const model::CompiledSpring& law =
-        s.of_shape() ? system.shapes[s.spring].law : system.springs[s.spring].law;
-    const std::string& name =
-        s.of_shape() ? system.shapes[s.spring].name : system.springs[s.spring].name;
-    const auto segment_in = [&](const Piece& piece) {
-      return s.of_shape() ? segment_of(system.shapes[s.spring], piece)
-                          : segment_of(system.springs[s.spring], piece);
-    };
-    const std::size_t from = segment_in(before), to = segment_in(after);
-    const double k_from = law.stiffness(from, s.breakpoint);
-    const double k_to = law.stiffness(to, s.breakpoint);
-    const char* word = k_from == 0 && k_to > 0   ? "becomes active"
-                       : k_from > 0 && k_to == 0 ? "is released"
-                       : k_to > k_from           ? "gets stiffer"
-                                                 : "gets softer";
-    text += (text.empty() ? "spring " : ", spring ") + name + " " + word + " (segment " +
-            std::to_string(from) + " to " + std::to_string(to) + ")";
-  }
-  return text;
 }
 
 /// Does the force turn back at a switching although it is regular on both sides?
@@ -254,17 +229,6 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
 }
 
 }  // namespace
-
-std::string piece_text(const statics::System& system, const Piece& piece) {
-  std::string text;
-  for (const statics::CoordinateSpring& spring : system.springs)
-    if (!spring.law.breakpoints.empty())
-      text += (text.empty() ? "" : ".") + std::to_string(segment_of(spring, piece));
-  for (const statics::PointShape& shape : system.shapes)
-    if (!shape.law.breakpoints.empty())
-      text += (text.empty() ? "" : ".") + std::to_string(segment_of(shape, piece));
-  return text;
-}
 
 BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {

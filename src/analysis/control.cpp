@@ -186,11 +186,9 @@ class ControlRun {
       const statics::Switch& s = system.switches[j];
       const statics::CoordinateSpring& spring = system.springs[s.spring];
       const std::size_t low = j - static_cast<std::size_t>(spring.first_switch);
-      const auto& segments = spring.law.segments;
       const bool rests = std::abs(state.z[s.coordinate] - s.breakpoint) <=
                          same * std::max(1.0, std::abs(s.breakpoint));
-      if (!rests || segments[low].stiffness == segments[low + 1].stiffness || is_reported(k))
-        continue;
+      if (!rests || !spring.law.changes_at(low) || is_reported(k)) continue;
       const bool rises = !last_ || last_->z[s.coordinate] <= s.breakpoint;
       LegEvent event{.kind = EventKind::switching,
                      .detail = "spring " + spring.name + " (segment " +

@@ -39,7 +39,7 @@ std::optional<bool> coupled_pull(const statics::System& system, Index coordinate
 }
 
 bool pulls_back(const statics::CoordinateSpring& spring) {
-  return spring.law.segments.front().stiffness > 0 && spring.law.segments.back().stiffness > 0;
+  return model::holds_both_ways(spring.law);
 }
 
 /// One chain to one body: the configurations are all values of its coordinates.
@@ -87,6 +87,7 @@ struct Bar {
   /// Pull of the spring at this length.
   double pull(double at) const {
     if (spring == nullptr) return stiffness * (at - free);
+    if (!spring->law.is_straight(0)) return sign * spring->law.torque(0, sign * (at - offset));
     return sign * spring->law.segments.front().torque +
            spring->law.segments.front().stiffness *
                (at - offset - sign * spring->law.segments.front().anchor);

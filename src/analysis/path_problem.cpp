@@ -253,10 +253,12 @@ std::string PathProblem::switch_name(Index j) const {
   if (s.of_shape()) return shape_switch_name(s, j);
   const statics::CoordinateSpring& spring = system_.springs[s.spring];
   const auto i = static_cast<std::size_t>(j - spring.first_switch);
-  const double below = spring.law.segments[i].stiffness;
-  const double above = spring.law.segments[i + 1].stiffness;
-  const char* what = below == 0      ? "acts above "
-                     : above == 0    ? "acts below "
+  const double below = spring.law.stiffness(i, s.breakpoint);
+  const double above = spring.law.stiffness(i + 1, s.breakpoint);
+  const bool nothing_below = below == 0 && spring.law.is_straight(i);
+  const bool nothing_above = above == 0 && spring.law.is_straight(i + 1);
+  const char* what = nothing_below   ? "acts above "
+                     : nothing_above ? "acts below "
                      : above > below ? "is stiffer above "
                                      : "is stiffer below ";
   const bool is_length = system_.is_length[static_cast<std::size_t>(s.coordinate)];

@@ -45,8 +45,10 @@ std::string PathProblem::shape_switch_name(const statics::Switch& s, Index j) co
   const auto i = static_cast<std::size_t>(j - shape.first_switch);
   const double below = shape.law.stiffness(i, s.breakpoint);
   const double above = shape.law.stiffness(i + 1, s.breakpoint);
-  const char* what = below == 0      ? "acts above "
-                     : above == 0    ? "acts below "
+  const bool nothing_below = below == 0 && shape.law.is_straight(i);
+  const bool nothing_above = above == 0 && shape.law.is_straight(i + 1);
+  const char* what = nothing_below   ? "acts above "
+                     : nothing_above ? "acts below "
                      : above > below ? "is stiffer above "
                                      : "is stiffer below ";
   const double unit = unit_of_value(shape.shape.kind, {.length = rule_.length});

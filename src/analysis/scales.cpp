@@ -98,26 +98,6 @@ void make_dimensionless(const model::Chain& chain, const Scales& scales,
   spring.free = spring.free.cwiseQuotient(coordinate).eval();
 }
 
-model::SpringLaw scaled(const model::SpringLaw& law, double coordinate, double torque) {
-  struct Visitor {
-    double coordinate, torque;
-    model::SpringLaw operator()(model::LinearSpring s) const {
-      return model::LinearSpring{s.stiffness * coordinate / torque, s.free / coordinate};
-    }
-    model::SpringLaw operator()(model::OneSidedSpring s) const {
-      return model::OneSidedSpring{s.stiffness * coordinate / torque, s.from / coordinate, s.side};
-    }
-    model::SpringLaw operator()(model::PiecewiseLinearSpring s) const {
-      for (double& b : s.breakpoints) b /= coordinate;
-      for (double& k : s.stiffnesses) k *= coordinate / torque;
-      s.free /= coordinate;
-      s.preload /= torque;
-      return s;
-    }
-  };
-  return std::visit(Visitor{coordinate, torque}, law);
-}
-
 /// Of the vector of a load, in terms of the unit of length and with a force of one scale.
 double unit_of_load(const model::Load& load, const Scales& scales) {
   switch (load.kind) {
@@ -152,10 +132,8 @@ void add_forces(const model::ShapeSpring& spring, double length, std::vector<dou
     if (spring.gas->nRT > 0) forces.push_back(spring.gas->nRT / length);
     return;
   }
-  const model::CompiledSpring law = model::compile(spring.law);
-  for (std::size_t i = 0; i < law.segments.size(); ++i)
-    if (const double k = std::abs(law.stiffness(i, law.segments[i].anchor)); k > 0)
-      forces.push_back(k * unit * unit / length);
+  for (const double k : model::typical_stiffnesses(model::compile(spring.law), unit))
+    forces.push_back(k * unit * unit / length);
 }
 
 }  // namespace
@@ -164,10 +142,10 @@ std::vector<double> spring_forces(const model::Mechanism& mechanism, double leng
   std::vector<double> forces;
   for_each_joint(mechanism, [&](const Joint& joint) {
     if (!joint.spring) return;
-    for (const auto& segment : model::compile(*joint.spring).segments)
-      if (segment.stiffness > 0)
-        forces.push_back(joint.kind == JointKind::prismatic ? segment.stiffness * length
-                                                            : segment.stiffness / length);
+    const bool slides = joint.kind == JointKind::prismatic;
+    const double width = slides ? length : 1;
+    for (const double k : model::typical_stiffnesses(model::compile(*joint.spring), width))
+      forces.push_back(slides ? k * length : k / length);
   });
   for (const model::Chain& chain : mechanism.chains)
     for (const model::CoupledSpring& spring : chain.coupled_springs)
@@ -213,7 +191,7 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
       const double torque = slides ? scales.force : scales.moment();
       joint.initial /= coordinate;
       joint.command /= coordinate;
-      if (joint.spring) joint.spring = scaled(*joint.spring, coordinate, torque);
+      if (joint.spring) joint.spring = model::scaled(*joint.spring, coordinate, torque);
     }
     for (model::CoupledSpring& spring : chain.coupled_springs)
       make_dimensionless(chain, scales, spring);

@@ -7,26 +7,6 @@ namespace {
 
 using model::Joint;
 
-model::SpringLaw moved(const model::SpringLaw& law, double by) {
-  struct Visitor {
-    double by;
-    model::SpringLaw operator()(model::LinearSpring s) const {
-      s.free += by;
-      return s;
-    }
-    model::SpringLaw operator()(model::OneSidedSpring s) const {
-      s.from += by;
-      return s;
-    }
-    model::SpringLaw operator()(model::PiecewiseLinearSpring s) const {
-      for (double& b : s.breakpoints) b += by;
-      s.free += by;
-      return s;
-    }
-  };
-  return std::visit(Visitor{by}, law);
-}
-
 bool counts_from_start(const Joint& joint) { return joint.spring && joint.spring_from_start; }
 
 /// Calls visit(chain number, element number, joint, its unknown in z or -1).
@@ -86,7 +66,7 @@ model::Mechanism with_origins(model::Mechanism mechanism, const Origins& origins
     for (std::size_t i = 0; i < origins[c].size(); ++i)
       if (auto* joint = std::get_if<Joint>(&mechanism.chains[c].elements[i]);
           joint && counts_from_start(*joint)) {
-        joint->spring = moved(*joint->spring, origins[c][i]);
+        joint->spring = model::moved(*joint->spring, origins[c][i]);
         joint->spring_from_start = false;
       }
   return mechanism;

@@ -1,12 +1,13 @@
 #include "spring_state.hpp"
 
-#include <algorithm>
-
 namespace springfold::drawing {
 namespace {
 
-bool is_free(const model::CompiledSpring::Segment& segment) {
-  return segment.stiffness == 0 && segment.torque == 0;
+/// How many of the segments have no force.
+std::size_t free_segments(const model::CompiledSpring& spring) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < spring.segments.size(); ++i) count += spring.is_free(i) ? 1 : 0;
+  return count;
 }
 
 }  // namespace
@@ -14,22 +15,21 @@ bool is_free(const model::CompiledSpring::Segment& segment) {
 SpringState spring_state(const model::SpringLaw& law, double c) {
   const model::CompiledSpring spring = model::compile(law);
   const std::size_t here = spring.segment_at(c);
-  return {std::any_of(spring.segments.begin(), spring.segments.end(), is_free),
-          !is_free(spring.segments[here]), spring.torque(here, c), spring.energy(here, c)};
+  return {free_segments(spring) > 0, !spring.is_free(here), spring.torque(here, c),
+          spring.energy(here, c)};
 }
 
 std::vector<double> thresholds_of(const model::SpringLaw& law) {
   const model::CompiledSpring spring = model::compile(law);
   std::vector<double> list;
   for (std::size_t i = 0; i < spring.breakpoints.size(); ++i)
-    if (is_free(spring.segments[i]) != is_free(spring.segments[i + 1]))
-      list.push_back(spring.breakpoints[i]);
+    if (spring.is_free(i) != spring.is_free(i + 1)) list.push_back(spring.breakpoints[i]);
   return list;
 }
 
 bool is_nothing(const model::SpringLaw& law) {
   const model::CompiledSpring spring = model::compile(law);
-  return std::all_of(spring.segments.begin(), spring.segments.end(), is_free);
+  return free_segments(spring) == spring.segments.size();
 }
 
 }  // namespace springfold::drawing

@@ -78,7 +78,7 @@ class Plane {
       const auto& breakpoints = spring.law.breakpoints;
       for (std::size_t b = 0; column && b < breakpoints.size(); ++b) {
         const double breakpoint = breakpoints[b];
-        if (spring.law.segments[b].stiffness != spring.law.segments[b + 1].stiffness)
+        if (spring.law.changes_at(b))
           fields.push_back(
               field([=](const analysis::Sample& s) { return s.values[*column] - breakpoint; }));
       }

@@ -69,8 +69,10 @@ void read_gas(const Item& item, const JointUnits& units, NumberTable& numbers,
   gas.initial = table.required_number("initial", {Range::finite, units.coordinate}, numbers);
   gas.exponent = table.number("exponent", {Range::positive, ""}, numbers, 1);
   if (const Node* initial = table.find("initial"))
-    numbers.require_nonzero({gas.initial}, initial->place, table.key_of("initial"),
-                            "a gas needs a volume that is not 0");
+    numbers.require({gas.initial}, initial->place, table.key_of("initial"),
+                    [](const std::vector<double>& value) -> std::string {
+                      return value[0] != 0 ? "" : "got 0, need a number that is not 0";
+                    });
   spring.gas = gas;
 }
 

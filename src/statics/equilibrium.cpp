@@ -57,7 +57,8 @@ void add_springs(const System& system, const Piece& piece, const Vector& z, Vect
     const std::size_t segment = segment_of(spring, piece);
     residual[spring.coordinate] += spring.law.torque(segment, z[spring.coordinate]);
     if (A != nullptr)
-      (*A)(spring.coordinate, spring.coordinate) += spring.law.segments[segment].stiffness;
+      (*A)(spring.coordinate, spring.coordinate) +=
+          spring.law.stiffness(segment, z[spring.coordinate]);
   }
   for (const CoordinateGroup& group : system.coupled) {
     const auto& at = group.coordinates;

@@ -10,7 +10,8 @@
 namespace springfold::statics {
 namespace {
 
-/// Coordinates of one chain split as the paper does, in the segments of the present state.
+/// Coordinates of one chain split as the paper does, in the segments of the present state. A law that is
+/// not straight is replaced by its tangent there.
 struct Split {
   std::vector<Index> theta{}, q{};  ///< with and without stiffness, numbers within the chain
   Matrix compliance{};              ///< of theta, K_theta^-1
@@ -20,15 +21,19 @@ struct Split {
 
 /// @returns nothing when coupled springs have a direction without stiffness, so that theta has no
 ///          compliance
-std::optional<Split> split_of(const System& system, const ChainSlice& slice, const Piece& piece) {
+std::optional<Split> split_of(const System& system, const ChainSlice& slice, const Piece& piece,
+                              const Vector& z) {
   Matrix K = Matrix::Zero(slice.x_count, slice.x_count);
   Vector torque_at_zero = Vector::Zero(slice.x_count);
   for (const CoordinateSpring& spring : system.springs) {
     const Index i = spring.coordinate - slice.x;
     if (i < 0 || i >= slice.x_count) continue;
     const std::size_t segment = segment_of(spring, piece);
-    K(i, i) = spring.law.segments[segment].stiffness;
-    torque_at_zero[i] = spring.law.torque(segment, 0.0);
+    const double c = z[spring.coordinate];
+    K(i, i) = spring.law.stiffness(segment, c);
+    torque_at_zero[i] = spring.law.is_straight(segment)
+                            ? spring.law.torque(segment, 0.0)
+                            : spring.law.torque(segment, c) - K(i, i) * c;
   }
   for (const CoordinateGroup& group : system.coupled) {
     if (group.coordinates.front() < slice.x || group.coordinates.front() >= slice.x + slice.x_count)
@@ -39,10 +44,10 @@ std::optional<Split> split_of(const System& system, const ChainSlice& slice, con
     torque_at_zero(at) -= group.stiffness * group.free;
   }
   Split split;
-  for (Index i = 0; i < slice.x_count; ++i) (K(i, i) > 0 ? split.theta : split.q).push_back(i);
+  for (Index i = 0; i < slice.x_count; ++i) (K(i, i) != 0 ? split.theta : split.q).push_back(i);
   if (!split.theta.empty()) {
     const Matrix K_theta = K(split.theta, split.theta);
-    const Vector size = K_theta.diagonal().cwiseSqrt().cwiseInverse();
+    const Vector size = K_theta.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
     const FullPivotLu lu(size.asDiagonal() * K_theta * size.asDiagonal());
     if (!lu.is_invertible()) return std::nullopt;
     split.compliance = size.asDiagonal() * lu.inverse() * size.asDiagonal();
@@ -90,7 +95,7 @@ ChainIteration iterate_chain(const System& system, std::size_t chain, const Vect
     ++result.iterations;
     const Piece piece = piece_at(system, z);
     if (!equilibrium_matrix(system, piece, z, inputs, work, residual, A)) return result;
-    const std::optional<Split> parts = split_of(system, s, piece);
+    const std::optional<Split> parts = split_of(system, s, piece, z);
     if (!parts) return result;
     const Split& split = *parts;
     const Matrix J = -A.block(s.F, s.x, s.F_count, s.x_count);

@@ -12,6 +12,18 @@ using model::PointMotion;
 using model::ShapeEnergy;
 using model::Vec3;
 
+/// By how much the points' frames are turned about z, whole turns counted: all their axes are along z.
+double turn_of(const Workspace::Point& point) { return point.at.spin.row(2).dot(point.variables); }
+
+bool counts_turns(const PointShape& shape) {
+  return shape.shape.kind == model::ShapeKind::angle && shape.shape.in_plane;
+}
+
+/// The angle nearest to `near`, which moves with the frames of the two rays.
+double counted(const PointShape& shape, double angle, double turned) {
+  return model::detail::nearest_angle<double>(angle, shape.shape.near + turned - shape.turned);
+}
+
 /// Motions of the points, alpha, and its derivatives by their variables.
 void evaluate(const System& system, const PointShape& shape, const Vector& z, const Vector& rho,
               Workspace& work) {
@@ -26,6 +38,10 @@ void evaluate(const System& system, const PointShape& shape, const Vector& z, co
     count += point.at.dp.cols();
   }
   model::evaluate_shape<double>(shape.shape, out.positions, out.at);
+  if (counts_turns(shape))
+    out.at.value =
+        counted(shape, out.at.value,
+                turn_of(work.points[shape.points[2]]) - turn_of(work.points[shape.points[0]]));
   out.slopes.resize(count);
   Index first = 0;
   for (std::size_t a = 0; a < shape.points.size(); ++a) {
@@ -109,16 +125,30 @@ class Term {
   ShapeEnergy energy_;
 };
 
+double turn_between(const System& system, const PointShape& shape, const Vector& z,
+                    const Vector& rho) {
+  Workspace::Point first, last;
+  evaluate_point(system, shape.points[0], z, rho, first);
+  evaluate_point(system, shape.points[2], z, rho, last);
+  return turn_of(last) - turn_of(first);
+}
+
 double value_of(const System& system, const PointShape& shape, const Vector& z, const Vector& rho) {
   Vector positions(3 * std::ssize(shape.points));
   for (std::size_t a = 0; a < shape.points.size(); ++a)
     positions.segment<3>(3 * static_cast<Index>(a)) = position_of(system, shape.points[a], z, rho);
   model::ShapeValue<double> at;
   model::evaluate_shape<double>(shape.shape, positions, at);
-  return at.value;
+  return counts_turns(shape) ? counted(shape, at.value, turn_between(system, shape, z, rho))
+                             : at.value;
 }
 
 }  // namespace
+
+void count_turns_from(const Vector& z, System& system) {
+  for (PointShape& shape : system.shapes)
+    if (counts_turns(shape)) shape.turned = turn_between(system, shape, z, system.commands);
+}
 
 void add_shape_terms(const System& system, const Piece& piece, const Vector& z,
                      const Inputs& inputs, Workspace& work, Vector& residual, Matrix* A,

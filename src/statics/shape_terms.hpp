@@ -15,6 +15,9 @@ void add_shape_terms(const System& system, const Piece& piece, const Vector& z,
                      const Inputs& inputs, Workspace& work, Vector& residual, Matrix* A,
                      Matrix* dR_drho);
 
+/// Angles in the plane are counted from this state: there they are those nearest to `near`.
+void count_turns_from(const Vector& z, System& system);
+
 /// Adds d residual/d(factors) times `rates` of all pressures.
 void add_pressure_rate(const System& system, const Vector& z, const Vector& rho,
                        const Vector& rates, Workspace& work, Vector& rate);

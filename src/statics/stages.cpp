@@ -71,7 +71,7 @@ void add_springs(const StagePlan& plan, const System& system, const Piece& piece
   for (const CoordinateSpring& spring : system.springs) {
     const std::size_t segment = segment_of(spring, piece);
     residual[spring.coordinate] += spring.law.torque(segment, z[spring.coordinate]);
-    matrix.stiffness[spring.coordinate] += spring.law.segments[segment].stiffness;
+    matrix.stiffness[spring.coordinate] += spring.law.stiffness(segment, z[spring.coordinate]);
   }
   for (const CoordinateGroup& group : system.coupled) {
     const auto n = static_cast<Index>(group.coordinates.size());

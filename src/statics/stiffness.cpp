@@ -243,16 +243,16 @@ std::optional<Matrix> chain_stiffness_paper(const System& system, std::size_t ch
   const ChainSlice& s = system.chain_slices[chain];
   const Matrix J = -A.block(s.F, s.x, s.F_count, s.x_count);
 
-  // Split the coordinates into theta (active spring) and q (no stiffness in this segment).
+  // Split the coordinates into theta (active spring) and q (no stiffness here).
   Matrix stiffness = Matrix::Zero(system.first_pose, system.first_pose);
   for (const CoordinateSpring& spring : system.springs)
     stiffness(spring.coordinate, spring.coordinate) +=
-        spring.law.segments[segment_of(spring, piece)].stiffness;
+        spring.law.stiffness(segment_of(spring, piece), z[spring.coordinate]);
   for (const CoordinateGroup& group : system.coupled)
     stiffness(group.coordinates, group.coordinates) += group.stiffness;
   const Matrix K = stiffness.block(s.x, s.x, s.x_count, s.x_count);
   std::vector<Index> theta, q;
-  for (Index i = 0; i < s.x_count; ++i) (K(i, i) > 0 ? theta : q).push_back(i);
+  for (Index i = 0; i < s.x_count; ++i) (K(i, i) != 0 ? theta : q).push_back(i);
 
   const Matrix H = K - A.block(s.x, s.x, s.x_count, s.x_count);
   std::optional<FullPivotLu> k_inverse;

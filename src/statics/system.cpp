@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-#include "springfold/statics/shapes.hpp"
+#include "shape_terms.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -248,6 +248,7 @@ System prepare(const model::Mechanism& mechanism) {
   }
   add_points(system);
   add_shapes(system);
+  count_turns_from(guess(system), system);
   return system;
 }
 

@@ -40,7 +40,7 @@ const std::vector<Library>& libraries() {
        {"statics", "analysis"},
        true},
       {"Boost.Odeint", std::regex{"boost/numeric/odeint.*"}, {"continuation"}, true},
-      {"Boost", std::regex{"boost/.*"}, {"continuation", "analysis"}},
+      {"Boost", std::regex{"boost/.*"}, {"continuation", "model", "analysis"}},
       {"toml++", std::regex{"toml\\+\\+/.*|toml\\.hpp"}, {"io"}, true},
       {"muParser", std::regex{"muParser.*\\.h"}, {"io"}, true},
       {"gnuplot-iostream", std::regex{"gnuplot-iostream\\.h"}, {"io"}, true},

@@ -87,7 +87,7 @@ TEST_F(ShapeMessages, WantOneSourceOfEnergy) {
   EXPECT_THAT(spring("shape = \"area\"\n" + corners), ElementsAre(HasSubstr("stiffness: missing")));
   EXPECT_THAT(spring("shape = \"area\"\n" + corners + "gas = { nRT = -1, initial = 0 }\n"),
               ElementsAre(HasSubstr("gas.nRT: got -1, need a number >= 0"),
-                          HasSubstr("a gas needs a volume that is not 0")));
+                          HasSubstr("gas.initial: got 0, need a number that is not 0")));
   EXPECT_THAT(spring("shape = \"path\"\n" + corners + "gas = { nRT = 1, initial = 2 }\n"),
               ElementsAre(HasSubstr("gas: need the shape \"area\" or \"volume\"")));
 }

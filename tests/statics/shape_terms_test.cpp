@@ -185,6 +185,29 @@ TEST(ShapeTerms, OfADistanceAreThoseOfALineSpring) {
   EXPECT_NEAR(spring_energy(a.system, a.z), spring_energy(b.system, b.z), 1e-14);
 }
 
+/// The tip of a hinged arm as seen from the base: its angle is that of the hinge, whole turns counted.
+TEST(AnglesOfThreePoints, CountWholeTurnsOfTheFramesThatTheyTurnWith) {
+  model::Mechanism m;
+  m.bodies = {{"tip", TaskSpace::planar, Vector::Unit(3, 0)}};
+  model::Chain chain{.name = "arm"};
+  chain.elements = {spring_hinge("h", 1), link_along_x(1)};
+  m.chains = {chain};
+  const auto angle = [](const Anchor& first, const Anchor& last) {
+    return model::Shape{.kind = ShapeKind::angle, .points = {first, Anchor{}, last}, .near = 0};
+  };
+  const Anchor east{.at = {1, 0, 0}}, tip{.body = 1};
+  m.shape_springs = {{"a", angle(east, tip), model::LinearSpring{1, 0}},
+                     {"b", angle(tip, east), model::LinearSpring{1, 0}}};
+  const System system = prepare(m);
+  for (const double turned : {-20.0, -3.5, 0.4, 3.3, 30.0}) {
+    Vector z = guess(system);
+    z.tail(3) << std::cos(turned), std::sin(turned), turned;
+    const Inputs inputs{system.commands, Vector::Zero(3), {}};
+    EXPECT_NEAR(shape_state(system, 0, z, inputs).value, turned, 1e-13);
+    EXPECT_NEAR(shape_state(system, 1, z, inputs).value, -turned, 1e-13);
+  }
+}
+
 TEST(ShapeTerms, KeepLongChainsOutOfStages) {
   std::mt19937 random(55);
   const System system = prepare(everything(random));

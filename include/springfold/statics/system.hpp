@@ -86,6 +86,9 @@ struct PointShape {
   Index load = -1;                  ///< a pressure: its number among the mechanism's loads
   double pressure = 0;
   Index first_switch = 0;  ///< breakpoints of the law: their place in the piece
+  /// Angles in the plane: by how much the frame of the third point is turned against that of the
+  /// first in the mechanism's guess. What they turn further, beyond whole turns, the angle counts.
+  double turned = 0;
   bool is_pressure() const { return load >= 0; }
 };
 

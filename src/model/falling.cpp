@@ -1,0 +1,124 @@
+#include "falling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace springfold::model {
+namespace {
+
+using Coefficients = std::vector<double>;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+Coefficients derivative_of(const Coefficients& a) {
+  Coefficients d;
+  for (std::size_t i = 1; i < a.size(); ++i) d.push_back(static_cast<double>(i) * a[i]);
+  while (!d.empty() && d.back() == 0) d.pop_back();
+  return d;
+}
+
+double value_of(const Coefficients& a, double u) {
+  double value = 0;
+  for (std::size_t i = a.size(); i-- > 0;) value = value * u + a[i];
+  return value;
+}
+
+/// How far rounding may put value_of off.
+double rounding_of(const Coefficients& a, double u) {
+  double size = 0;
+  for (std::size_t i = a.size(); i-- > 0;) size = size * std::abs(u) + std::abs(a[i]);
+  return 4 * epsilon * static_cast<double>(a.size()) * size;
+}
+
+/// No zero of the polynomial is further from 0 (Cauchy).
+double bound_of(const Coefficients& a) {
+  double largest = 0;
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    largest = std::max(largest, std::abs(a[i] / a.back()));
+  return 1 + largest;
+}
+
+/// Where g changes its sign between low and high, by halving.
+template <class G>
+double sign_change(const G& g, double low, double high) {
+  const bool negative = g(low) < 0;
+  for (;;) {
+    const double middle = low + 0.5 * (high - low);
+    if (!(low < middle && middle < high)) return middle;
+    ((g(middle) < 0) == negative ? low : high) = middle;
+  }
+}
+
+/// Increasing places between low and high, the ends among them, between which the polynomial is
+/// monotone; and its zeros.
+std::vector<double> turning_places(const Coefficients& a, double low, double high) {
+  if (a.size() < 2) return {low, high};
+  std::vector<double> places = turning_places(derivative_of(a), low, high), zeros;
+  const auto value = [&a](double u) { return value_of(a, u); };
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+    if ((value(places[i]) < 0) != (value(places[i + 1]) < 0))
+      zeros.push_back(sign_change(value, places[i], places[i + 1]));
+  places.insert(places.end(), zeros.begin(), zeros.end());
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+/// Places at which a formula is asked: even ones, or in an endless range even ones for every power of two.
+std::vector<double> sample_places(const DeformationRange& range) {
+  std::vector<double> places;
+  if (std::isfinite(range.low) && std::isfinite(range.high)) {
+    constexpr int count = 1024;
+    for (int i = 0; i <= count; ++i)
+      places.push_back(range.low + (range.high - range.low) * i / count);
+    return places;
+  }
+  const double start = std::isfinite(range.low)    ? range.low
+                       : std::isfinite(range.high) ? range.high
+                                                   : 0;
+  constexpr int octaves = 30, parts = 32;
+  for (int octave = -octaves; octave < octaves; ++octave)
+    for (int part = 0; part < parts; ++part) {
+      const double away = std::ldexp(1 + part / double{parts}, octave);
+      for (const double at : {start - away, start + away})
+        if (at > range.low && at < range.high) places.push_back(at);
+    }
+  places.push_back(start);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+}  // namespace
+
+std::optional<double> falls_at(const PolynomialSpring& law) {
+  const Coefficients slope = derivative_of(law.coefficients), bend = derivative_of(slope);
+  if (slope.empty()) return std::nullopt;
+  const double far = 2 * bound_of(slope);
+  const double low = std::isfinite(law.range.low) ? law.range.low : std::min(-far, law.range.high);
+  const double high = std::isfinite(law.range.high) ? law.range.high : std::max(far, low);
+  for (const double u : turning_places(bend, low, high))
+    if (value_of(slope, u) < -rounding_of(slope, u)) return u;
+  return std::nullopt;
+}
+
+std::optional<double> falls_at(const FormulaSpring& law) {
+  const auto jet = [&law](double u) { return evaluate(law.formula, u); };
+  // A stiffness this small against its neighbours is one of rounding.
+  constexpr double rounding = 1e-12;
+  const auto falls = [&](double u, double near) { return jet(u).slope < -rounding * near; };
+  const std::vector<double> places = sample_places(law.range);
+  Jet<double> last{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Jet<double> here = jet(places[i]);
+    const double near = i > 0 && std::isfinite(last.slope) ? std::abs(last.slope) : 0;
+    if (std::isfinite(here.slope) && falls(places[i], near)) return places[i];
+    if (i > 0 && last.bend < 0 && here.bend > 0) {
+      const double least =
+          sign_change([&](double u) { return jet(u).bend; }, places[i - 1], places[i]);
+      if (falls(least, std::max(near, std::abs(here.slope)))) return least;
+    }
+    last = here;
+  }
+  return std::nullopt;
+}
+
+}  // namespace springfold::model
