@@ -22,6 +22,11 @@ posture_of() {
     cantilever-elastica*) echo bend/EP2 ;;
     column-with-stop) echo press/EP4 ;;
     dual-triangle-joint) echo turn/LP1 ;;
+    "free-laws, contact") echo press/UZ1 ;;
+    "free-laws, series") echo pull/UZ1 ;;
+    "free-laws, table") echo pull/UZ1 ;;
+    "free-laws, switch") echo push/UZ1 ;;
+    free-laws*) echo press/LP1 ;;
     gough-stewart) echo tilt/EP3 ;;
     gravity-balancer) echo turned/UZ2 ;;
     guyed-bar) echo straight/UZ2 ;;

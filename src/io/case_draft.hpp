@@ -46,9 +46,11 @@ struct CaseDraft {
 
 /// Reads the tables of all documents (included ones first). `overrides` replace parameters.
 /// @param expected_file  documents with the expectations: one or none
+/// @param files          reads other files that the case names
 CaseDraft read_case(const std::vector<Document>& documents,
                     const std::map<std::string, std::string>& overrides,
-                    const std::vector<Document>& expected_file, Problems& problems);
+                    const std::vector<Document>& expected_file, const FileReader& files,
+                    Problems& problems);
 
 /// Checks all numbers: with the case's own parameters, then as every run has them.
 void check_numbers(const CaseDraft& draft, Problems& problems);

@@ -86,7 +86,14 @@ Case load_case(const fs::path& file, const std::map<std::string, std::string>& o
       read_expected_file(file, documents.back().root, sources, problems);
   const bool unasked = !expected.empty() && !documents.back().root.find("expected");
 
-  CaseDraft read = read_case(documents, overrides, expected, problems);
+  const FileReader files = [&sources](const std::string& name, const Place& place,
+                                      const std::string& key) -> std::optional<TextFile> {
+    const fs::path path = (fs::path{place.file}.parent_path() / name).lexically_normal();
+    auto text = sources.read_text(path, place, key);
+    if (!text) return std::nullopt;
+    return TextFile{std::move(*text), path.string()};
+  };
+  CaseDraft read = read_case(documents, overrides, expected, files, problems);
   read_target_files(file.parent_path(), sources, read, problems);
   const auto draft = std::make_shared<const CaseDraft>(std::move(read));
   const std::size_t before = problems.size();

@@ -135,14 +135,15 @@ void require_table(const std::vector<Document>& documents, const std::string& na
 
 CaseDraft read_case(const std::vector<Document>& documents,
                     const std::map<std::string, std::string>& overrides,
-                    const std::vector<Document>& expected_file, Problems& problems) {
+                    const std::vector<Document>& expected_file, const FileReader& files,
+                    Problems& problems) {
   CaseDraft draft;
   const std::vector<NodeEntry> entries = parameter_entries(documents, problems);
   std::vector<std::string> names;
   for (const NodeEntry& entry : entries) names.push_back(entry.key);
   draft.book = FormulaBook{names};
 
-  Reading reading{problems, draft.book, {}};
+  Reading reading{problems, draft.book, {}, nullptr, files};
   for (const Document& document : documents) {
     check_included(document, problems);
     const TableReader root{document.root, "", case_keys, reading};

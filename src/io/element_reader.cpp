@@ -45,19 +45,23 @@ class JointReader {
   }
 
   std::vector<JointDraft> joints() {
-    const std::size_t n = axes_.size();
-    std::vector<JointDraft> joints(n);
-    const std::vector<std::optional<SpringDraft>> springs = read_springs();
-    const std::vector<NumberId> initial = read_initial();
+    std::vector<JointDraft> joints;
+    const std::vector<Springs> springs = read_springs();
+    const std::vector<NumberId> initial = read_initial(springs);
     const std::optional<NumberId> command = read_command();
-    for (std::size_t i = 0; i < n; ++i) {
-      joints[i].name = composed_ ? name_ + "." + std::to_string(i + 1) : name_;
-      joints[i].kind = kind_;
-      joints[i].axis = axes_[i];
-      joints[i].role = role_;
-      joints[i].spring = springs[i];
-      joints[i].initial = initial[i];
-      joints[i].command = command;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      JointDraft joint{.name = composed_ ? name_ + "." + std::to_string(i + 1) : name_,
+                       .kind = kind_,
+                       .axis = axes_[i],
+                       .role = role_,
+                       .initial = initial[i],
+                       .command = command};
+      if (springs[i].size() < 2) {
+        if (!springs[i].empty()) joint.spring = springs[i].front();
+        joints.push_back(std::move(joint));
+      } else {
+        add_series(joint, springs[i], initial, joints);
+      }
     }
     return joints;
   }
@@ -65,6 +69,27 @@ class JointReader {
   const std::string& name() const { return name_; }
 
  private:
+  using Springs = std::vector<SpringDraft>;  ///< of one axis: none, one, or several in series
+
+  /// Springs in series are joints one after the other along the same axis: their deflections add up, and
+  /// the same torque goes through all. A drive moves the first one.
+  void add_series(const JointDraft& joint, const Springs& springs,
+                  const std::vector<NumberId>& initial, std::vector<JointDraft>& joints) {
+    for (std::size_t k = 0; k < springs.size(); ++k) {
+      JointDraft part = joint;
+      part.name += "." + std::to_string(k + 1);
+      part.spring = springs[k];
+      const bool listed = initial.size() > axes_.size();
+      if (listed) part.initial = initial[k];
+      if (k > 0 && !listed) part.initial = numbers_.add(0);
+      if (k > 0 && role_ == JointRole::actuated) {
+        part.role = JointRole::compliant;
+        part.command = std::nullopt;
+      }
+      joints.push_back(std::move(part));
+    }
+  }
+
   void report(const std::string& name, const std::string& what) const {
     const Node* node = table_.find(name);
     reading_.problems.add(node ? node->place : table_.place(), table_.key_of(name), what);
@@ -122,8 +147,8 @@ class JointReader {
   }
 
   /// One for every axis.
-  std::vector<std::optional<SpringDraft>> read_springs() {
-    std::vector<std::optional<SpringDraft>> springs(axes_.size());
+  std::vector<Springs> read_springs() {
+    std::vector<Springs> springs(axes_.size());
     const bool has_spring = table_.has("spring"), has_stiffness = table_.has("stiffness");
     if (role_ == JointRole::passive) {
       if (has_spring) report("spring", "a passive joint has no spring, need role = \"preloaded\"");
@@ -138,7 +163,7 @@ class JointReader {
       const bool drive = role_ == JointRole::actuated;
       const Rule rule{drive ? Range::positive : Range::non_negative, units_.stiffness};
       const NumberId k = table_.number("stiffness", rule, numbers_, 0);
-      springs.assign(axes_.size(), SpringDraft{LinearDraft{k, numbers_.add(0)}});
+      springs.assign(axes_.size(), Springs{LinearDraft{k, numbers_.add(0)}});
     }
     if (has_spring) read_spring_laws(springs);
     const bool written = has_spring || has_stiffness || table_.is_misspelt("spring") ||
@@ -158,11 +183,35 @@ class JointReader {
     return true;
   }
 
-  void read_spring_laws(std::vector<std::optional<SpringDraft>>& springs) {
+  /// `{ law = ... }` or `{ series = [{ law = ... }, ...] }`.
+  Springs read_one_axis(const Item& item) {
+    Springs springs;
+    const auto add = [&](const Item& law) {
+      if (auto spring = read_spring(law, kind_, numbers_, reading_))
+        springs.push_back(std::move(*spring));
+    };
+    if (item.node->kind != Node::Kind::table || !item.node->find("series")) {
+      add(item);
+      return springs;
+    }
+    const TableReader table{*item.node, item.key, {"series"}, reading_};
+    const std::string need = "a list of at least two springs { law = ... }, at most 100";
+    constexpr std::size_t most = 100;
+    const std::vector<Item> items = table.list("series", need);
+    const Node* series = table.find("series");
+    if (series->kind == Node::Kind::array && (items.size() < 2 || items.size() > most))
+      reading_.problems.add(series->place, table.key_of("series"),
+                            "got " + described(*series) + ", need " + need);
+    else
+      for (const Item& law : items) add(law);
+    return springs;
+  }
+
+  void read_spring_laws(std::vector<Springs>& springs) {
     const Item item{table_.find("spring"), table_.key_of("spring")};
     const std::size_t n = springs.size();
     if (!composed_ || item.node->kind != Node::Kind::array) {
-      springs.assign(n, read_spring(item, kind_, numbers_, reading_));
+      springs.assign(n, read_one_axis(item));
       return;
     }
     const std::vector<Item> items = list_items(item, "a list of springs", reading_);
@@ -170,21 +219,24 @@ class JointReader {
       report("spring", "got " + described(*item.node) + ", need " + std::to_string(n) +
                            " springs, one for every axis");
     for (std::size_t i = 0; i < std::min(n, items.size()); ++i)
-      springs[i] = read_spring(items[i], kind_, numbers_, reading_);
+      springs[i] = read_one_axis(items[i]);
   }
 
-  std::vector<NumberId> read_initial() {
-    const std::size_t n = axes_.size();
+  /// One for every axis; of a joint with one axis and springs in series also one for every spring.
+  std::vector<NumberId> read_initial(const std::vector<Springs>& springs) {
+    const bool series = !composed_ && springs.front().size() > 1;
+    const std::size_t n = axes_.size(), listed = series ? springs.front().size() : n;
     const Rule rule{Range::finite, units_.coordinate};
     const Node* node = table_.find("initial");
-    if (!composed_ || !node || node->kind != Node::Kind::array)
+    if (!(composed_ || series) || !node || node->kind != Node::Kind::array)
       return std::vector<NumberId>(n, table_.number("initial", rule, numbers_, 0));
     std::vector<NumberId> ids =
         read_numbers(table_.list("initial", "a list of numbers"), rule, numbers_, reading_);
-    if (ids.size() != n)
-      report("initial", "got " + described(*node) + ", need " + std::to_string(n) +
-                            " numbers [rad], one for every axis");
-    ids.resize(n, 0);
+    if (ids.size() != listed)
+      report("initial", "got " + described(*node) + ", need " + std::to_string(listed) +
+                            " numbers [" + units_.coordinate +
+                            (series ? "], one for every spring" : "], one for every axis"));
+    ids.resize(listed, 0);
     return ids;
   }
 

@@ -27,45 +27,6 @@ model::Pose<double> pose_of(const FrameDraft& frame, const Numbers& numbers) {
   return pose;
 }
 
-std::vector<double> values_of(const std::vector<NumberId>& ids, const Numbers& numbers) {
-  std::vector<double> values;
-  for (const NumberId id : ids) values.push_back(numbers[id]);
-  return values;
-}
-
-/// Torque of the stops alone, so that the law's torque at `free` is that of both springs there.
-double stop_torque(double c, double stiffness, double low, double high) {
-  if (c > high) return stiffness * (c - high);
-  return c < low ? stiffness * (c - low) : 0;
-}
-
-model::SpringLaw law_of(const SpringDraft& spring, const Numbers& n) {
-  return std::visit(
-      Overloaded{
-          [&n](const LinearDraft& s) -> model::SpringLaw {
-            return model::LinearSpring{n[s.stiffness], n[s.free]};
-          },
-          [&n](const OneSidedDraft& s) -> model::SpringLaw {
-            return model::OneSidedSpring{n[s.stiffness], n[s.from], s.side};
-          },
-          [&n](const PiecewiseLinearDraft& s) -> model::SpringLaw {
-            return model::PiecewiseLinearSpring{
-                values_of(s.breakpoints, n), values_of(s.stiffnesses, n), n[s.free], n[s.preload]};
-          },
-          [&n](const GapDraft& s) -> model::SpringLaw {
-            const double k = n[s.stiffness], low = n[s.low], high = n[s.high];
-            return model::PiecewiseLinearSpring{
-                {low, high}, {k, 0, k}, low + 0.5 * (high - low), 0};
-          },
-          [&n](const StopsDraft& s) -> model::SpringLaw {
-            const double k = n[s.stiffness], stop = n[s.stop_stiffness], free = n[s.free];
-            const double low = n[s.low], high = n[s.high];
-            return model::PiecewiseLinearSpring{
-                {low, high}, {k + stop, k, k + stop}, free, stop_torque(free, stop, low, high)};
-          }},
-      spring);
-}
-
 model::BeamSection section_of(const SectionDraft& s, const Numbers& n) {
   model::BeamSection section;
   switch (s.shape) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "numbers.hpp"
+#include "spring_draft.hpp"
 #include "springfold/model/elastic_link.hpp"
 #include "springfold/model/mechanism.hpp"
 
@@ -24,34 +25,6 @@ struct FrameDraft {
   AxisDraft axis{};
   std::optional<NumberId> angle{};  ///< [rad]; none: no rotation
 };
-
-/// from_start: coordinates are counted from that of the start pose.
-struct LinearDraft {
-  NumberId stiffness = 0, free = 0;
-  bool from_start = false;
-};
-struct OneSidedDraft {
-  NumberId stiffness = 0, from = 0;
-  model::OneSidedSpring::Side side = model::OneSidedSpring::Side::above;
-  bool from_start = false;
-};
-struct PiecewiseLinearDraft {
-  std::vector<NumberId> breakpoints{}, stiffnesses{};
-  NumberId free = 0, preload = 0;
-  bool from_start = false;
-};
-/// Free play between low and high, a linear spring outside.
-struct GapDraft {
-  NumberId stiffness = 0, low = 0, high = 0;
-  bool from_start = false;
-};
-/// A linear spring everywhere, a second one added below low and above high.
-struct StopsDraft {
-  NumberId stiffness = 0, free = 0, stop_stiffness = 0, low = 0, high = 0;
-  bool from_start = false;
-};
-using SpringDraft =
-    std::variant<LinearDraft, OneSidedDraft, PiecewiseLinearDraft, GapDraft, StopsDraft>;
 
 struct JointDraft {
   std::string name{};

@@ -25,6 +25,8 @@ bool holds(Range range, double value) {
       return !std::isnan(value);
     case Range::whole:
       return whole && value >= 0;
+    case Range::at_least_one:
+      return std::isfinite(value) && value >= 1;
     case Range::at_least_two:
       return whole && value >= 2 && value <= largest_count;
     case Range::small_count:
@@ -47,6 +49,8 @@ std::string range_in_words(Range range) {
       return "a number, inf or -inf";
     case Range::whole:
       return "a whole number >= 0";
+    case Range::at_least_one:
+      return "a number >= 1";
     case Range::at_least_two:
       return "a whole number from 2 to 1000000";
     case Range::small_count:
@@ -90,8 +94,9 @@ void NumberTable::require_nonzero(const std::vector<NumberId>& ids, const Place&
 
 void NumberTable::require(const std::vector<NumberId>& ids, const Place& place,
                           const std::string& key,
-                          std::function<std::string(const std::vector<double>&)> problem_in) {
-  relations_.push_back({ids, false, place, key, "", std::move(problem_in)});
+                          std::function<std::string(const std::vector<double>&)> problem_in,
+                          bool infinite) {
+  relations_.push_back({ids, false, place, key, "", std::move(problem_in), infinite});
 }
 
 Values NumberTable::values(const FormulaBook& book, const Values& parameters) const {
@@ -117,9 +122,10 @@ std::string NumberTable::broken(const Relation& relation, const Values& values) 
   if (relation.problem_in) {
     std::vector<double> numbers;
     for (const NumberId id : relation.ids) numbers.push_back(values.values[id]);
-    const bool finite = std::all_of(numbers.begin(), numbers.end(),
-                                    [](double number) { return std::isfinite(number); });
-    return finite ? relation.problem_in(numbers) : "";
+    const bool fit = std::all_of(numbers.begin(), numbers.end(), [&relation](double number) {
+      return relation.infinite ? !std::isnan(number) : std::isfinite(number);
+    });
+    return fit ? relation.problem_in(numbers) : "";
   }
   const auto zero = [&values](NumberId id) { return values.values[id] == 0; };
   if (relation.nonzero) {
@@ -139,9 +145,10 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
     const auto& [definition, rule] = entries_[id];
     if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
     reported[id] = true;
-    problems.add(definition.place, definition.key,
-                 "got " + shown(definition, values.values[id]) + ", need " + need_of(rule),
-                 definition.formula ? when : "");
+    problems.add(
+        definition.place, definition.key,
+        "got " + shown(definition, values.values[id]) + ", need " + need_of(rule) + rule.hint,
+        definition.formula ? when : "");
   }
   for (std::size_t i = 0; i < relations_.size(); ++i) {
     const std::string problem = broken(relations_[i], values);

@@ -18,6 +18,7 @@ enum class Range {
   maybe_infinite,  ///< anything but NaN
   whole,           ///< 0, 1, 2, ...
   small_count,     ///< 1, 2, ... 1000000
+  at_least_one,    ///< any finite number >= 1
   at_least_two,    ///< 2, 3, ... 1000000
   segment_count,   ///< 1, 2, ... 200
 };
@@ -26,6 +27,7 @@ enum class Range {
 struct Rule {
   Range range = Range::finite;
   std::string unit{};  ///< for messages: "N/m"; empty: a pure number
+  std::string hint{};  ///< for messages: "; what else would help"
 };
 
 /// "a number >= 0 [N/m]".
@@ -45,8 +47,10 @@ class NumberTable {
                        const std::string& what);
 
   /// @param problem_in  of these values, all finite: what is wrong with them; empty when usable
+  /// @param infinite    values may be infinite too
   void require(const std::vector<NumberId>& ids, const Place& place, const std::string& key,
-               std::function<std::string(const std::vector<double>&)> problem_in);
+               std::function<std::string(const std::vector<double>&)> problem_in,
+               bool infinite = false);
 
   std::size_t size() const { return entries_.size(); }
   const Rule& rule(NumberId id) const { return entries_[id].rule; }
@@ -74,6 +78,7 @@ class NumberTable {
     std::string key{};
     std::string what{};
     std::function<std::string(const std::vector<double>&)> problem_in{};  ///< instead of these
+    bool infinite = false;  ///< may values be infinite?
   };
   std::string broken(const Relation& relation, const Values& values) const;
 

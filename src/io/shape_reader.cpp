@@ -11,6 +11,9 @@ namespace {
 
 using model::ShapeKind;
 
+/// Second derivatives of a shape are one matrix of its points: 18 MB for so many.
+constexpr std::size_t most_points = 500;
+
 struct Word {
   const char* text;
   ShapeKind kind;
@@ -173,6 +176,10 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
   table.require("of", "a list of points");
   for (const Item& item : table.list("of", "a list of points"))
     shape.points.push_back(read_anchor(item, draft, numbers, reading));
+  if (shape.points.size() > most_points)
+    reading.problems.add(table.find("of")->place, table.key_of("of"),
+                         "got " + std::to_string(shape.points.size()) + " points, need at most " +
+                             std::to_string(most_points));
   if (shape.kind == ShapeKind::volume) {
     table.require("triangles", "a list of triangles such as [1, 2, 3]");
     shape.triangles = read_triangles(table, shape.points.size(), reading);

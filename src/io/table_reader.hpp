@@ -1,6 +1,7 @@
 // Typed access to the tables of a case file: every wrong, missing or unknown entry is reported.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +13,24 @@
 
 namespace springfold::io {
 
+/// A file that a case names and that is no TOML.
+struct TextFile {
+  std::string text{};
+  std::string shown_name{};  ///< in messages
+};
+
+/// Reads a file whose name is relative to the file of `place`, where it stands. Nothing if it cannot be read,
+/// which is reported.
+using FileReader = std::function<std::optional<TextFile>(
+    const std::string& name, const Place& place, const std::string& key)>;
+
 /// What all readers share while a case is read.
 struct Reading {
   Problems& problems;
   FormulaBook& book;
   UnitLabels units{};
   const std::vector<Parameter>* parameters = nullptr;  ///< once they are read
+  FileReader files{};
 };
 
 /// A node with its key path.

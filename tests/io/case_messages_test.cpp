@@ -73,9 +73,11 @@ TEST_F(CaseMessages, SayWhatWasGotAndWhatIsNeeded) {
   EXPECT_THAT(after("stiffness = \"K\"", "stiffness = 0"),
               ElementsAre("case.toml:16:98: chain[1].elements[1].stiffness: got 0, need a number > "
                           "0 [N/mm]"));
-  EXPECT_THAT(after("stiffness = \"Kv\"", "stiffness = \"Kv - 1\""),
-              ElementsAre("case.toml:17:112: chain[1].elements[2].spring.stiffness: got \"Kv - 1\" "
-                          "= -0.99, need a number >= 0 [N*mm/rad]"));
+  EXPECT_THAT(
+      after("stiffness = \"Kv\"", "stiffness = \"Kv - 1\""),
+      ElementsAre("case.toml:17:112: chain[1].elements[2].spring.stiffness: got \"Kv - 1\" "
+                  "= -0.99, need a number >= 0 [N*mm/rad], or falling = true for a law that "
+                  "may fall"));
   EXPECT_THAT(after("stiffness = \"K\"", "stiffness = true"),
               ElementsAre("case.toml:16:98: chain[1].elements[1].stiffness: got true, need a "
                           "number > 0 [N/mm] or a formula"));
@@ -191,16 +193,20 @@ TEST_F(CaseMessages, OfSpringsCountTheirSegments) {
                   "2, need 3: one for every segment, one more than breakpoints"));
   EXPECT_THAT(after("law = \"linear\"", "law = \"liner\""),
               ElementsAre("case.toml:17:90: chain[1].elements[2].spring.law: got \"liner\", need "
-                          "\"linear\", \"one_sided\", \"piecewise_linear\", \"gap\" or \"stops\", "
+                          "\"linear\", \"one_sided\", \"piecewise_linear\", \"gap\", \"stops\", "
+                          "\"polynomial\", \"table\", \"formula\", \"logarithmic\" or \"power\", "
                           "did you mean \"linear\"?"));
 }
 
 TEST_F(CaseMessages, OfOneRunSayWhich) {
-  EXPECT_THAT(after("values = [0, \"0.1*K*L^2\"]", "values = [0, -0.1]"),
-              ElementsAre("case.toml:17:112: chain[1].elements[2].spring.stiffness: got \"Kv\" = "
-                          "-0.1, need a number >= 0 [N*mm/rad] (study \"Q2\", run 2)",
-                          "case.toml:24:111: chain[2].elements[2].spring.stiffness: got \"Kv\" = "
-                          "-0.1, need a number >= 0 [N*mm/rad] (study \"Q2\", run 2)"));
+  EXPECT_THAT(
+      after("values = [0, \"0.1*K*L^2\"]", "values = [0, -0.1]"),
+      ElementsAre("case.toml:17:112: chain[1].elements[2].spring.stiffness: got \"Kv\" = "
+                  "-0.1, need a number >= 0 [N*mm/rad], or falling = true for a law that may "
+                  "fall (study \"Q2\", run 2)",
+                  "case.toml:24:111: chain[2].elements[2].spring.stiffness: got \"Kv\" = "
+                  "-0.1, need a number >= 0 [N*mm/rad], or falling = true for a law that may "
+                  "fall (study \"Q2\", run 2)"));
 }
 
 TEST_F(CaseMessages, OfTheAnalysisComeWithThePlaceOfTheKey) {

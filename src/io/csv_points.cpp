@@ -1,0 +1,58 @@
+#include "csv_points.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace springfold::io {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// A finite number that is the whole field.
+std::optional<double> number_in(std::string_view field) {
+  double value = 0;
+  if (field.starts_with('+')) field.remove_prefix(1);
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems) {
+  std::vector<CsvPoint> points;
+  int number = 0;
+  bool first = true;
+  const std::string_view text{file.text};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    const std::string_view content = trimmed(line.substr(0, line.find('#')));
+    if (content.empty()) continue;
+    const bool may_be_words = first;
+    first = false;
+    const std::size_t comma = content.find(',');
+    const bool pair =
+        comma != std::string_view::npos && content.find(',', comma + 1) == std::string_view::npos;
+    const auto x = pair ? number_in(trimmed(content.substr(0, comma))) : std::nullopt;
+    const auto y = pair ? number_in(trimmed(content.substr(comma + 1))) : std::nullopt;
+    if (x && y) {
+      points.push_back({*x, *y, number, static_cast<int>(line.find(',')) + 2});
+    } else if (!(may_be_words && pair && !x && !y)) {
+      problems.add({file.shown_name, number, 1}, "",
+                   "need two numbers with a comma between them: deformation, torque");
+    }
+  }
+  return points;
+}
+
+}  // namespace springfold::io
