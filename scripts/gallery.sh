@@ -45,6 +45,9 @@ posture_of() {
     rrr-platform) echo torque/LP1 ;;
     serial-2r) echo straight/EP3 ;;
     serial-3r) echo moment/EP2 ;;
+    "shape-springs, ball") echo push/UZ1 ;;
+    "shape-springs, kresling") echo press/LP2 ;;
+    "shape-springs, wall") echo press/UZ1 ;;
     "snap-through, column") echo press/EP3 ;;
     "snap-through, orthoglide") echo Q2/LP1 ;;
     "snap-through, strut") echo press/LP1 ;;

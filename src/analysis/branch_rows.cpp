@@ -8,6 +8,7 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
+#include "switch_words.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -95,27 +96,6 @@ std::vector<Entry> reversed(std::vector<Entry> entries) {
     }
   }
   return entries;
-}
-
-std::string switching_detail(const statics::System& system, const Hit& hit, const Piece& before,
-                             const Piece& after) {
-  std::string text;
-  for (const Index j : hit.switches) {
-    const statics::CoordinateSpring& spring =
-        system.springs[system.switches[static_cast<std::size_t>(j)].spring];
-    const std::size_t from = segment_of(spring, before), to = segment_of(spring, after);
-    const double at = system.switches[static_cast<std::size_t>(j)].breakpoint;
-    const double k_from = spring.law.stiffness(from, at), k_to = spring.law.stiffness(to, at);
-    const bool was_flat = k_from == 0 && spring.law.is_straight(from);
-    const bool gets_flat = k_to == 0 && spring.law.is_straight(to);
-    const char* word = was_flat && !gets_flat   ? "becomes active"
-                       : !was_flat && gets_flat ? "is released"
-                       : k_to > k_from          ? "gets stiffer"
-                                                : "gets softer";
-    text += (text.empty() ? "spring " : ", spring ") + spring.name + " " + word + " (segment " +
-            std::to_string(from) + " to " + std::to_string(to) + ")";
-  }
-  return text;
 }
 
 /// Does the force turn back at a switching although it is regular on both sides?
@@ -249,14 +229,6 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
 }
 
 }  // namespace
-
-std::string piece_text(const statics::System& system, const Piece& piece) {
-  std::string text;
-  for (const statics::CoordinateSpring& spring : system.springs)
-    if (!spring.law.breakpoints.empty())
-      text += (text.empty() ? "" : ".") + std::to_string(segment_of(spring, piece));
-  return text;
-}
 
 BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {

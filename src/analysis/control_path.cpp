@@ -160,6 +160,7 @@ bool ControlProblem::derivatives(const Vector& y, double lambda, const Piece& pi
 
 bool ControlProblem::switches(const Vector& y, double, Vector& g) const {
   // Switches belong to joints, which stand at the same place in y and in z: all before the poses.
+  // Springs of shapes are refused (check_mechanism).
   const auto& list = setup_.system.switches;
   g.resize(std::ssize(list));
   for (Index j = 0; j < g.size(); ++j) {

@@ -106,6 +106,12 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
                                                      state.z, state.inputs.rho);
       return q.scale * (q.kind == Kind::spring_length ? spring.length : spring.force);
     }
+    case Kind::shape_value:
+    case Kind::shape_force: {
+      const auto shape =
+          statics::shape_state(system(), static_cast<std::size_t>(q.entry), state.z, state.inputs);
+      return q.scale * (q.kind == Kind::shape_value ? shape.value : shape.slope);
+    }
     case Kind::index:
       return point.negative ? static_cast<double>(*point.negative - problem_.closures())
                             : undefined;

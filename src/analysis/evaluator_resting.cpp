@@ -24,6 +24,9 @@ std::optional<RestingIndex> Evaluator::resting_index_of(
   if (stages_ || !problem_.symmetric()) return std::nullopt;
   const std::vector<std::size_t> resting = resting_switches(problem_, point);
   if (resting.empty()) return std::nullopt;
+  const std::vector<Index> coordinates = coordinates_of(problem_, point.lambda, resting);
+  if (std::find(coordinates.begin(), coordinates.end(), -1) != coordinates.end())
+    return std::nullopt;  // of a shape: the pieces do not differ by one entry of the diagonal
   const auto own = [&](const Piece& piece) -> std::optional<Matrix> {
     Matrix J;
     Vector dF_dlambda;
@@ -39,8 +42,7 @@ std::optional<RestingIndex> Evaluator::resting_index_of(
     return Matrix(statics::without_gauge(at->A, at->work).topLeftCorner(first_pose_, first_pose_));
   };
   return resting_index(kind == Kind::index ? MatrixOfPiece(own) : MatrixOfPiece(whole), point.piece,
-                       resting, coordinates_of(problem_, point.lambda, resting),
-                       problem_.closures());
+                       resting, coordinates, problem_.closures());
 }
 
 void Evaluator::decide_indices(const std::vector<QuantityDefinition>& quantities,

@@ -226,6 +226,8 @@ MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEqui
                        const std::vector<CountedEquilibrium>& distinct) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return does_not_apply("the load has no potential");
+  if (!system.shapes.empty())
+    return does_not_apply("springs of shapes and pressures are not counted");
   if (!system.loads.empty()) return does_not_apply("weights and loads at points are not counted");
   if (system.mechanism.bodies.size() != 1)
     return does_not_apply(

@@ -158,6 +158,7 @@ bool PathProblem::switches(const Vector& y, double lambda, Vector& g) const {
   g.resize(static_cast<Index>(list.size()));
   for (Index j = 0; j < g.size(); ++j) {
     const statics::Switch& s = list[static_cast<std::size_t>(j)];
+    if (s.of_shape()) return put_shape_switches(y, lambda, j, g);  // they stand behind the others
     g[j] = y[s.coordinate] - s.breakpoint;
   }
   return g.allFinite();
@@ -177,12 +178,17 @@ bool PathProblem::switch_gradients(const Vector& y, double lambda, Matrix& dg_dy
   const auto m = static_cast<Index>(list.size());
   dg_dy = Matrix::Zero(m, y.size());
   dg_dlambda = Vector::Zero(m);
-  for (Index j = 0; j < m; ++j) dg_dy(j, list[static_cast<std::size_t>(j)].coordinate) = 1;
+  Index joints = 0;
+  for (; joints < m && !list[static_cast<std::size_t>(joints)].of_shape(); ++joints)
+    dg_dy(joints, list[static_cast<std::size_t>(joints)].coordinate) = 1;
+  if (joints < m && !put_shape_gradients(y, lambda, joints, dg_dy, dg_dlambda)) return false;
   if (!rule_.family || m == 0) return true;
-  const auto rate =
-      six_point_derivative([this](double l) { return breakpoints(l); }, lambda, rule_.family_step);
+  const auto rate = joints < m ? six_point_derivative([&](double l) { return switches_at(y, l); },
+                                                      lambda, rule_.family_step)
+                               : six_point_derivative([this](double l) { return breakpoints(l); },
+                                                      lambda, rule_.family_step);
   if (!rate) return false;
-  dg_dlambda = -*rate;
+  dg_dlambda = joints < m ? *rate : Vector(-*rate);
   return true;
 }
 
@@ -244,6 +250,7 @@ std::vector<Index> PathProblem::double_covers() const {
 
 std::string PathProblem::switch_name(Index j) const {
   const statics::Switch& s = system_.switches[static_cast<std::size_t>(j)];
+  if (s.of_shape()) return shape_switch_name(s, j);
   const statics::CoordinateSpring& spring = system_.springs[s.spring];
   const auto i = static_cast<std::size_t>(j - spring.first_switch);
   const double below = spring.law.stiffness(i, s.breakpoint);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "springfold/statics/system.hpp"
 
@@ -128,6 +129,11 @@ class PathProblem {
   bool has_rotations(const Vector& y) const;
   const std::vector<model::Mat3<double>>& frames(const Vector& y) const;
   std::optional<Vector> breakpoints(double lambda) const;
+  std::optional<Vector> switches_at(const Vector& y, double lambda) const;
+  bool put_shape_switches(const Vector& y, double lambda, Index first, Vector& g) const;
+  bool put_shape_gradients(const Vector& y, double lambda, Index first, Matrix& dg_dy,
+                           Vector& dg_dlambda) const;
+  std::string shape_switch_name(const statics::Switch& s, Index j) const;
 
   statics::System system_;
   PathRule rule_;
@@ -144,6 +150,7 @@ class PathProblem {
   Vector none_{};  ///< where commands do not move
   mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
   mutable std::vector<model::Mat3<double>> frames_{};
+  mutable statics::SwitchGradient switch_gradient_{};
   mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains
   mutable Matrix basis_{}, added_{};
   mutable double family_lambda_ = 0;

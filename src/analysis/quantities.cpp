@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "setup.hpp"
+#include "shape_units.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -38,6 +39,16 @@ void add_points(const statics::System& system, const Scales& scales,
     list.push_back({Kind::spring_length, entry, name + ".length", Unit::length, scales.length});
     list.push_back({Kind::spring_force, entry, name + ".force", Unit::force, scales.force});
   }
+  for (std::size_t i = 0; i < system.mechanism.shape_springs.size(); ++i) {
+    const model::ShapeSpring& spring = system.mechanism.shape_springs[i];
+    const model::ShapeKind kind = spring.shape.kind;
+    const auto entry = static_cast<Index>(i);
+    const ShapeColumn value = value_column(kind), force = force_column(kind);
+    list.push_back({Kind::shape_value, entry, spring.name + "." + value.name, value.unit,
+                    unit_of_value(kind, scales)});
+    list.push_back({Kind::shape_force, entry, spring.name + "." + force.name, force.unit,
+                    force.sign * unit_of_force(kind, scales)});
+  }
 }
 
 /// Loads without potential: eigenvalues and determinant of the tangent stiffness in place of counts.
@@ -69,6 +80,8 @@ bool is_continuous(const QuantityDefinition& q) {
     case Kind::point:
     case Kind::spring_length:
     case Kind::spring_force:
+    case Kind::shape_value:
+    case Kind::shape_force:
       return true;
     case Kind::tangent_eigenvalue:
     case Kind::tangent_imaginary:

@@ -32,6 +32,8 @@ struct QuantityDefinition {
     point,                ///< entry / 3: which of the system's points; entry % 3: its x, y or z
     spring_length,        ///< of a line spring
     spring_force,         ///< with which a line spring pulls
+    shape_value,          ///< of a spring of a shape: its length, angle, area, ...
+    shape_force,          ///< energy per that, or the pressure
     tangent_eigenvalue,   ///< of the reduced tangent stiffness, loads without potential: real part
     tangent_imaginary,    ///< imaginary part
     tangent_determinant,  ///< zero at critical states

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape_units.hpp"
 #include "springfold/core/scaling.hpp"
 #include "units.hpp"
 
@@ -32,6 +33,14 @@ bool slides(const model::Chain& chain, const model::CoupledSpring& spring, std::
   return std::get<Joint>(chain.elements[spring.elements[i]]).kind == JointKind::prismatic;
 }
 
+/// Every shape of a spring or a pressure.
+template <class Mechanism, class Visit>
+void for_each_shape(Mechanism& mechanism, const Visit& visit) {
+  for (auto& spring : mechanism.shape_springs) visit(spring.shape);
+  for (auto& load : mechanism.loads)
+    if (load.kind == model::LoadKind::pressure) visit(load.shape);
+}
+
 /// Lengths of points, loads and line springs.
 template <class Visit>
 void for_each_point_length(const model::Mechanism& mechanism, const Visit& visit) {
@@ -43,6 +52,12 @@ void for_each_point_length(const model::Mechanism& mechanism, const Visit& visit
   for (const model::LineSpring& spring : mechanism.line_springs)
     for (const double length : {spring.from.at.norm(), spring.to.at.norm(), spring.free})
       visit(length);
+  for_each_shape(mechanism, [&](const model::Shape& shape) {
+    for (const model::Anchor& point : shape.points) visit(point.at.norm());
+  });
+  for (const model::ShapeSpring& spring : mechanism.shape_springs)
+    if (!spring.gas && length_power(spring.shape.kind) == 1)
+      for (const double position : positions_of(spring.law)) visit(position);
 }
 
 double largest_length(const model::Mechanism& mechanism) {
@@ -83,11 +98,24 @@ void make_dimensionless(const model::Chain& chain, const Scales& scales,
   spring.free = spring.free.cwiseQuotient(coordinate).eval();
 }
 
+/// Of the vector of a load, in terms of the unit of length and with a force of one scale.
+double unit_of_load(const model::Load& load, const Scales& scales) {
+  switch (load.kind) {
+    case model::LoadKind::force:
+      return scales.force;
+    case model::LoadKind::moment:
+      return scales.moment();
+    case model::LoadKind::pressure:
+      return unit_of_force(load.shape.kind, scales);
+  }
+  return 1;
+}
+
 /// Sizes of loads and weights as forces: they set the scale where there is no spring.
 std::vector<double> load_forces(const model::Mechanism& mechanism, double length) {
   std::vector<double> forces;
   for (const model::Load& load : mechanism.loads)
-    forces.push_back(load.vector.norm() / (load.kind == model::LoadKind::force ? 1 : length));
+    forces.push_back(load.vector.norm() / unit_of_load(load, {.length = length}));
   const double gravity = mechanism.gravity.norm();
   for (const model::Body& body : mechanism.bodies) forces.push_back(std::abs(body.mass) * gravity);
   for (const model::Chain& chain : mechanism.chains)
@@ -95,6 +123,17 @@ std::vector<double> load_forces(const model::Mechanism& mechanism, double length
       forces.push_back(std::abs(point.mass) * gravity);
   std::erase(forces, 0.0);
   return forces;
+}
+
+/// Of a shape's spring that is stretched by the unit of alpha: energy over length.
+void add_forces(const model::ShapeSpring& spring, double length, std::vector<double>& forces) {
+  const double unit = unit_of_value(spring.shape.kind, {.length = length});
+  if (spring.gas) {
+    if (spring.gas->nRT > 0) forces.push_back(spring.gas->nRT / length);
+    return;
+  }
+  for (const double k : model::typical_stiffnesses(model::compile(spring.law), unit))
+    forces.push_back(k * unit * unit / length);
 }
 
 }  // namespace
@@ -116,6 +155,8 @@ std::vector<double> spring_forces(const model::Mechanism& mechanism, double leng
       }
   for (const model::LineSpring& spring : mechanism.line_springs)
     if (spring.stiffness > 0) forces.push_back(spring.stiffness * length);
+  for (const model::ShapeSpring& spring : mechanism.shape_springs)
+    add_forces(spring, length, forces);
   return forces;
 }
 
@@ -160,7 +201,17 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
   for (model::Body& body : m.bodies) body.centre /= scales.length;
   for (model::Load& load : m.loads) {
     load.on.at /= scales.length;
-    load.vector /= load.kind == model::LoadKind::force ? scales.force : scales.moment();
+    load.vector /= unit_of_load(load, scales);
+  }
+  for_each_shape(m, [&](model::Shape& shape) {
+    for (model::Anchor& point : shape.points) point.at /= scales.length;
+  });
+  for (model::ShapeSpring& spring : m.shape_springs) {
+    const double value = unit_of_value(spring.shape.kind, scales);
+    spring.law = scaled(spring.law, value, scales.moment() / value);
+    if (!spring.gas) continue;
+    spring.gas->nRT /= scales.moment();
+    spring.gas->initial /= value;
   }
   for (model::LineSpring& spring : m.line_springs) {
     for (model::Anchor* end : {&spring.from, &spring.to}) end->at /= scales.length;

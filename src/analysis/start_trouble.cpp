@@ -6,6 +6,7 @@
 #include "number_text.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/statics/kinematics.hpp"
+#include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stiffness.hpp"
 
 namespace springfold::analysis {
@@ -152,6 +153,24 @@ void explain_imbalance(const Setup& setup, const Study& study, const statics::St
       "control = \"pose\" or \"mixed\"), or take away the load along it";
 }
 
+/// A spring of a shape that has no force in the guess. @returns whether there is one
+bool explain_shape(const Setup& setup, const Study& study, const statics::StartProblem& problem,
+                   StartReport& report) {
+  for (std::size_t i = 0; i < setup.system.shapes.size(); ++i) {
+    const statics::PointShape& shape = setup.system.shapes[i];
+    const auto at = shape_state(setup.system, i, problem.z, problem.inputs);
+    const bool vanishes = shape.shape.kind == model::ShapeKind::path && at.value == 0;
+    if (std::isfinite(at.value) && std::isfinite(at.slope) && !vanishes) continue;
+    report.where = pose_key(setup, study);
+    report.message = "\"" + shape.name + "\" has no force in this guess: " +
+                     (shape.gas ? "its gas has no volume there, or a negative one"
+                                : "some of its points coincide there, or lie in line");
+    report.advice = "start from another guess";
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string free_motions(const statics::System& system, const Vector& z,
@@ -212,6 +231,7 @@ void explain_failure(const Setup& setup, const Study& study, const statics::Star
       report.where = "start.solve";
       return;
   }
+  if (explain_shape(setup, study, problem, report)) return;
   if (setup.system.size > most_looked_into) {
     report.where = pose_key(setup, study);
     report.message =

@@ -21,15 +21,16 @@ void check_loads(const Study& study, const model::Mechanism& mechanism,
           "loads: scale = \"lambda\" needs a study that drives one of load, pose, "
           "mixed, actuator");
   const auto in_chain = [](const model::Anchor& anchor) { return anchor.chain >= 0; };
-  bool loaded_chains = !mechanism.line_springs.empty();
-  for (const model::Load& load : mechanism.loads) loaded_chains |= in_chain(load.on);
+  bool loaded_chains = !mechanism.line_springs.empty() || !mechanism.shape_springs.empty();
+  for (const model::Load& load : mechanism.loads)
+    loaded_chains |= in_chain(load.on) || load.kind == model::LoadKind::pressure;
   for (const model::Chain& chain : mechanism.chains)
     for (const model::ChainPoint& point : chain.points)
       loaded_chains |= point.mass != 0 && !mechanism.gravity.isZero(0);
   if (loaded_chains && study.start.solver == StartSolver::fixed_point)
     problems.push_back(
         "start.solver: the paper's fixed-point iteration knows wrenches at the ends "
-        "of chains only, no loads, masses and line springs within them");
+        "of chains only, no loads, masses and springs between points within them");
 }
 
 void check_direction(const Study& study, const model::Body& body, bool some_load_grows,

@@ -29,6 +29,7 @@ class Painter {
     paint_base();
     paint_links();
     paint_gaps();
+    for (const OutlinePart& outline : scene_.outlines) paint(outline);
     for (const SpringPart& spring : scene_.springs) paint(spring);
     for (const StopPart& stop : scene_.stops) paint(stop);
     for (const JointPart& joint : scene_.joints) paint(joint);
@@ -145,6 +146,15 @@ class Painter {
            title});
     else
       picture_.marks.emplace_back(Disc{to, 1.6 * sheet_.joint, ink, title});
+  }
+
+  void paint(const OutlinePart& outline) {
+    Path path{.is_closed = outline.corners.size() > 2,
+              .ink = {spring_colour, "", 1.2, {5, 3}},
+              .title = "spring or pressure " + outline.name,
+              .is_obstacle = false};
+    for (const PointId corner : outline.corners) path.places.push_back(place(corner));
+    add(std::move(path));
   }
 
   void paint(const StopPart& stop) {
@@ -323,6 +333,8 @@ std::vector<PointId> places_of(const Scene& scene) {
     places.insert(places.end(), body.corners.begin(), body.corners.end());
   for (const SpringPart& spring : scene.springs)
     places.insert(places.end(), {spring.from, spring.to});
+  for (const OutlinePart& outline : scene.outlines)
+    places.insert(places.end(), outline.corners.begin(), outline.corners.end());
   for (const GapPart& gap : scene.gaps) places.insert(places.end(), {gap.end, gap.attachment});
   for (const LoadPart& load : scene.loads) places.push_back(load.at);
   for (const BasePart& base : scene.base) places.push_back(base.at);

@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "chain_walk.hpp"
+#include "shape_parts.hpp"
 #include "springfold/model/rotation_vector.hpp"
+#include "springfold/statics/shapes.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -37,6 +39,7 @@ class Builder {
     add_bodies();
     for (std::size_t i = 0; i < mechanism_.chains.size(); ++i) add_chain(i);
     add_line_springs();
+    add_shapes();
     add_loads();
     add_weights();
     for (const BodyWrench& wrench : posture_.wrenches) add_wrench(wrench);
@@ -130,8 +133,33 @@ class Builder {
     }
   }
 
+  std::vector<PointId> add_anchors(const model::Shape& shape) {
+    std::vector<PointId> list;
+    for (const model::Anchor& point : shape.points) list.push_back(add_anchor(point));
+    return list;
+  }
+
+  void add_shapes() {
+    for (std::size_t i = 0; i < mechanism_.shape_springs.size(); ++i) {
+      const model::ShapeSpring& spring = mechanism_.shape_springs[i];
+      const std::vector<PointId> points = add_anchors(spring.shape);
+      const double alpha =
+          statics::shape_state(system_, i, posture_.z, {posture_.rho, {}, {}}).value;
+      add_shape_spring(spring, points, alpha, scene_);
+      const auto is_base = [](const model::Anchor& a) { return a.chain < 0 && a.body == 0; };
+      const bool is_way = spring.shape.kind == model::ShapeKind::path;
+      for (std::size_t k = 0; is_way && k < points.size(); ++k)
+        if (is_base(spring.shape.points[k]))
+          scene_.base.push_back({points[k], points[k > 0 ? k - 1 : 1]});
+    }
+    for (const model::Load& load : mechanism_.loads)
+      if (load.kind == model::LoadKind::pressure)
+        add_outlines(load.name, load.shape, add_anchors(load.shape), scene_);
+  }
+
   void add_loads() {
     for (const model::Load& load : mechanism_.loads) {
+      if (load.kind == model::LoadKind::pressure) continue;  // add_shapes
       const Frame frame = frame_at(load.on);
       const double factor = load.with_lambda ? posture_.lambda : 1;
       const Vec vector = factor * (load.follows ? Vec(frame.R * load.vector) : load.vector);

@@ -58,6 +58,11 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
     const LineSpringDraft& at = draft.springs[spring->number - 1];
     return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
   }
+  const auto shape = numbered(view, "shape");
+  if (shape && shape->number <= draft.shape_springs.size()) {
+    const ShapeSpringDraft& at = draft.shape_springs[shape->number - 1];
+    return problems.add(at.place, at.key, rest_of(view.substr(shape->length)), when);
+  }
   const auto chain = numbered(view, "chain");
   if (!chain || chain->number > draft.chains.size())
     return problems.add(study.place, study.key, text, when);

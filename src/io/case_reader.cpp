@@ -163,7 +163,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
   for (const Document& document : documents)  // the case's own comes last and counts
     if (const Node* gravity = document.root.find("gravity"))
       read_gravity({gravity, "gravity"}, draft.mechanism, reading);
-  read_line_springs(tables_of(documents, "spring", reading), draft.mechanism, reading);
+  read_springs(tables_of(documents, "spring", reading), draft.mechanism, reading);
   const Index only_body = draft.mechanism.bodies.size() == 1 ? 1 : 0;
   draft.mechanism.loads = read_loads(tables_of(documents, "load", reading), draft.mechanism,
                                      only_body, draft.mechanism.numbers, reading);

@@ -30,7 +30,8 @@ bool is_taken(const std::string& name, const MechanismDraft& draft) {
   const auto has_name = [&name](const auto& thing) { return thing.name == name; };
   return name == "base" || std::any_of(draft.bodies.begin(), draft.bodies.end(), has_name) ||
          std::any_of(draft.chains.begin(), draft.chains.end(), has_name) ||
-         std::any_of(draft.springs.begin(), draft.springs.end(), has_name);
+         std::any_of(draft.springs.begin(), draft.springs.end(), has_name) ||
+         std::any_of(draft.shape_springs.begin(), draft.shape_springs.end(), has_name);
 }
 
 }  // namespace

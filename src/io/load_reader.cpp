@@ -1,62 +1,9 @@
-// `gravity`, [[spring]] and loads.
-#include <algorithm>
-
-#include "mechanism_reader.hpp"
+// `gravity` and loads.
+#include "anchor_reader.hpp"
+#include "shape_reader.hpp"
 
 namespace springfold::io {
 namespace {
-
-/// Bodies and "chain.point", for messages.
-std::vector<std::string> anchor_names(const MechanismDraft& draft, bool base_allowed) {
-  std::vector<std::string> names;
-  if (base_allowed) names.push_back("base");
-  for (const BodyDraft& body : draft.bodies)
-    if (!body.name.empty()) names.push_back(body.name);
-  for (const ChainDraft& chain : draft.chains)
-    for (const PointDraft& point : chain.points)
-      if (!point.name.empty()) names.push_back(chain.name + "." + point.name);
-  return names;
-}
-
-/// "tool" or "leg.knee"; reports others.
-void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
-                 AnchorDraft& anchor, Reading& reading) {
-  const std::string& name = item.node->text;
-  if (base_allowed && name == "base") return void(anchor.body = 0);
-  for (std::size_t b = 0; b < draft.bodies.size(); ++b)
-    if (draft.bodies[b].name == name) return void(anchor.body = static_cast<Index>(b + 1));
-  for (std::size_t c = 0; c < draft.chains.size(); ++c)
-    for (std::size_t p = 0; p < draft.chains[c].points.size(); ++p) {
-      const std::string& point = draft.chains[c].points[p].name;
-      if (point.empty() || draft.chains[c].name + "." + point != name) continue;
-      anchor.chain = static_cast<Index>(c);
-      anchor.point = p;
-      return;
-    }
-  reading.problems.add(item.node->place, item.key,
-                       "got " + described(*item.node) + ", need " +
-                           (base_allowed ? "\"base\", " : "") +
-                           "the name of a moving body, or \"chain.point\" for a { point = ... } "
-                           "in a chain" +
-                           suggestion(name, anchor_names(draft, base_allowed)));
-}
-
-bool lives_in_plane(const MechanismDraft& draft, const AnchorDraft& anchor) {
-  const Index body =
-      anchor.chain >= 0 ? draft.chains[static_cast<std::size_t>(anchor.chain)].to : anchor.body;
-  const auto b = static_cast<std::size_t>(body);
-  if (b == 0) return std::all_of(draft.bodies.begin(), draft.bodies.end(), is_planar);
-  return b > draft.bodies.size() || is_planar(draft.bodies[b - 1]);
-}
-
-std::vector<NumberId> read_at(const TableReader& table, const std::string& name,
-                              const MechanismDraft& draft, const AnchorDraft& anchor,
-                              NumberTable& numbers, Reading& reading) {
-  const Node* at = table.find(name);
-  if (!at) return {};
-  return read_vector3({at, table.key_of(name)}, lives_in_plane(draft, anchor), reading.units.length,
-                      numbers, reading);
-}
 
 class LoadReader {
  public:
@@ -64,7 +11,8 @@ class LoadReader {
              Reading& reading)
       : table_{*item.node,
                item.key,
-               {"name", "on", "at", "force", "moment", "follows", "scale"},
+               {"name", "on", "at", "force", "moment", "follows", "scale", "pressure", "shape",
+                "of", "triangles"},
                reading},
         mechanism_{mechanism},
         numbers_{numbers},
@@ -75,6 +23,12 @@ class LoadReader {
 
   LoadDraft read(Index body) {
     draft_.name = table_.text("name").value_or("");
+    draft_.with_lambda = table_.choice("scale", {"constant", "lambda"}, 0) == 1;
+    if (table_.has("pressure")) {
+      read_pressure();
+      return std::move(draft_);
+    }
+    refuse({"shape", "of", "triangles"}, "only a load with `pressure` has it");
     read_place(body);
     read_vector();
     if (const Node* follows = table_.find("follows")) {
@@ -83,11 +37,29 @@ class LoadReader {
                               "got " + described(*follows) + ", need true or false");
       draft_.follows = follows->kind == Node::Kind::boolean && follows->number != 0;
     }
-    draft_.with_lambda = table_.choice("scale", {"constant", "lambda"}, 0) == 1;
     return std::move(draft_);
   }
 
  private:
+  void refuse(const std::vector<std::string>& keys, const std::string& why) {
+    for (const std::string& key : keys)
+      if (const Node* node = table_.find(key))
+        reading_.problems.add(node->place, table_.key_of(key), why);
+  }
+
+  /// On the boundary of an area or a volume.
+  void read_pressure() {
+    refuse({"on", "at", "force", "moment", "follows"},
+           "a pressure acts on the boundary of its shape: need `shape` and `of` instead");
+    draft_.kind = model::LoadKind::pressure;
+    draft_.shape = read_shape(table_, {"area", "volume"}, mechanism_, numbers_, reading_);
+    const std::string area = draft_.shape.kind == model::ShapeKind::volume ? "^2" : "";
+    const NumberId p = table_.required_number(
+        "pressure", {Range::finite, reading_.units.force + "/" + reading_.units.length + area},
+        numbers_);
+    draft_.vector = {p, numbers_.add(0), numbers_.add(0)};
+  }
+
   void read_place(Index body) {
     draft_.on.body = body;
     if (table_.text("on"))
@@ -132,29 +104,6 @@ class LoadReader {
 void read_gravity(const Item& item, MechanismDraft& draft, Reading& reading) {
   draft.gravity =
       read_vector3(item, true, reading.units.force + " per unit of mass", draft.numbers, reading);
-}
-
-void read_line_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
-  for (const Item& item : tables) {
-    const TableReader table{*item.node,
-                            item.key,
-                            {"name", "from", "from_at", "to", "to_at", "stiffness", "free"},
-                            reading};
-    LineSpringDraft spring{.place = item.node->place, .key = item.key};
-    spring.name = read_own_name(table, draft, reading);
-    NumberTable& numbers = draft.numbers;
-    if (table.text("from"))
-      find_anchor({table.find("from"), table.key_of("from")}, draft, true, spring.from, reading);
-    if (table.required_text("to", "the name of a body, or \"chain.point\""))
-      find_anchor({table.find("to"), table.key_of("to")}, draft, true, spring.to, reading);
-    spring.from.at = read_at(table, "from_at", draft, spring.from, numbers, reading);
-    spring.to.at = read_at(table, "to_at", draft, spring.to, numbers, reading);
-    const std::string length = reading.units.length;
-    spring.stiffness = table.required_number(
-        "stiffness", {Range::non_negative, reading.units.force + "/" + length}, numbers);
-    spring.free = table.number("free", {Range::non_negative, length}, numbers, 0);
-    draft.springs.push_back(std::move(spring));
-  }
 }
 
 std::vector<LoadDraft> read_loads(const std::vector<Item>& tables, const MechanismDraft& draft,

@@ -123,6 +123,22 @@ model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
           .at = vec3_of(draft.at, numbers)};
 }
 
+model::Shape shape_of(const ShapeDraft& draft, const Numbers& numbers) {
+  model::Shape shape{.kind = draft.kind, .closed = draft.closed, .triangles = draft.triangles};
+  for (const AnchorDraft& point : draft.points) shape.points.push_back(anchor_of(point, numbers));
+  if (draft.near) shape.near = numbers[*draft.near];
+  return shape;
+}
+
+model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft, const Numbers& numbers) {
+  model::ShapeSpring spring{.name = draft.name, .shape = shape_of(draft.shape, numbers)};
+  if (draft.law) spring.law = law_of(*draft.law, numbers);
+  if (draft.gas)
+    spring.gas = {numbers[draft.gas->nRT], numbers[draft.gas->initial],
+                  numbers[draft.gas->exponent]};
+  return spring;
+}
+
 model::ChainPoint point_of(const PointDraft& draft, std::size_t elements_before,
                            const Numbers& numbers) {
   return {.name = draft.name,
@@ -151,7 +167,8 @@ std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts, const
                      .kind = draft.kind,
                      .follows = draft.follows,
                      .with_lambda = draft.with_lambda,
-                     .vector = vec3_of(draft.vector, numbers)});
+                     .vector = vec3_of(draft.vector, numbers),
+                     .shape = shape_of(draft.shape, numbers)});
   return loads;
 }
 
@@ -196,6 +213,8 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
                                       .to = anchor_of(spring.to, numbers),
                                       .stiffness = numbers[spring.stiffness],
                                       .free = numbers[spring.free]});
+  for (const ShapeSpringDraft& spring : draft.shape_springs)
+    mechanism.shape_springs.push_back(shape_spring_of(spring, numbers));
   return mechanism;
 }
 

@@ -84,12 +84,22 @@ struct AnchorDraft {
   std::vector<NumberId> at{};
 };
 
+/// Points of which a spring or a pressure takes one number.
+struct ShapeDraft {
+  model::ShapeKind kind = model::ShapeKind::path;
+  std::vector<AnchorDraft> points{};
+  bool closed = false;
+  std::vector<std::array<std::size_t, 3>> triangles{};
+  std::optional<NumberId> near{};
+};
+
 struct LoadDraft {
   std::string name{};
   AnchorDraft on{};
   model::LoadKind kind = model::LoadKind::force;
   std::vector<NumberId> vector{};  ///< x, y, z
   bool follows = false, with_lambda = false;
+  ShapeDraft shape{};  ///< of a pressure
   Place place{};
   std::string key{};
 };
@@ -98,6 +108,19 @@ struct LineSpringDraft {
   std::string name{};
   AnchorDraft from{}, to{};
   NumberId stiffness = 0, free = 0;
+  Place place{};
+  std::string key{};
+};
+
+struct GasDraft {
+  NumberId nRT = 0, initial = 0, exponent = 0;
+};
+
+struct ShapeSpringDraft {
+  std::string name{};
+  ShapeDraft shape{};
+  std::optional<SpringDraft> law{};
+  std::optional<GasDraft> gas{};
   Place place{};
   std::string key{};
 };
@@ -139,6 +162,7 @@ struct MechanismDraft {
   std::vector<ChainDraft> chains{};
   std::vector<NumberId> gravity{};
   std::vector<LineSpringDraft> springs{};
+  std::vector<ShapeSpringDraft> shape_springs{};
   std::vector<LoadDraft> loads{};  ///< of all studies
 };
 

@@ -31,7 +31,7 @@ void read_elements(const std::vector<Item>& elements, bool planar,
 
 /// `gravity`, [[spring]] and [[load]] tables. All chains must be read before.
 void read_gravity(const Item& item, MechanismDraft& draft, Reading& reading);
-void read_line_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
+void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
 
 /// @param body      the body on which a load acts that does not say where; 0: it must say
 /// @param numbers   the table that its numbers belong to
@@ -76,6 +76,8 @@ AxisDraft read_axis(const Item& item, NumberTable& numbers, Reading& reading);
 
 /// A table with `law`; nothing if it is no table or has no usable law.
 std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
+                                       NumberTable& numbers, Reading& reading);
+std::optional<SpringDraft> read_spring(const Item& item, const JointUnits& units,
                                        NumberTable& numbers, Reading& reading);
 
 /// Number of a moving body (1, 2, ...) by name; 0 for "base" if `base_allowed`. Reports others.

@@ -32,6 +32,12 @@ std::string unit_text(Unit unit, const UnitLabels& labels) {
       return labels.length + "/" + labels.force;
     case Unit::rotational_compliance:
       return "rad/(" + labels.force + "·" + labels.length + ")";
+    case Unit::area:
+      return labels.length + "²";
+    case Unit::volume:
+      return labels.length + "³";
+    case Unit::pressure:
+      return labels.force + "/" + labels.length + "²";
     case Unit::none:
     case Unit::lambda:
       return "";

@@ -141,6 +141,11 @@ JointUnits units_of(model::JointKind kind, const UnitLabels& labels) {
 
 std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
                                        NumberTable& numbers, Reading& reading) {
+  return read_spring(item, units_of(kind, reading.units), numbers, reading);
+}
+
+std::optional<SpringDraft> read_spring(const Item& item, const JointUnits& units,
+                                       NumberTable& numbers, Reading& reading) {
   std::vector<std::string> words;
   for (const Law& law : laws) words.emplace_back(law.word);
   const std::string need = "a table such as { law = \"linear\", stiffness = ... }";
@@ -150,7 +155,7 @@ std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
     reading.problems.add(item.node->place, item.key + ".law", "missing, need " + choices(words));
     return std::nullopt;
   }
-  const SpringReader reader{item, units_of(kind, reading.units), numbers, reading};
+  const SpringReader reader{item, units, numbers, reading};
   for (const Law& law : laws)
     if (word->kind == Node::Kind::text && word->text == law.word)
       return placed(law.read(reader), reader);

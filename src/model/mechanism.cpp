@@ -6,6 +6,7 @@
 #include <set>
 
 #include "springfold/model/closure.hpp"
+#include "springfold/model/shape.hpp"
 
 namespace springfold::model {
 namespace {
@@ -153,8 +154,48 @@ void check_anchor(const Mechanism& mechanism, const Anchor& anchor, bool turns,
   if (space == TaskSpace::planar && anchor.at[2] != 0) say("at: need a point in the plane, z = 0");
 }
 
+void check_shape(const Mechanism& mechanism, const Shape& shape, const std::string& where,
+                 std::vector<std::string>& problems) {
+  for (std::size_t i = 0; i < shape.points.size(); ++i)
+    check_anchor(mechanism, shape.points[i], false, where + ": of[" + std::to_string(i + 1) + "]",
+                 problems);
+  for (const std::string& problem : problems_in(shape)) problems.push_back(where + ": " + problem);
+  const bool in_plane = std::all_of(mechanism.bodies.begin(), mechanism.bodies.end(),
+                                    [](const Body& body) { return is_planar(body.task_space); });
+  if (in_plane && (shape.kind == ShapeKind::volume || shape.kind == ShapeKind::plane))
+    problems.push_back(where + ": shape: all bodies move in the plane: need an area or a line");
+}
+
+void check_shape_spring(const Mechanism& mechanism, const ShapeSpring& spring,
+                        const std::string& where, std::vector<std::string>& problems) {
+  const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
+  check_shape(mechanism, spring.shape, where, problems);
+  if (!spring.gas) {
+    for (const std::string& problem : problems_in(spring.law)) say("law." + problem);
+    return;
+  }
+  const ShapeKind kind = spring.shape.kind;
+  if (kind != ShapeKind::area && kind != ShapeKind::volume)
+    say("gas: need the shape \"area\" or \"volume\"");
+  if (!(spring.gas->nRT >= 0) || !std::isfinite(spring.gas->nRT))
+    say("gas.nRT: need a finite number >= 0");
+  if (!std::isfinite(spring.gas->initial) || spring.gas->initial == 0)
+    say("gas.initial: need a finite number that is not 0");
+  if (!(spring.gas->exponent > 0) || !std::isfinite(spring.gas->exponent))
+    say("gas.exponent: need a finite number > 0");
+}
+
+void check_pressure(const Mechanism& mechanism, const Load& load, const std::string& where,
+                    std::vector<std::string>& problems) {
+  check_shape(mechanism, load.shape, where, problems);
+  if (!load.vector.allFinite()) problems.push_back(where + ": pressure: need a finite number");
+  if (load.shape.kind != ShapeKind::area && load.shape.kind != ShapeKind::volume)
+    problems.push_back(where + ": shape: a pressure acts on an area or a volume");
+}
+
 void check_load(const Mechanism& mechanism, const Load& load, const std::string& where,
                 std::vector<std::string>& problems) {
+  if (load.kind == LoadKind::pressure) return check_pressure(mechanism, load, where, problems);
   const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
   const bool moment = load.kind == LoadKind::moment;
   const std::string key = moment ? "moment" : "force";
@@ -195,6 +236,11 @@ void check_loads(const Mechanism& mechanism, std::vector<std::string>& problems)
     const std::string where = "spring[" + std::to_string(i + 1) + "]";
     check_unique(mechanism.line_springs[i].name, where, names, problems);
     check_line_spring(mechanism, mechanism.line_springs[i], where, problems);
+  }
+  for (std::size_t i = 0; i < mechanism.shape_springs.size(); ++i) {
+    const std::string where = "shape[" + std::to_string(i + 1) + "]";
+    check_unique(mechanism.shape_springs[i].name, where, names, problems);
+    check_shape_spring(mechanism, mechanism.shape_springs[i], where, problems);
   }
 }
 

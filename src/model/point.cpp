@@ -74,7 +74,7 @@ CompiledPoint compile(const Mechanism& mechanism, const Anchor& anchor) {
 
 bool is_conservative(const Mechanism& mechanism, const Load& load) {
   const bool dead_force = load.kind == LoadKind::force && !load.follows;
-  if (dead_force || load.vector.isZero(0)) return true;
+  if (dead_force || load.kind == LoadKind::pressure || load.vector.isZero(0)) return true;
   const CompiledPoint point = compile(mechanism, load.on);
   const Turning turning = turning_of(point);
   if (turning.freely) return false;

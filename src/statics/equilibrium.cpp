@@ -2,6 +2,7 @@
 
 #include "gauge.hpp"
 #include "point_terms.hpp"
+#include "shape_terms.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/statics/system.hpp"
 
@@ -129,6 +130,7 @@ bool equilibrium_residual(const System& system, const Piece& piece, const Vector
   }
   add_loads(system, z, inputs.W, residual, nullptr);
   add_point_terms(system, z, inputs, work, residual, nullptr, nullptr);
+  add_shape_terms(system, piece, z, inputs, work, residual, nullptr, nullptr);
   add_gauge(system, z, work, residual, nullptr, nullptr);
   return all_finite(residual);
 }
@@ -152,6 +154,7 @@ bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& 
   }
   add_loads(system, z, inputs.W, residual, &A);
   add_point_terms(system, z, inputs, work, residual, &A, dR_drho);
+  add_shape_terms(system, piece, z, inputs, work, residual, &A, dR_drho);
   add_gauge(system, z, work, residual, &A, dR_drho);
   return all_finite(residual) && all_finite(A);
 }

@@ -73,8 +73,8 @@ class Equations {
   }
 
   bool residual(const State& state, Vector& r) {
-    const bool finite = equilibrium_residual(system_, piece_at(system_, state.z), state.z,
-                                             state.inputs, work_, full_);
+    const bool finite = equilibrium_residual(system_, piece_at(system_, state.z, state.inputs.rho),
+                                             state.z, state.inputs, work_, full_);
     r = full_(selection_.rows);
     return finite;
   }
@@ -97,8 +97,8 @@ class Equations {
   }
 
   bool jacobian(const State& state, Matrix& J) {
-    const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z), state.z,
-                                           state.inputs, work_, full_, A_, &dR_drho_);
+    const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z, state.inputs.rho),
+                                           state.z, state.inputs, work_, full_, A_, &dR_drho_);
     Matrix wide(A_.rows(), A_.cols() + dR_drho_.cols());
     wide << A_, dR_drho_;
     J = wide(selection_.rows, selection_.unknowns);

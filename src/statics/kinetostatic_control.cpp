@@ -6,6 +6,7 @@
 
 #include "kinsol_newton.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
+#include "springfold/statics/shapes.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -55,20 +56,18 @@ bool is_solved(const System& system, const ControlSolver& s) {
   return gap <= tolerance * size && force <= tolerance * std::max(size, wrench);
 }
 
-void set_piece(const System& system, const Vector& z, Piece& piece) {
-  for (std::size_t j = 0; j < system.switches.size(); ++j) {
-    const Switch& s = system.switches[j];
-    piece[j] = z[s.coordinate] >= s.breakpoint ? std::int8_t{1} : std::int8_t{-1};
-  }
+void set_piece(const System& system, const Vector& z, const Vector& rho, Piece& piece) {
+  for (std::size_t j = 0; j < system.switches.size(); ++j)
+    piece[j] = switch_value(system, j, z, rho) >= 0 ? std::int8_t{1} : std::int8_t{-1};
 }
 
 bool evaluate(const System& system, ControlSolver& s) {
-  set_piece(system, s.z, s.piece);
+  set_piece(system, s.z, s.inputs.rho, s.piece);
   return equilibrium_matrix(system, s.piece, s.z, s.inputs, s.work, s.r, s.A, &s.dR_drho);
 }
 
 bool evaluate_residual(const System& system, ControlSolver& s) {
-  set_piece(system, s.z, s.piece);
+  set_piece(system, s.z, s.inputs.rho, s.piece);
   const bool finite = equilibrium_residual(system, s.piece, s.z, s.inputs, s.work, s.r);
   s.residual = s.r.lpNorm<Eigen::Infinity>();
   return finite;

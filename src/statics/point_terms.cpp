@@ -2,24 +2,14 @@
 
 #include <cassert>
 
+#include "shape_terms.hpp"
+
 namespace springfold::statics {
 namespace {
 
 using model::LoadKind;
 using model::PointMotion;
 using model::Vec3;
-
-void evaluate(const System& system, std::size_t point, const Vector& z, const Vector& rho,
-              Workspace::Point& out) {
-  const PointSlice& slice = system.points[point];
-  Vector& v = out.variables;
-  v.resize(slice.point.variable_count());
-  for (Index k = 0; k < v.size(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    v[k] = (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
-  }
-  model::evaluate_point<double>(slice.point, v, out.at);
-}
 
 /// The load in world axes.
 Vec3<double> vector_of(const PointLoad& load, const PointMotion<double>& at,
@@ -37,16 +27,6 @@ double force_rate(const PointLoad& load, const PointMotion<double>& at, const Ve
   if (load.follows)
     rate += model::cross<double>(at.spin.col(k), vector).dot((force ? at.dp : at.spin).col(j));
   return rate;
-}
-
-/// Where variable k of a point counts in the derivatives.
-void add_derivative(const PointSlice& row, Index j, const PointSlice& column, Index k, double value,
-                    Matrix& A, Matrix* dR_drho) {
-  const Index r = row.z[static_cast<std::size_t>(j)];
-  const auto c = static_cast<std::size_t>(k);
-  if (r < 0) return;
-  if (column.z[c] >= 0) A(r, column.z[c]) += value;
-  if (dR_drho != nullptr && column.rho[c] >= 0) (*dR_drho)(r, column.rho[c]) += value;
 }
 
 void add_load(const System& system, const PointLoad& load, Workspace::Point& point,
@@ -125,12 +105,33 @@ bool is_used(const System& system, std::size_t point) {
 
 }  // namespace
 
+void evaluate_point(const System& system, std::size_t point, const Vector& z, const Vector& rho,
+                    Workspace::Point& out) {
+  const PointSlice& slice = system.points[point];
+  Vector& v = out.variables;
+  v.resize(slice.point.variable_count());
+  for (Index k = 0; k < v.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    v[k] = (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
+  }
+  model::evaluate_point<double>(slice.point, v, out.at);
+}
+
+void add_derivative(const PointSlice& row, Index j, const PointSlice& column, Index k, double value,
+                    Matrix& A, Matrix* dR_drho) {
+  const Index r = row.z[static_cast<std::size_t>(j)];
+  const auto c = static_cast<std::size_t>(k);
+  if (r < 0) return;
+  if (column.z[c] >= 0) A(r, column.z[c]) += value;
+  if (dR_drho != nullptr && column.rho[c] >= 0) (*dR_drho)(r, column.rho[c]) += value;
+}
+
 void add_point_terms(const System& system, const Vector& z, const Inputs& inputs, Workspace& work,
                      Vector& residual, Matrix* A, Matrix* dR_drho) {
   if (system.loads.empty() && system.line_springs.empty()) return;
   work.points.resize(system.points.size());
   for (std::size_t i = 0; i < system.points.size(); ++i)
-    if (is_used(system, i)) evaluate(system, i, z, inputs.rho, work.points[i]);
+    if (is_used(system, i)) evaluate_point(system, i, z, inputs.rho, work.points[i]);
   for (const PointLoad& load : system.loads)
     add_load(system, load, work.points[load.point], inputs.loads, residual, A, dR_drho);
   for (const PointSpring& spring : system.line_springs)
@@ -145,9 +146,10 @@ void put_load_rate(const System& system, const Vector& z, const Vector& rho, con
   work.points.resize(system.points.size());
   for (const PointLoad& load : system.loads) {
     if (load.number < 0 || rates[load.number] == 0) continue;
-    evaluate(system, load.point, z, rho, work.points[load.point]);
+    evaluate_point(system, load.point, z, rho, work.points[load.point]);
     add_load(system, load, work.points[load.point], rates, rate, nullptr, nullptr);
   }
+  add_pressure_rate(system, z, rho, rates, work, rate);
 }
 
 Vector load_rate(const System& system, const Vector& z, const Vector& rho, const Vector& rates) {
@@ -160,7 +162,7 @@ Vector load_rate(const System& system, const Vector& z, const Vector& rho, const
 Vec3<double> position_of(const System& system, std::size_t point, const Vector& z,
                          const Vector& rho) {
   Workspace::Point p;
-  evaluate(system, point, z, rho, p);
+  evaluate_point(system, point, z, rho, p);
   return p.at.pose.p;
 }
 
@@ -187,6 +189,7 @@ double spring_energy(const System& system, const Vector& z, const Vector& rho) {
     const double stretch = line_spring_state(system, i, z, rho).length - spring.free;
     energy += 0.5 * spring.stiffness * stretch * stretch;
   }
+  if (!system.shapes.empty()) energy += shape_energy(system, z, rho);
   return energy;
 }
 
@@ -199,7 +202,7 @@ double load_potential(const System& system, const Vector& z, const Inputs& input
   Workspace::Point point;
   const PointMotion<double>& at = point.at;
   for (const PointLoad& load : system.loads) {
-    evaluate(system, load.point, z, inputs.rho, point);
+    evaluate_point(system, load.point, z, inputs.rho, point);
     const Vec3<double> vector = vector_of(load, at, inputs.loads);
     // A moment with a potential turns about axes of one direction, each by its own variable.
     potential -= load.kind == LoadKind::force ? vector.dot(at.pose.p)
@@ -207,6 +210,7 @@ double load_potential(const System& system, const Vector& z, const Inputs& input
   }
   for (const BodySlice& body : system.body_slices)
     potential -= inputs.W.segment(body.W, body.count).dot(z.segment(body.t, body.count));
+  if (!system.shapes.empty()) potential += pressure_potential(system, z, inputs);
   return potential;
 }
 

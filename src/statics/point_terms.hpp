@@ -13,4 +13,13 @@ namespace springfold::statics {
 void add_point_terms(const System& system, const Vector& z, const Inputs& inputs, Workspace& work,
                      Vector& residual, Matrix* A, Matrix* dR_drho);
 
+/// Variables and motion of a point in the state z.
+void evaluate_point(const System& system, std::size_t point, const Vector& z, const Vector& rho,
+                    Workspace::Point& out);
+
+/// Adds a derivative of the generalised force of variable j of one point by variable k of another
+/// where they stand.
+void add_derivative(const PointSlice& row, Index j, const PointSlice& column, Index k, double value,
+                    Matrix& A, Matrix* dR_drho);
+
 }  // namespace springfold::statics

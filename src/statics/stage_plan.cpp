@@ -315,7 +315,7 @@ bool has_stage_form(const System& system, std::size_t chain, const StageOptions&
 }
 
 bool has_stage_form(const System& system) {
-  if (system.redundant > 0 || system.chains_coupled) return false;
+  if (system.redundant > 0 || system.chains_coupled || !system.shapes.empty()) return false;
   return std::all_of(system.loads.begin(), system.loads.end(), [&](const PointLoad& load) {
     return chain_of(system, load) < 0 || is_conservative(system, load);
   });

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "shape_terms.hpp"
+
 namespace springfold::statics {
 namespace {
 
@@ -147,6 +149,7 @@ void add_points(System& system) {
   }
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
     const model::Load& load = mechanism.loads[i];
+    if (load.kind == model::LoadKind::pressure) continue;  // add_shapes
     const std::size_t point = add_point(system, load.on, "");
     system.loads.push_back({point, load.kind, load.follows, static_cast<Index>(i), load.vector});
   }
@@ -157,6 +160,48 @@ void add_points(System& system) {
     system.chains_coupled |=
         spring.from.chain >= 0 && spring.to.chain >= 0 && spring.from.chain != spring.to.chain;
   }
+}
+
+std::vector<std::size_t> add_shape_points(System& system, const model::Shape& shape) {
+  std::vector<std::size_t> points;
+  Index chain = -1;
+  for (const model::Anchor& anchor : shape.points) {
+    points.push_back(add_point(system, anchor, ""));
+    system.chains_coupled |= anchor.chain >= 0 && chain >= 0 && anchor.chain != chain;
+    if (anchor.chain >= 0) chain = anchor.chain;
+  }
+  return points;
+}
+
+/// Behind everything else: the switches of joints stand first.
+void add_shapes(System& system) {
+  const model::Mechanism& mechanism = system.mechanism;
+  for (const model::ShapeSpring& spring : mechanism.shape_springs) {
+    PointShape shape{.name = spring.name, .shape = compile(mechanism, spring.shape)};
+    shape.points = add_shape_points(system, spring.shape);
+    shape.gas = spring.gas;
+    if (!spring.gas) shape.law = model::compile(spring.law);
+    shape.first_switch = static_cast<Index>(system.switches.size());
+    for (const double b : shape.law.breakpoints)
+      system.switches.push_back({-1, b, system.shapes.size()});
+    system.shapes.push_back(std::move(shape));
+  }
+  for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
+    const model::Load& load = mechanism.loads[i];
+    if (load.kind != model::LoadKind::pressure) continue;
+    PointShape shape{.name = load.name, .shape = compile(mechanism, load.shape)};
+    shape.points = add_shape_points(system, load.shape);
+    shape.load = static_cast<Index>(i);
+    shape.pressure = load.vector[0];
+    system.shapes.push_back(std::move(shape));
+  }
+}
+
+std::size_t segment_in(const model::CompiledSpring& law, Index first_switch, const Piece& piece) {
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i < law.breakpoints.size(); ++i)
+    if (piece[static_cast<std::size_t>(first_switch) + i] > 0) ++segment;
+  return segment;
 }
 
 }  // namespace
@@ -202,6 +247,8 @@ System prepare(const model::Mechanism& mechanism) {
     place_variables(system.chains[i], system.chain_slices[i]);
   }
   add_points(system);
+  add_shapes(system);
+  count_turns_from(guess(system), system);
   return system;
 }
 
@@ -252,19 +299,24 @@ Vector guess(const System& system) {
   return z;
 }
 
-Piece piece_at(const System& system, const Vector& z) {
+Piece piece_at(const System& system, const Vector& z, const Vector& rho) {
   Piece piece;
   piece.reserve(system.switches.size());
-  for (const Switch& s : system.switches)
-    piece.push_back(z[s.coordinate] >= s.breakpoint ? std::int8_t{1} : std::int8_t{-1});
+  for (std::size_t j = 0; j < system.switches.size(); ++j)
+    piece.push_back(switch_value(system, j, z, rho) >= 0 ? std::int8_t{1} : std::int8_t{-1});
   return piece;
 }
 
+Piece piece_at(const System& system, const Vector& z) {
+  return piece_at(system, z, system.commands);
+}
+
 std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece) {
-  std::size_t segment = 0;
-  for (std::size_t i = 0; i < spring.law.breakpoints.size(); ++i)
-    if (piece[static_cast<std::size_t>(spring.first_switch) + i] > 0) ++segment;
-  return segment;
+  return segment_in(spring.law, spring.first_switch, piece);
+}
+
+std::size_t segment_of(const PointShape& shape, const Piece& piece) {
+  return segment_in(shape.law, shape.first_switch, piece);
 }
 
 }  // namespace springfold::statics

@@ -106,6 +106,27 @@ TEST(Scene, ALineSpringPullsByItsStiffnessTimesWhatItIsLonger) {
   EXPECT_NEAR(rope.energy, 0.5 * 3 * 16, 1e-14);
 }
 
+TEST(Scene, ACableIsDrawnLegByLegAndAGasByItsOutline) {
+  model::Mechanism mechanism = two_links();
+  const model::Anchor left{.at = {0, 5, 0}}, right{.at = {6, 5, 0}}, tip{.body = 1};
+  mechanism.shape_springs = {
+      {"cable", {.points = {left, tip, right}}, model::LinearSpring{.stiffness = 2, .free = 4}},
+      {"gas",
+       {.kind = model::ShapeKind::area, .points = {left, tip, right}},
+       {},
+       model::Gas{.nRT = 1, .initial = 12}}};
+  const statics::System system = statics::prepare(mechanism);
+  const std::size_t before =
+      scene_of(statics::prepare(two_links()), posture_of(statics::prepare(two_links()), 0, 0, 3, 1))
+          .springs.size();
+  const Scene scene = scene_of(system, posture_of(system, 0, 0, 3, 1));
+  ASSERT_EQ(scene.springs.size(), before + 2);
+  EXPECT_NEAR(scene.springs.back().force, 2 * (10 - 4), 1e-14);  // two legs of length 5
+  EXPECT_NEAR(scene.springs.back().energy, 0.5 * 36, 1e-14);     // half of all
+  ASSERT_EQ(scene.outlines.size(), 1U);
+  EXPECT_EQ(scene.outlines[0].corners.size(), 3U);
+}
+
 TEST(Scene, AFollowerForceTurnsWithItsBodyAndGrowsWithLambda) {
   model::Mechanism mechanism = two_links();
   mechanism.bodies[0].task_space = model::TaskSpace::planar;

@@ -26,6 +26,9 @@ enum class Unit {
   rotational_stiffness,   ///< moment per angle
   compliance,             ///< length per force
   rotational_compliance,  ///< angle per moment
+  area,                   ///< length^2
+  volume,                 ///< length^3
+  pressure,               ///< force per area; in the plane a stiffness' unit
   lambda,                 ///< that of the continuation parameter: see StudyResult::lambda_unit
 };
 

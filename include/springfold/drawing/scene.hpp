@@ -69,6 +69,14 @@ struct SpringPart {
   double energy = 0;  ///< [force * length]
 };
 
+/// The sides of a shape on which a spring, a gas or a pressure acts: an area, a triangle of a surface,
+/// the line or the triangle of the plane from which a distance is measured.
+struct OutlinePart {
+  std::string name{};
+  std::vector<PointId> corners{};
+  bool is_filled = false;  ///< an area or a surface
+};
+
 /// Where a one-sided spring begins to act: a mark that the link behind the joint, or the slide, reaches.
 struct StopPart {
   std::size_t spring = 0;
@@ -116,6 +124,7 @@ struct Scene {
   std::vector<LinkPart> links{};
   std::vector<JointPart> joints{};
   std::vector<SpringPart> springs{};
+  std::vector<OutlinePart> outlines{};
   std::vector<StopPart> stops{};
   std::vector<BodyPart> bodies{};
   std::vector<LoadPart> loads{};

@@ -1,6 +1,8 @@
 // A mechanism as plain data: bodies joined by serial chains (virtual joint method, paper Section 2).
 #pragma once
 
+#include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -113,17 +115,40 @@ struct Anchor {
   Vec3<double> at = Vec3<double>::Zero();  ///< in the frame of the body or the point [length]
 };
 
-enum class LoadKind { force, moment };
+enum class ShapeKind {
+  path,      ///< length of the way from point to point [length]; of two points: their distance
+  angle,     ///< at the second point, from the first to the third [rad]
+  dihedral,  ///< at the edge of points 2 and 3, between the half planes to points 1 and 4 [rad]
+  area,      ///< of the polygon of the points in the xy plane, counter-clockwise [length^2]
+  volume,    ///< within triangles seen counter-clockwise from outside [length^3]
+  line,      ///< distance of the first point from the line through points 2 and 3 [length]
+  plane,     ///< distance of the first point from the plane through points 2, 3 and 4 [length]
+};
 
-/// A force or moment at a point. Without `follows` its direction is fixed in the base frame, with it
-/// in the frame that the point belongs to.
+/// A number alpha that the positions of points give: model/shape.hpp says how and with which sign.
+struct Shape {
+  ShapeKind kind = ShapeKind::path;
+  std::vector<Anchor> points{};
+  bool closed = false;  ///< path: back from the last point to the first
+  std::vector<std::array<std::size_t, 3>> triangles{};  ///< volume: their corners among `points`
+  /// Angles are those within half a turn of this one [rad].
+  double near = std::numbers::pi;
+};
+
+/// pressure: on the boundary of a `shape`, an area or a volume, from inside; it follows the boundary.
+enum class LoadKind { force, moment, pressure };
+
+/// A force or moment at a point, or a pressure. Without `follows` its direction is fixed in the base
+/// frame, with it in the frame that the point belongs to.
 struct Load {
   std::string name{};
   Anchor on{};
   LoadKind kind = LoadKind::force;
   bool follows = false;
   bool with_lambda = false;  ///< the load is lambda times the vector; otherwise constant
-  Vec3<double> vector = Vec3<double>::Zero();  ///< [force] or [moment]
+  /// [force] or [moment]; of a pressure its first entry, [force/length] or [force/length^2]
+  Vec3<double> vector = Vec3<double>::Zero();
+  Shape shape{};  ///< pressure: instead of `on`
 };
 
 /// A straight linear spring between two points, which pulls with stiffness (length - free). With
@@ -135,6 +160,22 @@ struct LineSpring {
   double free = 0;       ///< length without force [length]
 };
 
+/// Gas that a shape encloses: pressure (nRT/V0) [(V0/V)^exponent - 1] against that of the
+/// surroundings, which it has at V = V0. exponent = 1: isothermal, p = nRT (1/V - 1/V0).
+struct Gas {
+  double nRT = 0;       ///< pressure times V at V0 [force * length]
+  double initial = 1;   ///< V0, not zero; of an area likewise [length^3] or [length^2]
+  double exponent = 1;  ///< isentropic: ratio of the heat capacities
+};
+
+/// A spring of a shape: its energy is a function of alpha alone, that of the law or of the gas.
+struct ShapeSpring {
+  std::string name{};
+  Shape shape{};
+  SpringLaw law{};           ///< coordinate alpha, torque dU/dalpha
+  std::optional<Gas> gas{};  ///< instead of `law`; areas and volumes
+};
+
 /// Bodies (without the base) and chains. Body number b of a chain is bodies[b - 1].
 struct Mechanism {
   std::vector<Body> bodies{};
@@ -142,6 +183,7 @@ struct Mechanism {
   Vec3<double> gravity = Vec3<double>::Zero();  ///< [force/mass], base frame
   std::vector<Load> loads{};
   std::vector<LineSpring> line_springs{};
+  std::vector<ShapeSpring> shape_springs{};
 };
 
 /// Every rule that the mechanism breaks, as sentences; empty when usable.

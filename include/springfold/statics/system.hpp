@@ -9,6 +9,7 @@
 #include "springfold/model/closure.hpp"
 #include "springfold/model/mechanism.hpp"
 #include "springfold/model/point.hpp"
+#include "springfold/model/shape.hpp"
 
 namespace springfold::statics {
 
@@ -45,9 +46,10 @@ struct CoordinateGroup {
 
 /// A breakpoint of a spring: the piece's entry is +1 above, -1 below.
 struct Switch {
-  Index coordinate = 0;  ///< in z
+  Index coordinate = 0;  ///< in z; -1: that of a shape
   double breakpoint = 0;
-  std::size_t spring = 0;  ///< number of the spring
+  std::size_t spring = 0;  ///< number among System::springs, or among System::shapes
+  bool of_shape() const { return coordinate < 0; }
 };
 
 /// A point at which something acts, and where its variables stand.
@@ -74,6 +76,22 @@ struct PointSpring {
   double stiffness = 0, free = 0;
 };
 
+/// A spring of a shape, or a pressure on one.
+struct PointShape {
+  std::string name{};
+  model::CompiledShape shape{};
+  std::vector<std::size_t> points{};
+  model::CompiledSpring law{};
+  std::optional<model::Gas> gas{};  ///< instead of the law
+  Index load = -1;                  ///< a pressure: its number among the mechanism's loads
+  double pressure = 0;
+  Index first_switch = 0;  ///< breakpoints of the law: their place in the piece
+  /// Angles in the plane: by how much the frame of the third point is turned against that of the
+  /// first in the mechanism's guess. What they turn further, beyond whole turns, the angle counts.
+  double turned = 0;
+  bool is_pressure() const { return load >= 0; }
+};
+
 /// Immutable; share it between threads, give each its own Workspace.
 struct System {
   model::Mechanism mechanism{};
@@ -86,7 +104,8 @@ struct System {
   std::vector<PointSlice> points{};  ///< the chains' named ones first, in order
   std::vector<PointLoad> loads{};
   std::vector<PointSpring> line_springs{};
-  /// A line spring joins two chains: they do not couple through bodies alone, and sums over chains
+  std::vector<PointShape> shapes{};  ///< the springs in order, then the pressures
+  /// A line spring or shape joins two chains: they do not couple through bodies alone, and sums over chains
   /// are no use.
   bool chains_coupled = false;
   /// Closure equations that depend on the others in every assembled state, see redundancy.hpp. Of
@@ -117,10 +136,13 @@ System prepare(const model::Mechanism& mechanism);
 Vector guess(const System& system);
 
 /// Segments in which the springs of state z are; at a breakpoint the upper one.
+/// @param rho  commands; without them those of the system
+Piece piece_at(const System& system, const Vector& z, const Vector& rho);
 Piece piece_at(const System& system, const Vector& z);
 
 /// Segment of a spring in a piece.
 std::size_t segment_of(const CoordinateSpring& spring, const Piece& piece);
+std::size_t segment_of(const PointShape& shape, const Piece& piece);
 
 /// The same system with the frames of spatial bodies turned against the bodies: the rotation vector of
 /// body b, from zero, is then measured against `rotations[b]` instead of the world,
@@ -150,6 +172,12 @@ struct Workspace {
     model::PointMotion<double> at{};
   };
   std::vector<Point> points{};
+  struct Shape {
+    Vector positions{};
+    model::ShapeValue<double> at{};
+    Vector slopes{};  ///< d alpha by the variables of its points, one point behind the other
+  };
+  Shape shape{};
   Matrix gauge{};  ///< redundant closures: A = the derivative of the gradient - gauge^T gauge
   Vector undetermined{};  ///< redundant closures: zero where they do not contradict each other
 };
@@ -160,7 +188,7 @@ struct Workspace {
 ///     row F_i:  -e_i                  closure
 ///     row t_b:  sum F_i - W_b         balance of every body (as generalised forces of t_b)
 ///
-/// Loads, weights and line springs at points add their generalised forces to the rows x_i and t_b.
+/// Loads, weights, line springs and shapes of points add their generalised forces to the rows x_i and t_b.
 /// Redundant closures add terms that are zero where e = 0 and the wrenches have the smallest norm.
 ///
 /// @param piece  which smooth continuation of the springs to use
@@ -174,7 +202,7 @@ bool equilibrium_matrix(const System& system, const Piece& piece, const Vector& 
                         const Inputs& inputs, Workspace& work, Vector& residual, Matrix& A,
                         Matrix* dR_drho = nullptr);
 
-/// Spring energy in the state z, each spring in its own segment; line springs included.
+/// Spring energy in the state z, each spring in its own segment; line springs and shapes included.
 /// @param rho  commands
 double spring_energy(const System& system, const Vector& z, const Vector& rho);
 /// The same with the commands that the mechanism gives.

@@ -1,0 +1,38 @@
+// What is known of shapes and of switches in a state: values and derivatives.
+#pragma once
+
+#include "springfold/statics/system.hpp"
+
+namespace springfold::statics {
+
+/// alpha of a shape [its unit] and dU/dalpha: the force with which a path or a distance pulls, the
+/// moment that closes an angle; of areas and volumes minus the pressure.
+struct ShapeState {
+  double value = 0, slope = 0;
+};
+
+/// @param shape  number among System::shapes
+/// @param inputs  commands, and the factor of a pressure
+ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
+                       const Inputs& inputs);
+
+/// Energy of all springs of shapes, each in its own segment [force * length].
+double shape_energy(const System& system, const Vector& z, const Vector& rho);
+
+/// Potential of all pressures.
+double pressure_potential(const System& system, const Vector& z, const Inputs& inputs);
+
+/// What the sign of a switch is that of: a joint's coordinate, or alpha, minus the breakpoint.
+/// @param number  of the switch
+double switch_value(const System& system, std::size_t number, const Vector& z, const Vector& rho);
+
+/// Storage of switch_gradient(): by z, by rho.
+struct SwitchGradient {
+  Vector z{}, rho{};
+  Workspace work{};
+};
+/// The derivatives of switch_value(). @returns false when they are not finite
+bool switch_gradient(const System& system, std::size_t number, const Vector& z, const Vector& rho,
+                     SwitchGradient& out);
+
+}  // namespace springfold::statics

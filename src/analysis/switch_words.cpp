@@ -1,0 +1,46 @@
+#include "switch_words.hpp"
+
+#include "branch_rows.hpp"
+
+namespace springfold::analysis {
+
+std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
+                             const Piece& before, const Piece& after) {
+  std::string text;
+  for (const Index j : hit.switches) {
+    const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
+    const model::CompiledSpring& law =
+        s.of_shape() ? system.shapes[s.spring].law : system.springs[s.spring].law;
+    const std::string& name =
+        s.of_shape() ? system.shapes[s.spring].name : system.springs[s.spring].name;
+    const auto segment_in = [&](const Piece& piece) {
+      return s.of_shape() ? segment_of(system.shapes[s.spring], piece)
+                          : segment_of(system.springs[s.spring], piece);
+    };
+    const std::size_t from = segment_in(before), to = segment_in(after);
+    const double k_from = law.stiffness(from, s.breakpoint);
+    const double k_to = law.stiffness(to, s.breakpoint);
+    const bool was_flat = k_from == 0 && law.is_straight(from);
+    const bool gets_flat = k_to == 0 && law.is_straight(to);
+    const char* word = was_flat && !gets_flat   ? "becomes active"
+                       : !was_flat && gets_flat ? "is released"
+                       : k_to > k_from          ? "gets stiffer"
+                                                : "gets softer";
+    text += (text.empty() ? "spring " : ", spring ") + name + " " + word + " (segment " +
+            std::to_string(from) + " to " + std::to_string(to) + ")";
+  }
+  return text;
+}
+
+std::string piece_text(const statics::System& system, const Piece& piece) {
+  std::string text;
+  for (const statics::CoordinateSpring& spring : system.springs)
+    if (!spring.law.breakpoints.empty())
+      text += (text.empty() ? "" : ".") + std::to_string(segment_of(spring, piece));
+  for (const statics::PointShape& shape : system.shapes)
+    if (!shape.law.breakpoints.empty())
+      text += (text.empty() ? "" : ".") + std::to_string(segment_of(shape, piece));
+  return text;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,18 @@
+// Springs of shapes and pressures as parts of a scene. Private to drawing.
+#pragma once
+
+#include "springfold/drawing/scene.hpp"
+
+namespace springfold::drawing {
+
+/// A way as coils, an angle and a fold as spirals, the others as outlines.
+/// @param points  of the shape
+/// @param alpha   present value
+void add_shape_spring(const model::ShapeSpring& spring, const std::vector<PointId>& points,
+                      double alpha, Scene& scene);
+
+/// The sides of an area, the triangles of a volume, the line or the plane of a distance.
+void add_outlines(const std::string& name, const model::Shape& shape,
+                  const std::vector<PointId>& points, Scene& scene);
+
+}  // namespace springfold::drawing

@@ -1,0 +1,215 @@
+#include "shape_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "anchor_reader.hpp"
+
+namespace springfold::io {
+namespace {
+
+using model::ShapeKind;
+
+/// Second derivatives of a shape are one matrix of its points: 18 MB for so many.
+constexpr std::size_t most_points = 500;
+
+struct Word {
+  const char* text;
+  ShapeKind kind;
+};
+constexpr Word shape_words[]{
+    {"distance", ShapeKind::path}, {"path", ShapeKind::path},   {"angle", ShapeKind::angle},
+    {"fold", ShapeKind::dihedral}, {"area", ShapeKind::area},   {"volume", ShapeKind::volume},
+    {"line", ShapeKind::line},     {"plane", ShapeKind::plane},
+};
+
+ShapeKind kind_of(const std::string& word) {
+  for (const Word& known : shape_words)
+    if (word == known.text) return known.kind;
+  return ShapeKind::path;
+}
+
+/// [[1, 2, 3], ...]: numbers of points, counted from 1.
+std::vector<std::array<std::size_t, 3>> read_triangles(const TableReader& table, std::size_t points,
+                                                       Reading& reading) {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  const std::string need = "a list of triangles such as [1, 2, 3], numbers of points in `of`";
+  for (const Item& item : table.list("triangles", need)) {
+    const bool is_list = item.node->kind == Node::Kind::array && item.node->items.size() == 3;
+    std::array<std::size_t, 3> corners{};
+    bool usable = is_list;
+    for (std::size_t k = 0; usable && k < 3; ++k) {
+      const Node& node = item.node->items[k];
+      usable = node.kind == Node::Kind::number && node.number >= 1 &&
+               node.number <= static_cast<double>(points) && node.number == std::floor(node.number);
+      if (usable) corners[k] = static_cast<std::size_t>(node.number) - 1;
+    }
+    if (!usable)
+      reading.problems.add(item.node->place, item.key,
+                           "got " + described(*item.node) +
+                               ", need three whole numbers from 1 to " + std::to_string(points) +
+                               ": points of `of`");
+    triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+/// A key that only some shapes have.
+void refuse(const TableReader& table, const std::string& key, const std::string& what,
+            Reading& reading) {
+  if (const Node* node = table.find(key))
+    reading.problems.add(node->place, table.key_of(key), what);
+}
+
+void read_gas(const Item& item, const JointUnits& units, NumberTable& numbers,
+              ShapeSpringDraft& spring, Reading& reading) {
+  if (!is_table(item, "a table such as { nRT = 0.1, initial = 1 }", reading)) return;
+  const TableReader table{*item.node, item.key, {"nRT", "initial", "exponent"}, reading};
+  GasDraft gas;
+  gas.nRT = table.required_number(
+      "nRT", {Range::non_negative, reading.units.force + "*" + reading.units.length}, numbers);
+  gas.initial = table.required_number("initial", {Range::finite, units.coordinate}, numbers);
+  gas.exponent = table.number("exponent", {Range::positive, ""}, numbers, 1);
+  if (const Node* initial = table.find("initial"))
+    numbers.require({gas.initial}, initial->place, table.key_of("initial"),
+                    [](const std::vector<double>& value) -> std::string {
+                      return value[0] != 0 ? "" : "got 0, need a number that is not 0";
+                    });
+  spring.gas = gas;
+}
+
+/// Exactly one of `law`, `gas` and `stiffness` with `free`.
+void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraft& spring,
+                 Reading& reading) {
+  const JointUnits units = units_of(spring.shape.kind, reading.units);
+  const bool law = table.has("law"), gas = table.has("gas"), plain = table.has("stiffness");
+  if (law + gas + plain > 1 || (!plain && table.has("free")))
+    return reading.problems.add(
+        table.place(), table.key(),
+        "need one of: stiffness (with free, if it is not 0), law = { ... }, gas = { ... }");
+  if (law) {
+    const auto read =
+        read_spring({table.find("law"), table.key_of("law")}, units, numbers, reading);
+    if (!read) return;
+    spring.law = *read;
+    if (std::visit([](const auto& s) { return s.from_start; }, *read))
+      reading.problems.add(table.find("law")->place, table.key_of("law") + ".origin",
+                           "springs between points count from their own zero: need \"joint\" or "
+                           "no origin");
+    return;
+  }
+  if (gas)
+    return read_gas({table.find("gas"), table.key_of("gas")}, units, numbers, spring, reading);
+  const NumberId stiffness =
+      table.required_number("stiffness", {Range::non_negative, units.stiffness}, numbers);
+  spring.law =
+      LinearDraft{stiffness, table.number("free", {Range::finite, units.coordinate}, numbers, 0)};
+}
+
+void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
+  const bool ends = item.node->find("to") != nullptr || item.node->find("from") != nullptr;
+  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas"};
+  if (ends)
+    keys.insert(keys.end(), {"from", "from_at", "to", "to_at"});
+  else
+    keys.insert(keys.end(), {"of", "closed", "near", "triangles"});
+  const TableReader table{*item.node, item.key, keys, reading};
+  ShapeSpringDraft spring{.place = item.node->place, .key = item.key};
+  spring.name = read_own_name(table, draft, reading);
+  NumberTable& numbers = draft.numbers;
+  if (!ends) {
+    spring.shape =
+        read_shape(table, {"path", "distance", "angle", "fold", "area", "volume", "line", "plane"},
+                   draft, numbers, reading);
+  } else {
+    table.choice("shape", {"distance"}, 0);
+    spring.shape.points.resize(2);
+    read_ends(table, draft, spring.shape.points[0], spring.shape.points[1], reading);
+  }
+  read_energy(table, numbers, spring, reading);
+  draft.shape_springs.push_back(std::move(spring));
+}
+
+void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
+  const TableReader table{
+      *item.node,
+      item.key,
+      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas"},
+      reading};
+  LineSpringDraft spring{.place = item.node->place, .key = item.key};
+  spring.name = read_own_name(table, draft, reading);
+  read_ends(table, draft, spring.from, spring.to, reading);
+  const std::string length = reading.units.length;
+  spring.stiffness = table.required_number(
+      "stiffness", {Range::non_negative, reading.units.force + "/" + length}, draft.numbers);
+  spring.free = table.number("free", {Range::non_negative, length}, draft.numbers, 0);
+  draft.springs.push_back(std::move(spring));
+}
+
+}  // namespace
+
+JointUnits units_of(model::ShapeKind kind, const UnitLabels& labels) {
+  const std::string L = labels.length, F = labels.force;
+  switch (kind) {
+    case ShapeKind::path:
+    case ShapeKind::line:
+    case ShapeKind::plane:
+      return units_of(model::JointKind::prismatic, labels);
+    case ShapeKind::angle:
+    case ShapeKind::dihedral:
+      return units_of(model::JointKind::revolute, labels);
+    case ShapeKind::area:
+      return {L + "^2", F + "/" + L, F + "/" + L + "^3"};
+    case ShapeKind::volume:
+      return {L + "^3", F + "/" + L + "^2", F + "/" + L + "^5"};
+  }
+  return {};
+}
+
+ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& words,
+                      const MechanismDraft& draft, NumberTable& numbers, Reading& reading) {
+  ShapeDraft shape;
+  table.require("shape", choices(words));
+  const std::string word = words[table.choice("shape", words, 0)];
+  shape.kind = kind_of(word);
+  table.require("of", "a list of points");
+  for (const Item& item : table.list("of", "a list of points"))
+    shape.points.push_back(read_anchor(item, draft, numbers, reading));
+  if (shape.points.size() > most_points)
+    reading.problems.add(table.find("of")->place, table.key_of("of"),
+                         "got " + std::to_string(shape.points.size()) + " points, need at most " +
+                             std::to_string(most_points));
+  if (shape.kind == ShapeKind::volume) {
+    table.require("triangles", "a list of triangles such as [1, 2, 3]");
+    shape.triangles = read_triangles(table, shape.points.size(), reading);
+  } else {
+    refuse(table, "triangles", "only the shape \"volume\" has triangles", reading);
+  }
+  if (word == "distance" && table.has("of") && shape.points.size() != 2)
+    reading.problems.add(table.find("of")->place, table.key_of("of"),
+                         "got " + std::to_string(shape.points.size()) +
+                             " points, need 2; of more points the shape is \"path\"");
+  if (word == "path")
+    shape.closed = table.truth("closed", false);
+  else
+    refuse(table, "closed", "only the shape \"path\" can be closed", reading);
+  const bool turns = shape.kind == ShapeKind::angle || shape.kind == ShapeKind::dihedral;
+  if (turns)
+    shape.near = table.number("near", {Range::finite, "rad"}, numbers, std::numbers::pi);
+  else
+    refuse(table, "near", "only the shapes \"angle\" and \"fold\" have it", reading);
+  return shape;
+}
+
+void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
+  for (const Item& item : tables) {
+    const auto has = [&](const char* key) { return item.node->find(key) != nullptr; };
+    if (has("shape") || has("of") || has("law") || has("gas"))
+      read_shape_spring(item, draft, reading);
+    else
+      read_line_spring(item, draft, reading);
+  }
+}
+
+}  // namespace springfold::io
