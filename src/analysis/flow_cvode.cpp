@@ -198,9 +198,12 @@ class Integrator {
     const auto rate = data_.rate(y);
     if (!rate) return false;
     const Landscape& landscape = data_.motion->landscape;
-    if (rate->multipliers.size() > 0)
-      flow_.peak_multiplier =
-          std::max(flow_.peak_multiplier, rate->multipliers.lpNorm<Eigen::Infinity>());
+    if (rate->multipliers.size() > 0) {
+      if (flow_.peak_multipliers.size() == 0)
+        flow_.peak_multipliers.setZero(rate->multipliers.size());
+      flow_.peak_multipliers = flow_.peak_multipliers.cwiseMax(rate->multipliers.cwiseAbs());
+      flow_.peak_multiplier = flow_.peak_multipliers.maxCoeff();
+    }
     double speed = rate->rate.lpNorm<Eigen::Infinity>();
     if (data_.has_masses()) {
       speed = 0;

@@ -1,16 +1,29 @@
 #include <algorithm>
 
 #include "branches.hpp"
+#include "load_cycle.hpp"
 #include "run_traced.hpp"
 #include "snap_jumps.hpp"
+#include "transitions.hpp"
 
 namespace springfold::analysis {
 namespace {
+
+constexpr const char* no_potential =
+    "loads without potential act: there is no energy that decides where a jump ends";
 
 /// Traces all branches, then the jumps, until no landing is new.
 void trace_with_jumps(const Tracing& tracing, const Scales& scales,
                       const continuation::CurvePoint& start, const SnapSettings& settings,
                       StudyResult& result, SnapResult& snap) {
+  if (!tracing.problem.symmetric() && settings.transitions) {
+    snap.report.refusals = {no_potential};
+    return;
+  }
+  if (settings.transitions) {
+    find_transitions(tracing, scales, start, settings, result, snap.report);
+    return;
+  }
   constexpr int rounds = 8;
   std::vector<continuation::DiagramStart> landings;
   const StudyResult before = result;
@@ -26,8 +39,7 @@ void trace_with_jumps(const Tracing& tracing, const Scales& scales,
       branch.start = std::max(0, branch.start - count);
     }
     if (!tracing.problem.symmetric()) {
-      snap.report.refusals = {
-          "loads without potential act: there is no energy that decides where a jump ends"};
+      snap.report.refusals = {no_potential};
       return;
     }
     SnapFindings findings = find_jumps(tracing, scales, settings, result);
@@ -35,6 +47,8 @@ void trace_with_jumps(const Tracing& tracing, const Scales& scales,
     snap.report.landing_branches = std::move(from_landings);
     if (findings.untraced.empty() || k + 1 == rounds) {
       result.doubts.insert(result.doubts.end(), findings.doubts.begin(), findings.doubts.end());
+      if (settings.cycle)
+        snap.report.cycle = run_cycle(tracing, scales, *settings.cycle, result, snap.report);
       return;
     }
     landings.insert(landings.end(), findings.untraced.begin(), findings.untraced.end());
@@ -53,6 +67,36 @@ std::string to_string(SnapVerdict verdict) {
       return "runs away";
     case SnapVerdict::no_stable_state:
       return "no stable state";
+  }
+  return "";
+}
+
+std::string to_string(InertialMotion::End end) {
+  switch (end) {
+    case InertialMotion::End::rest:
+      return "at rest";
+    case InertialMotion::End::runs_away:
+      return "runs away";
+    case InertialMotion::End::no_mass:
+      return "without mass";
+    case InertialMotion::End::no_end:
+      return "no end";
+  }
+  return "";
+}
+
+std::string to_string(LoadCycle::End end) {
+  switch (end) {
+    case LoadCycle::End::complete:
+      return "complete";
+    case LoadCycle::End::out_of_range:
+      return "out of range";
+    case LoadCycle::End::no_landing:
+      return "no landing";
+    case LoadCycle::End::not_stable:
+      return "start not stable";
+    case LoadCycle::End::undecided:
+      return "undecided";
   }
   return "";
 }

@@ -163,6 +163,13 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   }
 }
 
+void send_jumps(Gnuplot& gnuplot, const Figure& figure) {
+  for (const auto& [from, to] : figure.arrows)
+    gnuplot << "set arrow from first " << from.first << ", first " << from.second << " to first "
+            << to.first << ", first " << to.second
+            << " head filled size screen 0.012, 20 linecolor rgb ink linewidth 1.2 front\n";
+}
+
 void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   gnuplot << assignment("figure_name", figure.name)
           << gnuplot_assignment("figure_title", figure.title)
@@ -191,6 +198,7 @@ void write_script(const fs::path& path, const Figure& figure, const Templates& t
   send_values(gnuplot, figure, canvas);
   gnuplot << "\n" << templates.style << "\n";
   send_labels(gnuplot, figure, canvas);
+  send_jumps(gnuplot, figure);
   send_curves(gnuplot, figure);
   send_marks(gnuplot, figure);
   gnuplot << "\n" << templates.figure;
