@@ -28,6 +28,9 @@ std::string states_csv(const std::vector<analysis::StudyResult>& results);
 std::string transitions_csv(const std::vector<analysis::StudyResult>& results);
 std::string barriers_csv(const std::vector<analysis::StudyResult>& results);
 
+/// File names of the graphs without ending; empty for other studies.
+std::vector<std::string> graph_names(const std::vector<analysis::StudyResult>& results);
+
 /// The graph for programs that draw graphs; empty for other studies.
 std::string transitions_graphml(const analysis::StudyResult& result);
 /// The same for Graphviz.

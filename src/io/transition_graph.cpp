@@ -29,6 +29,16 @@ std::string truth(bool value) { return value ? "true" : "false"; }
 
 }  // namespace
 
+std::vector<std::string> graph_names(const std::vector<StudyResult>& results) {
+  std::vector<std::string> list;
+  UniqueNames names;
+  for (const StudyResult& result : results)
+    list.push_back(report_of(result) == nullptr ? ""
+                                                : names.make(safe_file_name(result.study) + "-" +
+                                                             std::to_string(result.run)));
+  return list;
+}
+
 std::string transitions_graphml(const StudyResult& result) {
   const TransitionReport* report = report_of(result);
   if (report == nullptr) return "";

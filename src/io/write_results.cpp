@@ -66,13 +66,11 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
                                     {"transitions.csv", transitions_csv(results)},
                                     {"barriers.csv", barriers_csv(results)}})
     if (!bytes.empty()) files.push_back({path, bytes});
-  UniqueNames graphs;
-  for (const StudyResult& result : results) {
-    if (!has_transitions(result)) continue;
-    const std::string stem =
-        graphs.make(safe_file_name(result.study) + "-" + std::to_string(result.run));
-    files.push_back({"graphs/" + stem + ".graphml", transitions_graphml(result)});
-    files.push_back({"graphs/" + stem + ".gv", transitions_dot(result)});
+  const auto graphs = graph_names(results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (graphs[i].empty()) continue;
+    files.push_back({"graphs/" + graphs[i] + ".graphml", transitions_graphml(results[i])});
+    files.push_back({"graphs/" + graphs[i] + ".gv", transitions_dot(results[i])});
   }
   files.push_back({"steps.csv", steps_csv(results)});
   files.push_back({"summary.json", summary_json(the_case, results)});
