@@ -2,6 +2,8 @@
 // back, less the trace alone.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 #include "springfold/analysis/snap.hpp"
 
 namespace {
@@ -9,27 +11,31 @@ namespace {
 using namespace springfold;
 
 /// Drives of stiffness 1, legs of length 1, at the pose Q2 of the paper, without knee springs.
-model::Chain leg(const char* name, const model::Vec3<double>& axis, double command) {
+model::Chain leg(const char* name, const model::Vec3<double>& axis,
+                 const model::Vec3<double>& knee_axis, double command) {
   const model::Joint drive{.name = "drive",
                            .kind = model::JointKind::prismatic,
                            .axis = axis,
                            .role = model::JointRole::actuated,
                            .spring = model::LinearSpring{.stiffness = 1},
                            .command = command};
+  const model::Joint knee{.name = "knee", .axis = knee_axis};
   model::RigidLink link;
-  link.transform.p = axis;
-  return {.name = name, .elements = {drive, model::Joint{.name = "knee"}, link}};
+  link.transform.p = -axis;
+  return {.name = name, .elements = {drive, knee, link}};
 }
 
 void trace(benchmark::State& state, bool with_jumps) {
-  constexpr double pose = 0.5, half_root_of_3 = 0.8660254037844386;
-  const double command = pose - half_root_of_3;
-  model::Mechanism mechanism{.bodies = {{.name = "tool",
-                                         .task_space = model::TaskSpace::xy,
-                                         .pose = Vector::Constant(2, pose)}},
-                             .chains = {leg("leg_x", model::Vec3<double>::UnitX(), command),
-                                        leg("leg_y", model::Vec3<double>::UnitY(), command)}};
-  analysis::Study study{.name = "Q2", .direction = Vector::Constant(2, 0.7071067811865476)};
+  constexpr double pose = 0.454;
+  const double command = pose + std::sqrt(1 - pose * pose);
+  model::Mechanism mechanism{
+      .bodies = {{.name = "tool",
+                  .task_space = model::TaskSpace::xy,
+                  .pose = Vector::Constant(2, pose)}},
+      .chains = {
+          leg("leg_x", model::Vec3<double>::UnitX(), -model::Vec3<double>::UnitZ(), command),
+          leg("leg_y", model::Vec3<double>::UnitY(), model::Vec3<double>::UnitZ(), command)}};
+  analysis::Study study{.name = "Q2", .direction = Vector::Constant(2, std::sqrt(0.5))};
   study.until = {{"tool.x", 0.3, 0.97}};
   study.branches.depth = 1;
   std::size_t jumps = 0;

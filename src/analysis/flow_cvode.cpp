@@ -216,6 +216,10 @@ class Integrator {
         !landscape.multipliers().empty())
       flow_.closure =
           std::max(flow_.closure, Vector(r(landscape.multipliers())).lpNorm<Eigen::Infinity>());
+    // Far from rest that is seen without second derivatives: power = slope . motion <= |slope| |motion|.
+    const bool is_fast = data_.has_masses() ? speed >= nearly_at_rest
+                                            : rate->power >= nearly_at_rest * rate->rate.norm();
+    if (is_fast) return true;
     const auto at = landscape.ground_on(data_.x, data_.piece);
     if (!at) return false;
     const bool is_slow =
