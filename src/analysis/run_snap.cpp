@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "branches.hpp"
 #include "load_cycle.hpp"
@@ -11,6 +12,18 @@ namespace {
 
 constexpr const char* no_potential =
     "loads without potential act: there is no energy that decides where a jump ends";
+
+/// What is left open by a load cycle, as doubts. That a jump has no landing is an answer.
+void doubt_cycle(const LoadCycle& cycle, const Scales& scales, StudyResult& result) {
+  /// The area is integrated on states of 1e-12.
+  constexpr double allowed_gap = 1e-10;
+  if (cycle.end != LoadCycle::End::complete && cycle.end != LoadCycle::End::no_landing)
+    result.doubts.push_back("the load cycle ended on the way to level " +
+                            std::to_string(cycle.level) + ": " + to_string(cycle.end));
+  const double size = std::max({scales.moment(), std::abs(cycle.area), cycle.released});
+  if (!(std::abs(cycle.gap) <= allowed_gap * size))
+    result.doubts.push_back("the area of the load cycle is not what its jumps release");
+}
 
 /// Traces all branches, then the jumps, until no landing is new.
 void trace_with_jumps(const Tracing& tracing, const Scales& scales,
@@ -47,8 +60,10 @@ void trace_with_jumps(const Tracing& tracing, const Scales& scales,
     snap.report.landing_branches = std::move(from_landings);
     if (findings.untraced.empty() || k + 1 == rounds) {
       result.doubts.insert(result.doubts.end(), findings.doubts.begin(), findings.doubts.end());
-      if (settings.cycle)
+      if (settings.cycle) {
         snap.report.cycle = run_cycle(tracing, scales, *settings.cycle, result, snap.report);
+        doubt_cycle(*snap.report.cycle, scales, result);
+      }
       return;
     }
     landings.insert(landings.end(), findings.untraced.begin(), findings.untraced.end());

@@ -57,6 +57,7 @@ class Explorer {
       leave(from, done);
       found.limit_reached = is_full();
     }
+    if (found.limit_reached) doubt("as many stable states as allowed were found");
     write_branches();
     describe(found);
     connect(found);
