@@ -61,7 +61,8 @@ function valueAt(run, branch, row, column) {
 function stabilityAt(run, branch, row) {
   const driven = valueAt(run, branch, row, columnOf(run, "index"));
   const dead = valueAt(run, branch, row, columnOf(run, "index_force"));
-  if (driven > 0) return "unstable";
+  const constrained = valueAt(run, branch, row, columnOf(run, "index_driven"));
+  if (driven > 0) return constrained === 0 ? "driven" : "unstable";
   if (Number.isNaN(dead)) return "unknown";
   if (dead === 0) return "stable";
   return driven === 0 ? "driven" : "unstable";

@@ -17,6 +17,7 @@ posture_of() {
     bar-spring) echo "snap back/LP2" ;;
     bar-torsion-spring) echo straight/UZ2 ;;
     bend-45) echo lift/EP2 ;;
+    "bistable-chain, series") echo pull/LP1 ;;
     "cantilever-elastica, buckled-20") echo press/UZ4 ;;
     "cantilever-elastica, roll"*) echo roll/UZ2 ;;
     cantilever-elastica*) echo bend/EP2 ;;
@@ -34,6 +35,9 @@ posture_of() {
     "hencky-column, pinned-2") echo press/EP3 ;;
     lee-frame*) echo press/LP2 ;;
     link-column) echo press/EP5 ;;
+    "load-cycle, column") echo press/EP3 ;;
+    "load-cycle, orthoglide") echo Q2/LP1 ;;
+    load-cycle*) echo press/LP1 ;;
     "orthoglide-planar, one-sided") echo "Q2 one-sided/SA1" ;;
     orthoglide-planar) echo Q2/LP1 ;;
     preloaded-rest) echo press/LP2 ;;
@@ -49,6 +53,7 @@ posture_of() {
     "shape-springs, kresling") echo press/LP2 ;;
     "shape-springs, wall") echo press/UZ1 ;;
     "snap-through, column") echo press/EP3 ;;
+    "snap-through, masses") echo equal/LP1 ;;
     "snap-through, orthoglide") echo Q2/LP1 ;;
     "snap-through, strut") echo press/LP1 ;;
     "snap-through, switch") echo push/LP1 ;;

@@ -8,6 +8,7 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
+#include "row_indices.hpp"
 #include "switch_words.hpp"
 
 namespace springfold::analysis {
@@ -119,39 +120,6 @@ void mark_rows(Branch& branch) {
         event.row + 1 < branch.samples.size() && !event.rates_after.empty() &&
         (event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point);
     if (two_rows) branch.samples[event.row + 1].event = event.label;
-  }
-}
-
-/// Rows at which an eigenvalue passes zero, so that every count of a matrix there is one of rounding.
-std::vector<bool> critical_rows(const Branch& branch) {
-  std::vector<bool> critical(branch.samples.size(), false);
-  for (const Event& event : branch.events)
-    critical[event.row] = event.kind == EventKind::limit_point ||
-                          event.kind == EventKind::branch_point || event.kind == EventKind::touch;
-  return critical;
-}
-
-/// At a critical point the count is undefined: there the smaller count of the two sides is the number of negative
-/// eigenvalues. Between two of them the engine gives a point of the curve: what stands beside them is the index there.
-void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantities) {
-  const std::vector<bool> critical = critical_rows(branch);
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
-    const auto kind = quantities[q].kind;
-    if (kind != QuantityDefinition::Kind::index && kind != QuantityDefinition::Kind::index_force &&
-        kind != QuantityDefinition::Kind::index_pose)
-      continue;
-    for (std::size_t i = 0; i < branch.samples.size(); ++i) {
-      double& value = branch.samples[i].values[q];
-      const bool unknown = std::isnan(value) && !branch.samples[i].event.empty();
-      if (!unknown && !critical[i]) continue;
-      value = i > 0 ? branch.samples[i - 1].values[q] : std::nan("");
-      for (std::size_t k = i + 1; k < branch.samples.size(); ++k) {
-        const double next = branch.samples[k].values[q];
-        if (std::isnan(next)) continue;
-        value = std::isnan(value) ? next : std::min(value, next);
-        break;
-      }
-    }
   }
 }
 
@@ -347,9 +315,9 @@ EventKind kind_of(const Hit& hit) {
     case HitKind::family:
       return EventKind::family;
     case HitKind::user:
-      return hit.tag == force_limit        ? EventKind::limit_point
-             : hit.tag == dead_load_change ? EventKind::stability_change
-                                           : EventKind::user_value;
+      return hit.tag == force_limit                                    ? EventKind::limit_point
+             : hit.tag == dead_load_change || hit.tag == driven_change ? EventKind::stability_change
+                                                                       : EventKind::user_value;
     case HitKind::unresolved:
     case HitKind::inexact:  // joined to the point before it, see merged_hits.hpp
       return EventKind::unresolved;

@@ -14,6 +14,7 @@ enum EventTag : int {
   force_limit,       ///< an extremum of the force under displacement control
   whole_turn,        ///< a rotation comes near a whole turn: the branch ends there, incomplete
   dead_load_change,  ///< the count of modes that dead loads would make unstable changes
+  driven_change,     ///< under load control: the displacement along the load turns back
 };
 
 /// How the names of places begin at which only that count changes (stability_changes.hpp).

@@ -206,6 +206,11 @@ std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& qua
   for (const QuantityDefinition& q : quantities)
     values.push_back(at ? from_matrix(q, point, *at, state_) : undefined);
   decide_indices(quantities, point, values);
+  double index = undefined;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].kind == Kind::index) index = values[i];
+    if (quantities[i].kind == Kind::index_driven) values[i] = driven_index(point, index);
+  }
   return values;
 }
 

@@ -41,6 +41,7 @@ struct Flow {
   double dissipated = 0;  ///< integral of x' . damping x'
   double peak_speed = 0;  ///< largest |v| of a mass; overdamped: largest rate of a moving unknown
   double peak_multiplier = 0;  ///< largest multiplier of a closure: a component of a chain's wrench
+  Vector peak_multipliers{};   ///< the same of each
   double closure = 0;          ///< largest gap of the closures on the way
   std::vector<Index> switched{};  ///< switches that changed side, in order
   int steps = 0;

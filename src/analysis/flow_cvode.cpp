@@ -198,9 +198,12 @@ class Integrator {
     const auto rate = data_.rate(y);
     if (!rate) return false;
     const Landscape& landscape = data_.motion->landscape;
-    if (rate->multipliers.size() > 0)
-      flow_.peak_multiplier =
-          std::max(flow_.peak_multiplier, rate->multipliers.lpNorm<Eigen::Infinity>());
+    if (rate->multipliers.size() > 0) {
+      if (flow_.peak_multipliers.size() == 0)
+        flow_.peak_multipliers.setZero(rate->multipliers.size());
+      flow_.peak_multipliers = flow_.peak_multipliers.cwiseMax(rate->multipliers.cwiseAbs());
+      flow_.peak_multiplier = flow_.peak_multipliers.maxCoeff();
+    }
     double speed = rate->rate.lpNorm<Eigen::Infinity>();
     if (data_.has_masses()) {
       speed = 0;
@@ -213,6 +216,10 @@ class Integrator {
         !landscape.multipliers().empty())
       flow_.closure =
           std::max(flow_.closure, Vector(r(landscape.multipliers())).lpNorm<Eigen::Infinity>());
+    // Far from rest that is seen without second derivatives: power = slope . motion <= |slope| |motion|.
+    const bool is_fast = data_.has_masses() ? speed >= nearly_at_rest
+                                            : rate->power >= nearly_at_rest * rate->rate.norm();
+    if (is_fast) return true;
     const auto at = landscape.ground_on(data_.x, data_.piece);
     if (!at) return false;
     const bool is_slow =

@@ -57,9 +57,9 @@ continuation::Curve with_merged_force_events(continuation::Curve curve) {
   std::erase_if(curve.hits, [&](const Hit& hit) {
     if (is_force_limit(hit))
       return is_met_at(hit, all, [](const Hit& h) { return h.kind == HitKind::branch_point; });
-    return has_tag(hit, dead_load_change) && is_met_at(hit, all, [&](const Hit& h) {
-             return h.kind != HitKind::user || is_force_limit(h);
-           });
+    return (has_tag(hit, dead_load_change) || has_tag(hit, driven_change)) &&
+           is_met_at(hit, all,
+                     [&](const Hit& h) { return h.kind != HitKind::user || is_force_limit(h); });
   });
   return curve;
 }

@@ -10,6 +10,10 @@ namespace springfold::analysis {
 inline constexpr const char* dead_load_change_name =
     "under the same loads, not held, another number of modes is unstable";
 
+/// Name of the engine's event where under load control the displacement along the load turns back.
+inline constexpr const char* driven_change_name =
+    "the displacement along the load turns back: if it were driven, stability would change";
+
 /// The second of these as an event: the determinant of the equilibrium matrix with all bodies free is zero. @pre the problem
 /// is symmetric; the evaluator outlives the event
 continuation::Event dead_load_event(const Evaluator& evaluator);

@@ -91,6 +91,13 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   if (study.control == ControlMode::pose && evaluator.problem().symmetric() &&
       !evaluator.problem().structured())
     events.push_back(dead_load_event(evaluator));
+  if (study.control == ControlMode::load && study.kind == StudyKind::force_deflection &&
+      evaluator.problem().symmetric())
+    events.push_back({driven_change_name,
+                      [&evaluator](const continuation::CurvePoint& point) {
+                        return evaluator.displacement_rate(point);
+                      },
+                      continuation::EventAction::record, driven_change});
   add_whole_turns(study, evaluator, quantities, events);
   for (const Limit& limit : study.until) {
     if (std::isfinite(limit.low))

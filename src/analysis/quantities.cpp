@@ -92,6 +92,7 @@ bool is_continuous(const QuantityDefinition& q) {
     case Kind::index_pose:
     case Kind::index_force:
     case Kind::index:
+    case Kind::index_driven:
       return false;
   }
   return false;
@@ -184,6 +185,8 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
   list.push_back({Kind::index_pose, 0, "index_pose", Unit::none, 1});
   list.push_back({Kind::index_force, 0, "index_force", Unit::none, 1});
   list.push_back({Kind::index, 0, "index", Unit::none, 1});
+  if (study.control == ControlMode::load && study.kind == StudyKind::force_deflection)
+    list.push_back({Kind::index_driven, 0, "index_driven", Unit::none, 1});
   if (!non_conservative_loads(system.mechanism, study).empty()) add_tangents(system, scales, list);
   list.push_back({Kind::energy, 0, "energy", Unit::energy, scales.moment()});
   return list;

@@ -27,7 +27,8 @@ struct QuantityDefinition {
     eigenvalue,  ///< of K_Sigma, dimensionless
     index_pose,
     index_force,
-    index,  ///< of the study's control mode
+    index,         ///< of the study's control mode
+    index_driven,  ///< load control: if the displacement along the load were driven
     energy,
     point,                ///< entry / 3: which of the system's points; entry % 3: its x, y or z
     spring_length,        ///< of a line spring
@@ -90,6 +91,10 @@ class Evaluator {
   /// d(force)/ds along the branch, dimensionless; zero if it is below rounding.
   double force_rate(const continuation::CurvePoint& point) const;
 
+  /// d(displacement along the load)/ds under load control, dimensionless: what the rate of the load does
+  /// work on; zero if it is below rounding.
+  double displacement_rate(const continuation::CurvePoint& point) const;
+
   /// Stiffness of the study's body, all others free (K_Sigma where it is the only one), physical
   /// units, world axes; empty if undefined.
   Matrix platform_stiffness(const continuation::CurvePoint& point) const;
@@ -148,6 +153,8 @@ class Evaluator {
   /// Where springs rest at their threshold: what all pieces together say.
   void decide_indices(const std::vector<QuantityDefinition>& quantities,
                       const continuation::CurvePoint& point, std::vector<double>& values) const;
+  /// Unstable modes if the displacement along the load were driven, from those under the load.
+  double driven_index(const continuation::CurvePoint& point, double index) const;
   /// Where that is not known: the largest number of unstable modes of all sides.
   double largest_index(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                        const std::vector<std::size_t>& resting, double own) const;

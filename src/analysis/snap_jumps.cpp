@@ -9,6 +9,7 @@
 #include "fall.hpp"
 #include "flow.hpp"
 #include "frozen.hpp"
+#include "inertia.hpp"
 #include "leg_angles.hpp"
 #include "limits.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -19,6 +20,10 @@ namespace {
 
 using continuation::CurvePoint;
 using Kind = QuantityDefinition::Kind;
+
+/// Between very many states a jump asks only whether there is more than one landing: the search ends with as many
+/// states of rest, and goes on only where they do not answer that.
+constexpr int few_states = 12;
 
 /// Where neighbouring rows of one switching stand for its two sides.
 bool has_two_rows(const Event& event) {
@@ -69,8 +74,8 @@ class Jumper {
     const double energy = landscape.energy(critical);
     StateBook book(landscape);
     for (const Departure& way : ways.list) book.ways_down(way.x);
-    add_traced(frozen, critical, book);
-    book.search({.starts = settings_.starts, .seed = settings_.seed, .bound = energy});
+    if (!settings_.transitions) add_traced(frozen, critical, book);
+    search(book, energy, settings_.transitions ? few_states : StateSearch{}.maximum);
     for (const Departure& way : ways.list) {
       Jump jump;
       jump.label = "J" + std::to_string(findings_.report.jumps.size() + 1);
@@ -86,13 +91,24 @@ class Jumper {
       if (down.is_lost)
         doubt(event,
               "a way down ended at no state that is known to be stable: the verdict is open");
+      const bool is_cut = settings_.transitions && std::ssize(book.states()) >= few_states;
+      if (down.verdict == SnapVerdict::unambiguous && is_cut) {
+        search(book, energy, StateSearch{}.maximum);
+        down = fall(book, way, energy);
+      }
       settle(frozen, event, way, down, book);
       write(frozen, critical, down, book, jump);
+      if (settings_.inertia) move_with_masses(frozen, event, way, down, book, jump);
       findings_.report.jumps.push_back(std::move(jump));
     }
   }
 
  private:
+  void search(StateBook& book, double energy, int maximum) const {
+    book.search(
+        {.starts = settings_.starts, .seed = settings_.seed, .maximum = maximum, .bound = energy});
+  }
+
   void doubt(const Event& event, const std::string& why) {
     findings_.doubts.push_back("the jump from " + event.label + ": " + why);
   }
@@ -115,6 +131,21 @@ class Jumper {
     if (std::find(down.minima.begin(), down.minima.end(), reached) == down.minima.end())
       down.minima.push_back(reached);
     down.landing = reached;
+  }
+
+  /// The motion with masses; where the answer is unambiguous it has to end at the landing.
+  void move_with_masses(const Frozen& frozen, const Event& event, const Departure& way,
+                        const Fall& down, StateBook& book, Jump& jump) {
+    const RestState* landing = down.landing ? &book.states()[*down.landing] : nullptr;
+    Inertial inertial = inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing);
+    if (inertial.landing) {
+      inertial.motion.landing = written(frozen, *inertial.landing);
+      inertial.motion.released = jump.critical.energy - inertial.motion.landing.energy;
+      if (down.verdict == SnapVerdict::unambiguous && landing != nullptr &&
+          !frozen.landscape().same(landing->x, inertial.landing->x))
+        doubt(event, "the motion with masses comes to rest somewhere else than the way down");
+    }
+    jump.inertial = std::move(inertial.motion);
   }
 
   std::vector<Piece> pieces_beside(const Frozen& frozen, const Branch& branch,
@@ -309,6 +340,13 @@ std::vector<Loss> losses_of(const StudyResult& result,
     }
   }
   return losses;
+}
+
+void find_jumps_from(const std::vector<Loss>& losses, const Tracing& tracing, const Scales& scales,
+                     const SnapSettings& settings, const StudyResult& result,
+                     SnapFindings& findings) {
+  Jumper jumper(tracing, scales, settings, result, findings);
+  for (const Loss& loss : losses) jumper.jump(loss);
 }
 
 SnapFindings find_jumps(const Tracing& tracing, const Scales& scales, const SnapSettings& settings,

@@ -24,6 +24,12 @@ struct SnapFindings {
   std::vector<std::string> doubts{};
 };
 
+/// Jumps from these losses alone, appended to the findings. States of other branches are neither used in
+/// the verdict nor compared with the landings.
+void find_jumps_from(const std::vector<Loss>& losses, const Tracing& tracing, const Scales& scales,
+                     const SnapSettings& settings, const StudyResult& result,
+                     SnapFindings& findings);
+
 /// @param result  traced, with its branches
 SnapFindings find_jumps(const Tracing& tracing, const Scales& scales, const SnapSettings& settings,
                         const StudyResult& result);

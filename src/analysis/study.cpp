@@ -174,6 +174,26 @@ void check_branches(const Study& study, std::vector<std::string>& problems) {
   }
 }
 
+/// Values of lambda of load cycles and searches lie within the study's limits.
+void check_levels(const Study& study, std::vector<std::string>& problems) {
+  const auto check = [&](const std::string& key, const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) problems.push_back(key + ": need finite numbers");
+      for (const Limit& limit : study.until)
+        if (limit.quantity == "lambda" && !(limit.low <= value && value <= limit.high))
+          problems.push_back(key + ": a value lies outside the limits of lambda");
+    }
+  };
+  if (study.snap->cycle) {
+    if (study.snap->cycle->levels.empty()) problems.push_back("cycle.levels: need at least one");
+    check("cycle.levels", study.snap->cycle->levels);
+  }
+  if (study.snap->transitions) {
+    check("transitions.search_at", study.snap->transitions->search_at);
+    check("transitions.barriers_at", study.snap->transitions->barriers_at);
+  }
+}
+
 /// Jumps need all special points, and names of joints that exist.
 void check_snap(const Study& study, const model::Mechanism& mechanism,
                 std::vector<std::string>& problems) {
@@ -184,15 +204,20 @@ void check_snap(const Study& study, const model::Mechanism& mechanism,
     problems.push_back("snap: path = \"davidenko\" finds no branch points, need \"arc_length\"");
   if (study.snap->starts < 0) problems.push_back("snap.starts: need a whole number >= 0");
   const statics::System system = statics::prepare(mechanism);
-  for (const JointDamping& damping : study.snap->damping) {
-    bool found = false;
-    for (Index i = 0; i < system.first_pose; ++i)
-      found |= !system.is_wrench[static_cast<std::size_t>(i)] &&
-               system.coordinate_names[static_cast<std::size_t>(i)] == damping.joint;
-    if (!found) problems.push_back("snap.damping: no joint coordinate \"" + damping.joint + "\"");
-    if (!(damping.value > 0) || !std::isfinite(damping.value))
-      problems.push_back("snap.damping." + damping.joint + ": need a number > 0");
-  }
+  const auto check = [&](const std::string& key, const std::vector<JointDamping>& list) {
+    for (const JointDamping& damping : list) {
+      bool found = false;
+      for (Index i = 0; i < system.first_pose; ++i)
+        found |= !system.is_wrench[static_cast<std::size_t>(i)] &&
+                 system.coordinate_names[static_cast<std::size_t>(i)] == damping.joint;
+      if (!found) problems.push_back(key + ": no joint coordinate \"" + damping.joint + "\"");
+      if (!(damping.value > 0) || !std::isfinite(damping.value))
+        problems.push_back(key + "." + damping.joint + ": need a number > 0");
+    }
+  };
+  check("snap.damping", study.snap->damping);
+  if (study.snap->inertia) check("snap.inertia.damping", study.snap->inertia->damping);
+  check_levels(study, problems);
 }
 
 void check_search(const Study& study, const model::Mechanism& mechanism,

@@ -47,7 +47,8 @@ Point point_of(const Branch& branch, const Event& event) {
 }
 
 bool is_index(const std::string& quantity) {
-  return quantity == "index" || quantity == "index_force" || quantity == "index_pose";
+  return quantity == "index" || quantity == "index_force" || quantity == "index_pose" ||
+         quantity == "index_driven";
 }
 
 /// The point as it is on one side of it: at a switching one of its two rows, and for counts of unstable

@@ -6,6 +6,7 @@
 
 #include "label_layout.hpp"
 #include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
 
@@ -151,6 +152,29 @@ void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result)
                       axes.place(value(e.sample, axes.spec.x), value(e.sample, axes.spec.y))});
 }
 
+/// Jumps that land; of a study with levels those that its cycle takes.
+void add_jumps(Figure& figure, const Axes& axes, const StudyResult& result) {
+  if (!result.snap) return;
+  const auto at = [&](const analysis::SnapState& state) {
+    const auto value = [&](const std::string& quantity) {
+      const auto column = column_of(result, quantity);
+      return column && *column < state.values.size() ? state.values[*column]
+                                                     : std::numeric_limits<double>::quiet_NaN();
+    };
+    return axes.place(value(axes.spec.x), value(axes.spec.y));
+  };
+  std::vector<bool> shown(result.snap->jumps.size(), !result.snap->cycle);
+  if (result.snap->cycle)
+    for (const analysis::CycleStep& step : result.snap->cycle->steps)
+      if (step.jump > 0) shown[static_cast<std::size_t>(step.jump - 1)] = true;
+  for (std::size_t j = 0; j < shown.size(); ++j) {
+    const analysis::Jump& jump = result.snap->jumps[j];
+    const PlotPoint from = at(jump.critical), to = at(jump.landing);
+    if (shown[j] && is_finite(from) && is_finite(to) && from != to)
+      figure.arrows.emplace_back(from, to);
+  }
+}
+
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const FigureText& label) {
   const auto& [spec, units] = axes;
   if (figure.x_title.text.empty()) {
@@ -171,6 +195,7 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
                is_diagram ? static_cast<int>(b) + 1 : 0);
   if (is_diagram) number_branches(figure, first_curve);
   add_equilibria(figure, axes, result);
+  add_jumps(figure, axes, result);
   if (result.branches.empty()) return;
   const Branch& first = result.branches.front();
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});
@@ -228,6 +253,7 @@ bool fit_axes(Figure& figure, bool polar) {
   for (const auto& curve : figure.curves)
     for (const auto& part : curve.parts) std::for_each(part.line.begin(), part.line.end(), include);
   for (const auto& mark : figure.marks) include(mark.at);
+  for (const auto& [from, to] : figure.arrows) include(from), include(to);
   if (!(x.low <= x.high)) return false;
   if (polar) include({0, 0});
   Range padded_x = x.padded(), padded_y = y.padded();

@@ -51,6 +51,7 @@ struct Figure {
   PlotPoint low{}, high{};  ///< corners of the axes
   std::vector<FigureCurve> curves{};
   std::vector<FigureMark> marks{};
+  std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
 };
 
 /// The figures that the case asks for, otherwise one per study that has a curve. Curves whose runs

@@ -54,6 +54,7 @@ bool moves_on(const StudyResult& result, const Branch& branch, double size) {
 drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch, double size,
                             const UnitLabels& units) {
   const std::string x = moves_on(result, branch, size) ? "deflection" : "s";
+  const char* driven = column_of(result, "index_driven") ? "index_driven" : "index";
   const std::string y = is_known_on(result, branch, "force") ? "force" : "lambda";
   drawing::Diagram diagram{.x_name = name_with_unit(result, x, units),
                            .y_name = name_with_unit(result, y, units)};
@@ -61,7 +62,7 @@ drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch, dou
     diagram.points.push_back({.x = value_at(result, branch, row, x),
                               .y = value_at(result, branch, row, y),
                               .unstable_dead = count_at(result, branch, row, "index_force"),
-                              .unstable_driven = count_at(result, branch, row, "index"),
+                              .unstable_driven = count_at(result, branch, row, driven),
                               .label = branch.samples[row].event});
   return diagram;
 }

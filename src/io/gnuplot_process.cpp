@@ -89,7 +89,8 @@ int spawn(const GnuplotCall& call, int error_pipe, pid_t& process) {
   for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) sigaddset(&defaults, signal);
   posix_spawnattr_setsigdefault(&attributes, &defaults);
 
-  std::vector<std::string> words = {"gnuplot", "--default-settings", call.script};
+  std::vector<std::string> words = call.words;
+  if (words.empty()) words = {"gnuplot", "--default-settings", call.script};
   std::vector<std::string> variables = environment();
   const int error = ::posix_spawn(&process, call.executable.c_str(), &files, &attributes,
                                   pointers_to(words).data(), pointers_to(variables).data());

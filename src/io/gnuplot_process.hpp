@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace springfold::io {
 
@@ -14,6 +15,8 @@ struct GnuplotCall {
   std::string script{};                ///< file name in that folder
   double timeout_seconds = 60;
   std::function<bool()> stop_requested{};  ///< asked a few times a second; may be empty
+  /// Another program that draws: its command line, its name first, in place of gnuplot's with the script.
+  std::vector<std::string> words{};
 };
 
 /// Full path of a program, looked up in PATH unless the name has a slash; nothing if there is no

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "cycle_access.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "transition_access.hpp"
 
 namespace springfold::io {
 namespace {
@@ -15,7 +17,14 @@ using analysis::SnapState;
 using analysis::StudyResult;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-const std::string critical_prefix = "critical.";
+const std::string critical_prefix = "critical.", inertial_prefix = "inertial.",
+                  saddle_prefix = "saddle.";
+
+/// Does the name read a column of another state than the landing?
+bool has_prefix(const std::string& name) {
+  return name.starts_with(critical_prefix) || name.starts_with(inertial_prefix) ||
+         name.starts_with(saddle_prefix);
+}
 
 bool is_number(std::string_view text) {
   return !text.empty() && text.size() < 7 && text.front() != '0' &&
@@ -48,6 +57,16 @@ double value_of(const StudyResult& result, const Jump& jump, const SnapState& st
   if (quantity == "states") return static_cast<double>(jump.others.size() + 1);
   if (quantity == "barrier") return barrier_of(jump, state);
   if (quantity == "time_scale") return jump.time_scale;
+  if (quantity == "peak_speed") return jump.inertial ? jump.inertial->peak_speed : nothing;
+  if (quantity == "peak_force") return jump.inertial ? jump.inertial->peak_force : nothing;
+  if (quantity == "peak_moment") return jump.inertial ? jump.inertial->peak_moment : nothing;
+  if (quantity == "duration") return jump.inertial ? jump.inertial->duration : nothing;
+  if (quantity == "inertial_released") return jump.inertial ? jump.inertial->released : nothing;
+  if (quantity == "dissipated") return jump.inertial ? jump.inertial->dissipated : nothing;
+  if (quantity.starts_with(inertial_prefix))
+    return jump.inertial ? column_value(result, jump.inertial->landing,
+                                        quantity.substr(inertial_prefix.size()))
+                         : nothing;
   if (quantity.starts_with(critical_prefix))
     return column_value(result, jump.critical, quantity.substr(critical_prefix.size()));
   return column_value(result, state, quantity);
@@ -79,7 +98,7 @@ const Jump* nearest(const StudyResult& result, const std::vector<NearValue>& nea
 }  // namespace
 
 bool is_jump_place(const std::string& at) {
-  if (at == "J") return true;
+  if (at == "J" || is_cycle_place(at) || is_transition_place(at)) return true;
   if (!at.starts_with('J')) return false;
   const std::size_t dot = at.find('.');
   return is_number(std::string_view{at}.substr(1, dot == std::string::npos ? dot : dot - 1)) &&
@@ -87,23 +106,59 @@ bool is_jump_place(const std::string& at) {
 }
 
 std::vector<std::string> jump_quantities() {
-  return {"released", "energy_before", "energy_after", "return",  "return_released",
-          "loop",     "verdict",       "states",       "barrier", "time_scale"};
+  return {"released",
+          "energy_before",
+          "energy_after",
+          "return",
+          "return_released",
+          "loop",
+          "verdict",
+          "states",
+          "barrier",
+          "time_scale",
+          "peak_speed",
+          "peak_force",
+          "peak_moment",
+          "duration",
+          "dissipated",
+          "inertial_released",
+          "jumps",
+          "area",
+          "gap",
+          "energy_change",
+          "loop_released",
+          "closed",
+          "transitions",
+          "reached",
+          "garden_of_eden",
+          "memory",
+          "low",
+          "high",
+          "up",
+          "down",
+          "up_released",
+          "down_released",
+          "escape",
+          "barriers",
+          "lowest_barrier",
+          "complete",
+          "alternatives"};
 }
 
 bool is_jump_quantity(const std::string& name) {
   const auto names = jump_quantities();
-  return name.starts_with(critical_prefix) ||
-         std::find(names.begin(), names.end(), name) != names.end();
+  return has_prefix(name) || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string jump_column(const std::string& name) {
-  if (name.starts_with(critical_prefix)) return name.substr(critical_prefix.size());
+  if (has_prefix(name)) return name.substr(name.find('.') + 1);
   return is_jump_quantity(name) ? "" : name;
 }
 
 double jump_value(const ExpectedValue& expected, const StudyResult& result) {
   if (!result.snap) return nothing;
+  if (is_cycle_place(expected.at)) return cycle_value(expected, result);
+  if (is_transition_place(expected.at)) return transition_value(expected, result);
   const auto& jumps = result.snap->jumps;
   const std::size_t dot = expected.at.find('.');
   const Jump* jump = nullptr;

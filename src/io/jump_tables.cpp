@@ -2,15 +2,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle_access.hpp"
 #include "jump_access.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "text.hpp"
+#include "transition_access.hpp"
 
 namespace springfold::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using analysis::InertialMotion;
 using analysis::Jump;
 using analysis::SnapState;
 using analysis::StudyResult;
@@ -57,6 +60,30 @@ std::string warning_text(const analysis::SnapWarning& warning) {
              : "WARNING: leg " + warning.coordinate + " lands beyond 90 degrees: " + angle;
 }
 
+/// What the motion with masses says beside the overdamped one.
+std::string inertial_lines(const StudyResult& result, const InertialMotion& motion,
+                           const std::string& energy) {
+  if (motion.end == InertialMotion::End::no_mass)
+    return line("", "with masses: REFUSED, nothing with a mass moves" +
+                        (motion.massless.empty() ? "" : " with " + motion.massless));
+  if (motion.end == InertialMotion::End::no_end)
+    return line("", "with masses: not integrated to a state of rest");
+  std::string text = motion.end == InertialMotion::End::runs_away
+                         ? line("", "with masses it runs away")
+                         : line("", "with masses it lands " + place_of(motion.landing) + ": " +
+                                        pose_text(result, motion.landing) + ", released " +
+                                        rounded(motion.released, digits) + energy);
+  constexpr int few = 4;  // of what a motion of a certain push says
+  text += line(
+      "", "peak speed " + rounded(motion.peak_speed, few) +
+              (motion.peak_force_of.empty() ? ""
+                                            : ", peak force " + rounded(motion.peak_force, few) +
+                                                  " (" + motion.peak_force_of + ")") +
+              ", " + rounded(motion.duration, few) +
+              " after a push of 1e-3 radian or sizes of the mechanism");
+  return text;
+}
+
 std::string lines_of(const StudyResult& result, const Jump& jump, const std::string& energy) {
   const double lambda = value_of(result, jump.critical, "lambda");
   std::string text =
@@ -75,6 +102,7 @@ std::string lines_of(const StudyResult& result, const Jump& jump, const std::str
                      rounded(jump.critical.energy - other.energy, digits) + energy);
   if (jump.may_run_away && jump.verdict == analysis::SnapVerdict::depends)
     text += line("", "or it runs away");
+  if (jump.inertial) text += inertial_lines(result, *jump.inertial, energy);
   for (const std::string& name : jump.switches) text += line("", "switches: " + name);
   for (const auto& warning : jump.warnings) text += line("", warning_text(warning));
   if (jump.back > 0) {
@@ -99,10 +127,34 @@ Json by_quantity(const StudyResult& result, const SnapState& state) {
           {"row", state.row},       {"piece", state.piece}, {"values", named}};
 }
 
+/// Cells of the motion with masses, in its own row.
+std::string inertial_cells(const Jump& jump, const std::string& state) {
+  if (!jump.inertial || state != "inertial") return ",,,,";
+  const InertialMotion& motion = *jump.inertial;
+  return "," + csv_number(motion.peak_speed) + "," + csv_number(motion.peak_force) + "," +
+         csv_number(motion.peak_moment) + "," + csv_number(motion.duration);
+}
+
 Json list_of(const StudyResult& result, const std::vector<SnapState>& states) {
   Json list = Json::array();
   for (const SnapState& state : states) list.push_back(by_quantity(result, state));
   return list;
+}
+
+Json inertial_json(const StudyResult& result, const Jump& jump) {
+  if (!jump.inertial) return nullptr;
+  const InertialMotion& motion = *jump.inertial;
+  return {{"end", to_string(motion.end)},
+          {"massless", motion.massless},
+          {"landing", by_quantity(result, motion.landing)},
+          {"released", motion.released},
+          {"peak_speed", motion.peak_speed},
+          {"peak_force", motion.peak_force},
+          {"peak_force_of", motion.peak_force_of},
+          {"peak_moment", motion.peak_moment},
+          {"peak_moment_of", motion.peak_moment_of},
+          {"duration", motion.duration},
+          {"dissipated", motion.dissipated}};
 }
 
 Json json_of(const StudyResult& result, const Jump& jump) {
@@ -129,6 +181,7 @@ Json json_of(const StudyResult& result, const Jump& jump) {
           {"time_scale", jump.time_scale},
           {"switches", jump.switches},
           {"warnings", warnings},
+          {"inertial", inertial_json(result, jump)},
           {"back", jump.back},
           {"loop", jump.loop}};
 }
@@ -148,7 +201,7 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
     text += line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
                                   " hands over to branch " + std::to_string(handover.next) +
                                   (handover.towards.empty() ? "" : ", " + handover.towards));
-  return text;
+  return text + cycle_lines(result, units) + transition_lines(result, units);
 }
 
 Json jumps_json(const StudyResult& result) {
@@ -162,6 +215,8 @@ Json jumps_json(const StudyResult& result) {
                          {"towards", handover.towards}});
   return {{"jumps", jumps},
           {"handovers", handovers},
+          {"cycle", cycle_json(result)},
+          {"transitions", transitions_json(result)},
           {"landing_branches", result.snap->landing_branches},
           {"refusals", result.snap->refusals}};
 }
@@ -174,7 +229,7 @@ std::string jumps_csv(const std::vector<StudyResult>& results) {
         names.push_back(quantity.name);
   std::string csv =
       "study,run,label,jump,from,branch,loading,side,towards,verdict,state,to_branch,potential,"
-      "released,time_scale,back,loop";
+      "released,time_scale,back,loop,peak_speed,peak_force,peak_moment,duration";
   for (const auto& name : names) csv += "," + csv_text(name);
   csv += "\n";
   for (const auto& result : results) {
@@ -189,13 +244,15 @@ std::string jumps_csv(const std::vector<StudyResult>& results) {
                "," + csv_number(state.energy) + "," +
                csv_number(jump.critical.energy - state.energy) + "," + csv_number(jump.time_scale) +
                "," + (jump.back > 0 ? "J" + std::to_string(jump.back) : "") + "," +
-               csv_number(jump.loop);
+               csv_number(jump.loop) + inertial_cells(jump, what);
         for (const auto& name : names) csv += "," + csv_number(value_of(result, state, name));
         csv += "\n";
       };
       add("critical", jump.critical);
       if (!jump.landing.values.empty()) add("landing", jump.landing);
       for (const SnapState& other : jump.others) add("other", other);
+      if (jump.inertial && !jump.inertial->landing.values.empty())
+        add("inertial", jump.inertial->landing);
       for (const SnapState& saddle : jump.saddles) add("saddle", saddle);
     }
   }

@@ -17,6 +17,7 @@
 #include "map_figure.hpp"
 #include "sha256.hpp"
 #include "text.hpp"
+#include "transition_access.hpp"
 
 namespace springfold::io {
 
@@ -163,6 +164,13 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   }
 }
 
+void send_jumps(Gnuplot& gnuplot, const Figure& figure) {
+  for (const auto& [from, to] : figure.arrows)
+    gnuplot << "set arrow from first " << from.first << ", first " << from.second << " to first "
+            << to.first << ", first " << to.second
+            << " head filled size screen 0.012, 20 linecolor rgb ink linewidth 1.2 front\n";
+}
+
 void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   gnuplot << assignment("figure_name", figure.name)
           << gnuplot_assignment("figure_title", figure.title)
@@ -191,6 +199,7 @@ void write_script(const fs::path& path, const Figure& figure, const Templates& t
   send_values(gnuplot, figure, canvas);
   gnuplot << "\n" << templates.style << "\n";
   send_labels(gnuplot, figure, canvas);
+  send_jumps(gnuplot, figure);
   send_curves(gnuplot, figure);
   send_marks(gnuplot, figure);
   gnuplot << "\n" << templates.figure;
@@ -241,6 +250,35 @@ std::optional<std::string> draw(const fs::path& folder, const std::string& name,
   return std::nullopt;
 }
 
+/// Graphs of stable states by Graphviz, where it is installed: nobody misses them otherwise.
+void draw_graphs(const fs::path& folder, const std::vector<analysis::StudyResult>& results,
+                 const PlotOptions& options, PlotOutcome& outcome) {
+  const auto names = graph_names(results);
+  const auto dot = find_executable("dot");
+  for (std::size_t i = 0; i < results.size() && dot; ++i) {
+    if (names[i].empty() || (options.stop_requested && options.stop_requested())) continue;
+    make_folder(folder / "plots");
+    const WorkFolder work{folder / "plots"};
+    const std::string picture = names[i] + "-graph.svg";
+    write_file(work.path() / "graph.gv", transitions_dot(results[i]));
+    const auto failure = run_gnuplot({.executable = *dot,
+                                      .folder = work.path(),
+                                      .timeout_seconds = options.timeout_seconds,
+                                      .stop_requested = options.stop_requested,
+                                      .words = {"dot", "-Tsvg", "-ograph.svg", "graph.gv"}});
+    std::error_code error;
+    if (failure || !fs::is_regular_file(work.path() / "graph.svg", error)) {
+      outcome.warnings.push_back("figure '" + picture + "': Graphviz drew nothing; graphs/" +
+                                 names[i] + ".gv has the graph");
+      continue;
+    }
+    const std::string bytes = read_file(work.path() / "graph.svg");
+    list_in_manifest(folder, {{"plots/" + picture, sha256(bytes), bytes.size()}});
+    publish_file(work.path() / "graph.svg", folder / "plots" / picture);
+    outcome.files.push_back(folder / "plots" / picture);
+  }
+}
+
 void expect_pictures(const std::string& name, PlotOutcome& outcome) {
   for (const char* ending : {".png", ".svg"}) outcome.missing.push_back("plots/" + name + ending);
 }
@@ -253,6 +291,7 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
   PlotOutcome outcome;
   try {
     const auto figures = figures_of(the_case, results, outcome.warnings);
+    draw_graphs(folder, results, options, outcome);
     const auto maps = map_figures_of(the_case, results, outcome.warnings);
     if (figures.empty() && maps.empty()) return outcome;
     for (const auto& figure : figures) expect_pictures(figure.name, outcome);

@@ -55,7 +55,8 @@ RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
   force_ = column_of(result, "force");
   deflection_ = column_of(result, "deflection");
   dead_ = column_of(result, "index_force");
-  driven_ = column_of(result, "index");
+  driven_ = column_of(result, "index_driven");
+  if (!driven_) driven_ = column_of(result, "index");
 }
 
 double RowScenes::value(const Sample& row, std::optional<std::size_t> column) const {

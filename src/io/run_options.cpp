@@ -23,11 +23,31 @@ Json json_of(const analysis::ActuatorRate& rate) {
   return {{"actuator", rate.actuator}, {"rate", rate.rate}};
 }
 
+Json json_of(const analysis::JointDamping& damping) {
+  return {{"joint", damping.joint}, {"value", damping.value}};
+}
+
 template <class T>
 Json json_of(const std::vector<T>& items) {
   Json list = Json::array();
   for (const auto& item : items) list.push_back(json_of(item));
   return list;
+}
+
+/// null where no jumps are wanted.
+Json json_of(const std::optional<analysis::SnapSettings>& snap) {
+  if (!snap) return nullptr;
+  Json json = {{"starts", snap->starts}, {"seed", snap->seed}, {"damping", json_of(snap->damping)}};
+  if (snap->inertia)
+    json["inertia"] = {{"damping_ratio", snap->inertia->damping_ratio},
+                       {"damping", json_of(snap->inertia->damping)}};
+  if (snap->cycle) json["cycle"] = {{"levels", snap->cycle->levels}, {"times", snap->cycle->times}};
+  if (snap->transitions)
+    json["transitions"] = {{"search_at", snap->transitions->search_at},
+                           {"barriers_at", snap->transitions->barriers_at},
+                           {"starts", snap->transitions->starts},
+                           {"maximum", snap->transitions->maximum}};
+  return json;
 }
 
 /// Name and value of every option of one study, without saying which are defaults.
@@ -62,7 +82,8 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"search.starts", study.search.starts},
           {"search.seed", study.search.seed},
           {"search.maximum", study.search.maximum},
-          {"search.box", json_of(study.search.box)}};
+          {"search.box", json_of(study.search.box)},
+          {"snap", json_of(study.snap)}};
 }
 
 std::string body_name(const model::Mechanism& mechanism, Index body) {

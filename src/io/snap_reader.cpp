@@ -1,6 +1,94 @@
 #include "snap_reader.hpp"
 
 namespace springfold::io {
+namespace {
+
+const std::string damping_example = "a table such as { \"leg.knee\" = 0.1 }";
+
+std::vector<JointDampingDraft> read_damping(const TableReader& table, NumberTable& numbers,
+                                            Reading& reading) {
+  std::vector<JointDampingDraft> list;
+  for (const NamedItem& item : named_items(table, "damping", damping_example, reading))
+    list.push_back({item.name.name, read_number({item.value, item.name.key}, {Range::positive, ""},
+                                                numbers, reading)});
+  return list;
+}
+
+std::vector<analysis::JointDamping> built(const std::vector<JointDampingDraft>& drafts,
+                                          const std::vector<double>& numbers) {
+  std::vector<analysis::JointDamping> list;
+  for (const JointDampingDraft& draft : drafts) list.push_back({draft.joint, numbers[draft.value]});
+  return list;
+}
+
+/// A table of the study, or nothing; keys of another kind of study are refused.
+TableReader table_of(const TableReader& study, const std::string& name, bool belongs,
+                     const std::string& kind, const std::string& example,
+                     const std::vector<std::string>& known, Reading& reading) {
+  static const Node nothing;
+  const Node* node = study.find(name);
+  const bool is_table = node != nullptr && node->kind == Node::Kind::table;
+  if (node != nullptr && !belongs)
+    reading.problems.add(node->place, study.key_of(name),
+                         "has no meaning here, need kind = \"" + kind + "\" with it");
+  else if (node != nullptr && !is_table)
+    reading.problems.add(node->place, study.key_of(name),
+                         "got " + described(*node) + ", need " + example);
+  return {is_table && belongs ? *node : nothing, study.key_of(name), known, reading};
+}
+
+/// `inertia = true`, or a table of settings, which means true.
+void read_inertia(const TableReader& snap, NumberTable& numbers, Reading& reading,
+                  SnapDraft& draft) {
+  static const Node nothing;
+  const std::string need = "true, or a table such as { damping_ratio = 0.05 }";
+  const Node* node = snap.find("inertia");
+  const bool is_settings = node != nullptr && node->kind == Node::Kind::table;
+  const bool is_truth = node != nullptr && node->kind == Node::Kind::boolean;
+  if (node != nullptr && !is_settings && !is_truth)
+    reading.problems.add(node->place, snap.key_of("inertia"),
+                         "got " + described(*node) + ", need " + need);
+  draft.has_inertia = is_settings || (is_truth && node->number != 0);
+  const TableReader table{
+      is_settings ? *node : nothing, snap.key_of("inertia"), {"damping_ratio", "damping"}, reading};
+  draft.damping_ratio = table.number("damping_ratio", {Range::positive, ""}, numbers,
+                                     analysis::InertialSettings{}.damping_ratio);
+  draft.inertial_damping = read_damping(table, numbers, reading);
+  if (table.has("damping_ratio") && table.has("damping"))
+    reading.problems.add(
+        table.find("damping_ratio")->place, table.key_of("damping_ratio"),
+        "goes with the dampers of the overdamped motion, need either it or damping");
+}
+
+void read_levels(const TableReader& study, NumberTable& numbers, Reading& reading,
+                 SnapDraft& draft) {
+  const std::string example = "a table such as { levels = [1, -1], times = 2 }";
+  const TableReader table =
+      table_of(study, "cycle", draft.is_cycle, cycle_kind, example, {"levels", "times"}, reading);
+  const std::string need = "a list of values of lambda";
+  draft.levels = read_numbers(table.list("levels", need), {}, numbers, reading);
+  draft.times =
+      table.number("times", {Range::small_count, ""}, numbers, analysis::CycleSettings{}.times);
+  if (draft.is_cycle && !study.has("cycle") && !study.is_misspelt("cycle"))
+    study.require("cycle", example);
+  else if (draft.is_cycle && study.has("cycle") && draft.levels.empty() && !table.has("levels"))
+    table.require("levels", need);
+}
+
+void read_transitions(const TableReader& study, NumberTable& numbers, Reading& reading,
+                      SnapDraft& draft) {
+  const TableReader table = table_of(study, "transitions", draft.is_transitions, transitions_kind,
+                                     "a table such as { search_at = [0] }",
+                                     {"search_at", "barriers_at", "starts", "maximum"}, reading);
+  const analysis::TransitionSettings defaults;
+  const std::string need = "a list of values of lambda";
+  draft.search_at = read_numbers(table.list("search_at", need), {}, numbers, reading);
+  draft.barriers_at = read_numbers(table.list("barriers_at", need), {}, numbers, reading);
+  draft.search_starts = table.number("starts", {Range::whole, ""}, numbers, defaults.starts);
+  draft.maximum = table.number("maximum", {Range::small_count, ""}, numbers, defaults.maximum);
+}
+
+}  // namespace
 
 SnapDraft read_snap(const TableReader& study, NumberTable& numbers, Reading& reading) {
   static const Node nothing;
@@ -8,7 +96,12 @@ SnapDraft read_snap(const TableReader& study, NumberTable& numbers, Reading& rea
   const std::string need = "true, or a table such as { starts = 32 }";
   SnapDraft draft;
   const Node* kind = study.find("kind");
-  draft.is_kind = kind != nullptr && kind->kind == Node::Kind::text && kind->text == snap_kind;
+  const auto is = [kind](const char* word) {
+    return kind != nullptr && kind->kind == Node::Kind::text && kind->text == word;
+  };
+  draft.is_cycle = is(cycle_kind);
+  draft.is_transitions = is(transitions_kind);
+  draft.is_kind = is(snap_kind) || draft.is_cycle || draft.is_transitions;
   draft.on = draft.is_kind;
   const Node* node = study.find("snap");
   const bool is_settings = node != nullptr && node->kind == Node::Kind::table;
@@ -16,21 +109,25 @@ SnapDraft read_snap(const TableReader& study, NumberTable& numbers, Reading& rea
     draft.on = node->number != 0;
     if (draft.is_kind && !draft.on)
       reading.problems.add(node->place, study.key_of("snap"),
-                           "got false, but kind = \"snap_through\" is about jumps");
+                           "got false, but kind = \"" + kind->text + "\" is about jumps");
   } else if (node != nullptr && !is_settings) {
     reading.problems.add(node->place, study.key_of("snap"),
                          "got " + described(*node) + ", need " + need);
   }
   draft.on = draft.on || is_settings;
-  const TableReader table{
-      is_settings ? *node : nothing, study.key_of("snap"), {"starts", "seed", "damping"}, reading};
-  draft.starts = table.number("starts", {Range::whole, ""}, numbers, defaults.starts);
+  const TableReader table{is_settings ? *node : nothing,
+                          study.key_of("snap"),
+                          {"starts", "seed", "damping", "inertia"},
+                          reading};
+  // Jumps between many states are searched around their own landing only.
+  draft.starts = table.number("starts", {Range::whole, ""}, numbers,
+                              draft.is_transitions ? 0 : defaults.starts);
   draft.seed =
       table.number("seed", {Range::whole, ""}, numbers, static_cast<double>(defaults.seed));
-  for (const NamedItem& item :
-       named_items(table, "damping", "a table such as { \"leg.knee\" = 0.1 }", reading))
-    draft.damping.push_back({item.name.name, read_number({item.value, item.name.key},
-                                                         {Range::positive, ""}, numbers, reading)});
+  draft.damping = read_damping(table, numbers, reading);
+  read_inertia(table, numbers, reading, draft);
+  read_levels(study, numbers, reading, draft);
+  read_transitions(study, numbers, reading, draft);
   return draft;
 }
 
@@ -40,8 +137,22 @@ std::optional<analysis::SnapSettings> build_snap(const SnapDraft& draft,
   analysis::SnapSettings snap;
   snap.starts = static_cast<int>(numbers[draft.starts]);
   snap.seed = static_cast<std::uint64_t>(numbers[draft.seed]);
-  for (const JointDampingDraft& damping : draft.damping)
-    snap.damping.push_back({damping.joint, numbers[damping.value]});
+  snap.damping = built(draft.damping, numbers);
+  if (draft.has_inertia)
+    snap.inertia = {.damping_ratio = numbers[draft.damping_ratio],
+                    .damping = built(draft.inertial_damping, numbers)};
+  const auto values = [&numbers](const std::vector<NumberId>& ids) {
+    std::vector<double> list;
+    for (const NumberId id : ids) list.push_back(numbers[id]);
+    return list;
+  };
+  if (draft.is_cycle)
+    snap.cycle = {.levels = values(draft.levels), .times = static_cast<int>(numbers[draft.times])};
+  if (draft.is_transitions)
+    snap.transitions = {.search_at = values(draft.search_at),
+                        .barriers_at = values(draft.barriers_at),
+                        .starts = static_cast<int>(numbers[draft.search_starts]),
+                        .maximum = static_cast<int>(numbers[draft.maximum])};
   return snap;
 }
 

@@ -12,6 +12,8 @@ namespace springfold::io {
 
 /// Kind of a study that traces branches and their jumps.
 inline constexpr const char* snap_kind = "snap_through";
+inline constexpr const char* cycle_kind = "load_cycle";
+inline constexpr const char* transitions_kind = "transitions";
 
 struct JointDampingDraft {
   std::string joint{};
@@ -20,9 +22,15 @@ struct JointDampingDraft {
 
 struct SnapDraft {
   bool on = false;
-  bool is_kind = false;  ///< kind = "snap_through"
+  bool is_kind = false;  ///< kind = "snap_through", "load_cycle" or "transitions"
+  bool is_cycle = false, is_transitions = false;
   NumberId starts = 0, seed = 0;
   std::vector<JointDampingDraft> damping{};
+  bool has_inertia = false;
+  NumberId damping_ratio = 0;
+  std::vector<JointDampingDraft> inertial_damping{};
+  std::vector<NumberId> levels{}, search_at{}, barriers_at{};
+  NumberId times = 0, search_starts = 0, maximum = 0;
 };
 
 /// `snap = true`, or a table of settings, which means true.

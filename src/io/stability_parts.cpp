@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "result_access.hpp"
 
@@ -15,8 +16,9 @@ using analysis::EventKind;
 enum class Trust { none, little, one_sided, full };
 
 struct RowIndex {
-  double index = 0;        ///< under the study's control
-  double index_force = 0;  ///< under dead load
+  double index = 0;                                                ///< under the study's control
+  double index_force = 0;                                          ///< under dead load
+  double index_driven = std::numeric_limits<double>::quiet_NaN();  ///< load control: if driven
   Trust trust = Trust::full;
 };
 
@@ -61,6 +63,7 @@ std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
   for (std::size_t row = 0; row < rows.size(); ++row) {
     rows[row].index = value_at(result, branch, row, "index");
     rows[row].index_force = value_at(result, branch, row, "index_force");
+    rows[row].index_driven = value_at(result, branch, row, "index_driven");
   }
   const auto limit_trust = [&](std::size_t row, Trust trust) {
     if (row < rows.size()) rows[row].trust = std::min(rows[row].trust, trust);
@@ -75,6 +78,7 @@ std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
 }
 
 Stability stability_of(const RowIndex& row) {
+  if (row.index > 0 && row.index_driven == 0) return Stability::driven;
   if (row.index != 0) return Stability::unstable;  // NaN as well
   return row.index_force > 0 ? Stability::driven : Stability::stable;
 }

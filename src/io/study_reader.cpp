@@ -16,8 +16,9 @@ using analysis::StartSolve;
 using analysis::StudyKind;
 
 const std::vector<std::string> kind_words{
-    "force_deflection", "equilibrium", "equilibria",  "control",       "map",    "workspace",
-    "critical_curve",   "threshold",   "sensitivity", "critical_load", snap_kind};
+    "force_deflection", "equilibrium",    "equilibria",    "control",     "map",
+    "workspace",        "critical_curve", "threshold",     "sensitivity", "critical_load",
+    snap_kind,          cycle_kind,       transitions_kind};
 const std::array kinds{StudyKind::force_deflection,
                        StudyKind::equilibrium,
                        StudyKind::equilibria,
@@ -28,7 +29,9 @@ const std::array kinds{StudyKind::force_deflection,
                        StudyKind::threshold,
                        StudyKind::sensitivity,
                        StudyKind::critical_load,
-                       StudyKind::force_deflection};  // the last one with jumps
+                       StudyKind::force_deflection,  // the last three with jumps
+                       StudyKind::force_deflection,
+                       StudyKind::force_deflection};
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> solver_words{"newton", "fixed_point"};
@@ -38,7 +41,8 @@ const std::vector<std::string> study_keys{
     "name",       "kind",           "control",   "body",        "direction", "load",
     "loads",      "start",          "until",     "mark",        "actuators", "parameter",
     "set",        "vary",           "path",      "trace",       "branches",  "search",
-    "prescribed", "critical_curve", "threshold", "sensitivity", "snap",      "critical_load"};
+    "prescribed", "critical_curve", "threshold", "sensitivity", "snap",      "critical_load",
+    "cycle",      "transitions"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {

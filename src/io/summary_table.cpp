@@ -117,7 +117,8 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
   std::vector<std::vector<std::string>> rows = {{"points"}};
   rows.front().insert(rows.front().end(), columns.begin(), columns.end());
   std::vector<std::string> indices = {"index"};
-  if (column_of(result, "index_force")) indices.emplace_back("index_force");
+  for (const char* name : {"index_force", "index_driven"})
+    if (column_of(result, name)) indices.emplace_back(name);
   rows.front().insert(rows.front().end(), indices.begin(), indices.end());
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back();

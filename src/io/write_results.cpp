@@ -3,14 +3,18 @@
 #include <nlohmann/json.hpp>
 
 #include "atomic_file.hpp"
+#include "cycle_access.hpp"
 #include "json_text.hpp"
 #include "jump_access.hpp"
 #include "manifest.hpp"
 #include "result_tables.hpp"
 #include "sha256.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/report.hpp"
 #include "springfold/io/results.hpp"
 #include "sweep_tables.hpp"
+#include "text.hpp"
+#include "transition_access.hpp"
 
 namespace springfold::io {
 
@@ -39,6 +43,8 @@ std::string timings_json(const std::vector<StudyResult>& results) {
   return json_text(json);
 }
 
+bool has_transitions(const StudyResult& result) { return result.snap && result.snap->transitions; }
+
 std::vector<PlannedFile> planned_files(const Case& the_case,
                                        const std::vector<StudyResult>& results, bool with_report) {
   std::vector<PlannedFile> files;
@@ -55,11 +61,26 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   files.push_back({"events.csv", events_csv(results)});
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
     files.push_back({"jumps.csv", jumps_csv(results)});
+  for (const auto& [path, bytes] : {std::pair{"cycles.csv", cycles_csv(results)},
+                                    {"states.csv", states_csv(results)},
+                                    {"transitions.csv", transitions_csv(results)},
+                                    {"barriers.csv", barriers_csv(results)}})
+    if (!bytes.empty()) files.push_back({path, bytes});
+  const auto graphs = graph_names(results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (graphs[i].empty()) continue;
+    files.push_back({"graphs/" + graphs[i] + ".graphml", transitions_graphml(results[i])});
+    files.push_back({"graphs/" + graphs[i] + ".gv", transitions_dot(results[i])});
+  }
   files.push_back({"steps.csv", steps_csv(results)});
   files.push_back({"summary.json", summary_json(the_case, results)});
   if (with_report) files.push_back({"report.html", report_html(the_case, results)});
   files.push_back({"timings.json", timings_json(results), false});
   return files;
+}
+
+bool has_graphs(const std::vector<StudyResult>& results) {
+  return std::any_of(results.begin(), results.end(), has_transitions);
 }
 
 ListedFile listed(const PlannedFile& file) {
@@ -86,6 +107,7 @@ std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case
   if (std::any_of(results.begin(), results.end(),
                   [](const StudyResult& result) { return result.equilibria.has_value(); }))
     make_folder(folder / "equilibria");
+  if (has_graphs(results)) make_folder(folder / "graphs");
   if (!the_case.sweeps.empty()) make_folder(folder / "sweeps");
   const auto files = planned_files(the_case, results, with_report);
   std::vector<ListedFile> list;

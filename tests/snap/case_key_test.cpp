@@ -50,6 +50,64 @@ TEST_F(SnapKey, TakesSettings) {
   EXPECT_EQ(snap.damping[0].value, 0.5);
 }
 
+TEST_F(SnapKey, TakesDampersOfTheMotionWithMasses) {
+  const Case ratio = load(bar + "snap = { inertia = { damping_ratio = 0.2 } }\n");
+  EXPECT_EQ(ratio.runs[0].plan.snap.value().inertia.value().damping_ratio, 0.2);
+  const Case named = load(bar + "snap = { inertia = { damping = { \"bar.hinge\" = 3 } } }\n");
+  ASSERT_EQ(named.runs[0].plan.snap.value().inertia.value().damping.size(), 1u);
+  EXPECT_TRUE(load(bar + "snap = { inertia = true }\n").runs[0].plan.snap.value().inertia);
+  EXPECT_FALSE(load(bar + "snap = { inertia = false }\n").runs[0].plan.snap.value().inertia);
+  EXPECT_EQ(messages(bar + "snap = { inertia = 2 }\n").size(), 1u);
+  EXPECT_EQ(messages(bar + "snap = { inertia = { damping = { \"bar.nothing\" = 1 } } }\n").size(),
+            1u);
+  EXPECT_EQ(messages(bar + "snap = { inertia = { damping_ratio = 0.1, damping = { "
+                           "\"bar.hinge\" = 3 } } }\n")
+                .size(),
+            1u);
+}
+
+TEST_F(SnapKey, TakesLevelsOfALoadCycle) {
+  const std::string kind = bar + "kind = \"load_cycle\"\n";
+  const Case c = load(kind + "cycle = { levels = [1.5, 0.5], times = 3 }\n");
+  const analysis::CycleSettings& cycle = c.runs[0].plan.snap.value().cycle.value();
+  EXPECT_EQ(cycle.levels, (std::vector<double>{1.5, 0.5}));
+  EXPECT_EQ(cycle.times, 3);
+  EXPECT_EQ(messages(kind).size(), 1u);
+  EXPECT_EQ(messages(kind + "cycle = { times = 2 }\n").size(), 1u);
+  EXPECT_EQ(messages(kind + "cycle = { levels = [3] }\n").size(),
+            1u);  // beyond the limits of lambda
+  EXPECT_EQ(messages(bar + "cycle = { levels = [1] }\n").size(), 1u);
+}
+
+TEST_F(SnapKey, TakesWhereStatesAreSearchedFor) {
+  const std::string kind = bar + "kind = \"transitions\"\n";
+  const Case c =
+      load(kind + "transitions = { search_at = [0.5], barriers_at = [1], starts = 9 }\n");
+  const analysis::SnapSettings& snap = c.runs[0].plan.snap.value();
+  EXPECT_EQ(snap.transitions.value().search_at, std::vector<double>{0.5});
+  EXPECT_EQ(snap.transitions.value().barriers_at, std::vector<double>{1});
+  EXPECT_EQ(snap.transitions.value().starts, 9);
+  EXPECT_EQ(snap.starts, 0);
+  EXPECT_EQ(messages(kind + "transitions = { search_at = [5] }\n").size(), 1u);
+  EXPECT_EQ(messages(bar + "transitions = { search_at = [1] }\n").size(), 1u);
+}
+
+/// The pitchfork of a bar on a torsion spring: upright below its load, bent to either side beyond.
+TEST_F(SnapKey, FindsTheStatesToWhichABranchPointHandsOver) {
+  const Case c = load(bar + "kind = \"transitions\"\n");
+  const auto result = run_study(c.runs[0].mechanism, c.runs[0].plan);
+  ASSERT_TRUE(result.snap && result.snap->transitions);
+  const analysis::TransitionReport& report = *result.snap->transitions;
+  ASSERT_EQ(report.states.size(), 3u);
+  EXPECT_NEAR(report.states[0].high, 1, 1e-10);
+  EXPECT_NEAR(report.states[1].low, 1, 1e-6);
+  EXPECT_TRUE(report.is_closed);
+  EXPECT_TRUE(result.snap->jumps.empty());
+  int down = 0;
+  for (const auto& t : report.transitions) down += t.loading < 0 && t.to == 1 ? 1 : 0;
+  EXPECT_EQ(down, 2);
+}
+
 TEST_F(SnapKey, RefusesWhatItIsNot) {
   EXPECT_EQ(messages(bar + "snap = 3\n").size(), 1u);
   EXPECT_EQ(messages(bar + "snap = { damping = { \"bar.nothing\" = 1 } }\n").size(), 1u);

@@ -166,5 +166,42 @@ TEST(SnapThrough, UnderAFollowerForceIsRefusedWithTheReason) {
   FAIL() << "no study with a follower force";
 }
 
+/// A truss with a mass at its apex and hardly any damping: its speed is largest near the state of least energy, where
+/// it is that of a body which has got all that is released.
+TEST(MotionWithMasses, IsAsFastAsTheReleasedEnergyAllows) {
+  io::Case c =
+      io::load_case(std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/snap-through/case-truss.toml");
+  io::PlannedRun& planned = c.runs.at(0);
+  constexpr double mass = 3;
+  planned.mechanism.bodies[0].mass = mass;
+  planned.plan.snap->inertia = {.damping_ratio = 0.02, .damping = {}};
+  const SnapResult result =
+      run_with_jumps(planned.mechanism, planned.plan, nullptr, *planned.plan.snap);
+  const Jump* jump = jump_at(result, 0.26502825343741, 1);
+  ASSERT_NE(jump, nullptr);
+  ASSERT_TRUE(jump->inertial);
+  EXPECT_EQ(jump->inertial->end, InertialMotion::End::rest);
+  EXPECT_NEAR(jump->inertial->released, jump->released, 1e-12);
+  EXPECT_NEAR(jump->inertial->dissipated, jump->released, 1e-6 * jump->released);
+  const double all = std::sqrt(2 * jump->released / mass);
+  EXPECT_LT(jump->inertial->peak_speed, all);
+  EXPECT_GT(jump->inertial->peak_speed, 0.9 * all);
+  EXPECT_LT(jump->inertial->closure, 1e-8);
+}
+
+TEST(MotionWithMasses, IsRefusedWhereNothingWithAMassMoves) {
+  io::Case c =
+      io::load_case(std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/snap-through/case-truss.toml");
+  io::PlannedRun& planned = c.runs.at(0);
+  planned.plan.snap->inertia = InertialSettings{};
+  const SnapResult result =
+      run_with_jumps(planned.mechanism, planned.plan, nullptr, *planned.plan.snap);
+  ASSERT_FALSE(result.report.jumps.empty());
+  ASSERT_TRUE(result.report.jumps[0].inertial);
+  EXPECT_EQ(result.report.jumps[0].inertial->end, InertialMotion::End::no_mass);
+  EXPECT_FALSE(result.report.jumps[0].inertial->massless.empty());
+  EXPECT_TRUE(complete(result.traced));
+}
+
 }  // namespace
 }  // namespace springfold::analysis

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,35 @@ struct SnapWarning {
   double angle = 0;          ///< against the direction of the leg's drive, 0 to pi [rad]
 };
 
+/// The motion with the masses of bodies, links and points, from the same push: at rest, but for an amplitude of
+/// 1e-3 radian or sizes of the mechanism. A unit of time is that in which a unit of force moves a unit of mass from
+/// rest by half a unit of length.
+struct InertialMotion {
+  enum class End {
+    rest,       ///< at `landing`
+    runs_away,  ///< a coordinate left all bounds
+    no_mass,    ///< refused: `massless` moves and has no mass
+    no_end,     ///< refused or given up: no landing that sets the damping, or too many steps
+  };
+  End end = End::no_end;
+  std::string massless{};  ///< a coordinate that moves most where nothing with a mass moves
+  SnapState landing{};
+  double released =
+      std::numeric_limits<double>::quiet_NaN();  ///< Pi(critical) - Pi(landing) [energy]
+  double peak_speed = std::numeric_limits<double>::quiet_NaN();  ///< of a mass [length/time]
+  double peak_force = std::numeric_limits<double>::quiet_NaN();  ///< component of a chain's wrench
+  std::string peak_force_of{};                                   ///< "leg.Fx"
+  double peak_moment = std::numeric_limits<double>::quiet_NaN();
+  std::string peak_moment_of{};
+  double duration =
+      std::numeric_limits<double>::quiet_NaN();  ///< from the push until nearly at rest [time]
+  double dissipated = std::numeric_limits<double>::quiet_NaN();  ///< work of the dampers [energy]
+  double closure = 0;  ///< largest gap of the closures on the way [-]
+};
+
+/// "at rest", "runs away", "without mass", "no end".
+std::string to_string(InertialMotion::End end);
+
 /// One jump: from a loss of stability to where the mechanism comes to rest, at one lambda.
 struct Jump {
   std::string label{};  ///< "J1"
@@ -66,6 +96,7 @@ struct Jump {
   std::vector<std::string>
       switches{};  ///< springs that act at the landing and not before, or conversely
   std::vector<SnapWarning> warnings{};
+  std::optional<InertialMotion> inertial{};  ///< if it was asked for
   /// Where lambda goes back from the landing and stability is lost again: number of that jump, from 1;
   /// 0: none within the range.
   int back = 0;
@@ -81,10 +112,97 @@ struct Handover {
   std::string towards{};  ///< as in Jump: the side that is followed
 };
 
+/// What happens on the way through the levels of a load cycle.
+struct CycleStep {
+  int level = 0;   ///< number of the level that is gone to, from 1
+  int jump = 0;    ///< number of the jump (from 1) that happens; 0: the level itself is reached
+  SnapState at{};  ///< the level's state; at a jump where it lands
+  double released = 0;  ///< by the jump [energy]
+  double area = 0;      ///< integral of dPi/dlambda over lambda up to here [energy]
+};
+
+/// Levels of lambda that were gone to one after the other along stable branches, with jumps where these end.
+struct LoadCycle {
+  enum class End {
+    complete,      ///< all levels were reached
+    out_of_range,  ///< a branch ends at a limit of the study, or where tracing stopped
+    no_landing,    ///< a jump has none, or none within the limits
+    not_stable,    ///< the start is not stable
+    undecided,     ///< stability ends at a point from which no jump was found
+  };
+  End end = End::complete;
+  int level = 0;                   ///< the level on the way to which it ended
+  std::vector<CycleStep> steps{};  ///< the first one is the start, level 0
+  int jumps = 0;
+  double released = 0;       ///< by all jumps [energy]
+  double energy_change = 0;  ///< Pi at the end, at its lambda, less Pi at the start at its own
+  /// Integral of dPi/dlambda over lambda along the whole way, by quadrature. For loads that is minus the
+  /// displacement's: its part of a closed cycle is the area of the loop of force over displacement.
+  double area = 0;
+  double gap = 0;        ///< area - energy_change - released: how exactly the cycle closes [energy]
+  int closed_with = -1;  ///< step whose state is that of the end once more; -1: the cycle is open
+  double loop = std::numeric_limits<double>::quiet_NaN();           ///< area of the closed part
+  double loop_released = std::numeric_limits<double>::quiet_NaN();  ///< by the jumps in it
+};
+
+/// "complete", "out of range", "no landing", "start not stable", "undecided".
+std::string to_string(LoadCycle::End end);
+
+/// A stretch of a branch along which lambda grows and no mode is unstable.
+struct StableState {
+  std::string label{};                               ///< "S1": the start's
+  int branch = 0;                                    ///< its branch, from 1
+  double low = 0, high = 0;                          ///< lambda between which it exists
+  bool low_is_limit = false, high_is_limit = false;  ///< there the study ends, not the stretch
+  SnapState found{};                                 ///< where it was found first
+  bool reached = false;            ///< some history of lambda leads there from the start's stretch
+  bool is_garden_of_eden = false;  ///< no transition leads there
+};
+
+/// What happens at the end of a stretch. Numbers of states are counted from 1.
+struct Transition {
+  int from = 0;
+  int to = 0;       ///< 0: nowhere that is known
+  int loading = 1;  ///< +1: at its upper end, -1: at its lower one
+  double lambda = 0;
+  int jump = 0;  ///< number of the jump, from 1; 0: stability is handed over without one
+  SnapVerdict verdict = SnapVerdict::unambiguous;
+  double released = 0;  ///< [energy]
+  /// Not where the overdamped motion ends, but where another damping or masses may lead. Nothing else of the
+  /// report is said of these.
+  bool is_alternative = false;
+};
+
+/// A saddle with one unstable mode and the two minima beside it, at one lambda.
+struct Barrier {
+  double lambda = 0;
+  int first = 0, second = 0;               ///< states, from 1
+  double from_first = 0, from_second = 0;  ///< energy of the saddle above theirs
+  SnapState saddle{};
+};
+
+/// All stable states that were found, and where each is left to.
+struct TransitionReport {
+  std::vector<StableState> states{};
+  std::vector<Transition> transitions{};
+  std::vector<Barrier> barriers{};  ///< for each pair of states the lowest
+  bool limit_reached = false;       ///< ended because so many were found
+  bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
+  enum class Memory {
+    holds,      ///< every loop that was gone through comes back to its state
+    fails,      ///< one does not
+    undecided,  ///< a transition leads nowhere known, or to one of several states
+  };
+  Memory memory = Memory::undecided;  ///< return-point memory, of loops nested three deep
+  int loops = 0;                      ///< so many were gone through
+};
+
 struct SnapReport {
   std::vector<Jump> jumps{};
   std::vector<Handover> handovers{};
-  std::vector<std::string> refusals{};  ///< why there is no answer, in words
+  std::vector<std::string> refusals{};            ///< why there is no answer, in words
+  std::optional<LoadCycle> cycle{};               ///< if the study has levels
+  std::optional<TransitionReport> transitions{};  ///< kind transitions
   std::vector<int> landing_branches{};  ///< numbers (from 1) of branches that only a jump leads to
 };
 

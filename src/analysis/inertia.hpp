@@ -1,0 +1,45 @@
+// The masses of a mechanism in a landscape, and its motion with them. Private to analysis.
+#pragma once
+
+#include "flow.hpp"
+#include "frozen.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::analysis {
+
+/// All masses of bodies, links and points, and how they move with the landscape's unknowns.
+class Masses {
+ public:
+  explicit Masses(const Frozen& frozen);
+
+  double largest() const { return largest_; }  ///< 0: there are none
+  /// In units of the largest.
+  std::vector<MassPoint> at(const Vector& x) const;
+  /// Of all motions that keep the closures, k x k.
+  Matrix along_motions(const Ground& ground) const;
+
+ private:
+  struct Mass {
+    double mass = 0;
+    std::size_t point = 0;
+  };
+  const Frozen& frozen_;
+  statics::System system_{};  ///< as the landscape's, with a point at every mass
+  Matrix spread_{};           ///< derivative of the statics' unknowns by the moving ones
+  std::vector<Mass> masses_{};
+  double largest_ = 0;
+};
+
+/// The motion from a push, with peaks and duration in the units of the case; `landing` has no values yet.
+struct Inertial {
+  InertialMotion motion{};
+  std::optional<RestState> landing{};
+};
+
+/// @param from  after the push, at rest
+/// @param overdamped  the landing whose softest mode sets the damping; null: none
+Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
+                         const InertialSettings& settings, const Vector& from,
+                         const RestState* overdamped);
+
+}  // namespace springfold::analysis

@@ -1,0 +1,59 @@
+#include <algorithm>
+
+#include "inertia.hpp"
+#include "springfold/model/point.hpp"
+
+namespace springfold::analysis {
+
+Masses::Masses(const Frozen& frozen) : frozen_{frozen} {
+  // Weights of a unit of gravity are the masses; where they act, the preparation finds.
+  model::Mechanism weighed = frozen.problem().layout().mechanism;
+  weighed.gravity = model::Vec3<double>::UnitZ();
+  system_ = statics::prepare(weighed);
+  for (const statics::PointLoad& load : system_.loads)
+    if (load.number < 0) masses_.push_back({load.vector.norm(), load.point});
+  for (const Mass& mass : masses_) largest_ = std::max(largest_, mass.mass);
+  const auto& moving = frozen.landscape().moving();
+  const Vector zero = Vector::Zero(frozen.problem().size());
+  const Vector origin = frozen.unknowns(zero);
+  spread_.resize(origin.size(), static_cast<Index>(moving.size()));
+  for (Index k = 0; k < spread_.cols(); ++k) {
+    Vector unit = zero;
+    unit[moving[static_cast<std::size_t>(k)]] = 1;
+    spread_.col(k) = frozen.unknowns(unit) - origin;
+  }
+}
+
+std::vector<MassPoint> Masses::at(const Vector& x) const {
+  const Vector z = frozen_.unknowns(x);
+  const Vector rho = frozen_.problem().inputs(0).rho;
+  std::vector<MassPoint> list;
+  model::PointMotion<double> motion;
+  for (const Mass& mass : masses_) {
+    const statics::PointSlice& slice = system_.points[mass.point];
+    Vector v(slice.point.variable_count());
+    for (Index k = 0; k < v.size(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      v[k] =
+          (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
+    }
+    model::evaluate_point<double>(slice.point, v, motion);
+    Matrix jacobian = Matrix::Zero(3, spread_.cols());
+    for (Index k = 0; k < v.size(); ++k)
+      if (const Index i = slice.z[static_cast<std::size_t>(k)]; i >= 0)
+        jacobian += motion.dp.col(k) * spread_.row(i);
+    list.push_back({mass.mass / largest_, std::move(jacobian)});
+  }
+  return list;
+}
+
+Matrix Masses::along_motions(const Ground& ground) const {
+  Matrix M = Matrix::Zero(ground.motions.cols(), ground.motions.cols());
+  for (const MassPoint& mass : at(ground.x)) {
+    const Matrix J = mass.jacobian * ground.motions;
+    M += mass.mass * J.transpose() * J;
+  }
+  return M;
+}
+
+}  // namespace springfold::analysis

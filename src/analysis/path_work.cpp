@@ -1,0 +1,84 @@
+#include "path_work.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "springfold/continuation/newton.hpp"
+#include "springfold/core/differences.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::Direction;
+
+/// Gauss' rule on [-1, 1]: exact up to degree 11.
+constexpr std::array<std::pair<double, double>, 3> gauss{
+    {{0.2386191860831969, 0.4679139345726910},
+     {0.6612093864662645, 0.3607615730481386},
+     {0.9324695142031521, 0.1713244923791704}}};
+/// Difference step in lambda, where its unit is that of the path: error O(h^6).
+constexpr double difference_step = 1e-2;
+
+/// Pi and the closures times their wrenches: stationary at an equilibrium, so its derivative by lambda at
+/// fixed unknowns is that of Pi along the path.
+std::optional<Vector> lagrangian(const PathProblem& problem, const Vector& x, double lambda,
+                                 const Piece& piece) {
+  Vector F;
+  if (!problem.residual(x, lambda, piece, F)) return std::nullopt;
+  double value = path_energy(problem, {x, lambda});
+  const statics::System& system = problem.layout();
+  for (Index i = 0; i < system.first_pose; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) value += x[i] * F[i];
+  return Vector::Constant(1, value);
+}
+
+std::optional<Piece> piece_between(const PathProblem& problem, const PathState& from,
+                                   const PathState& to) {
+  Vector g;
+  if (!problem.switches((from.x + to.x) / 2, (from.lambda + to.lambda) / 2, g)) return std::nullopt;
+  Piece piece(static_cast<std::size_t>(g.size()), std::int8_t{1});
+  for (Index j = 0; j < g.size(); ++j)
+    if (g[j] < 0) piece[static_cast<std::size_t>(j)] = -1;
+  return piece;
+}
+
+}  // namespace
+
+double path_energy(const PathProblem& problem, const PathState& state) {
+  const Vector z = problem.expand(state.x, state.lambda);
+  const statics::Inputs inputs = problem.inputs(state.lambda);
+  const statics::System& system = problem.system(state.lambda);
+  return spring_energy(system, z, inputs.rho) + load_potential(system, z, inputs);
+}
+
+std::optional<double> path_work(const PathProblem& problem, const PathState& from,
+                                const PathState& to) {
+  const Vector weights = problem.metric();
+  const Direction chord{to.x - from.x, to.lambda - from.lambda};
+  const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
+  if (!(length > 0)) return 0.0;
+  const Direction border{chord.dx / length, chord.dlambda / length};
+  const auto piece = piece_between(problem, from, to);
+  if (!piece) return std::nullopt;
+  double work = 0;
+  for (const auto& [node, weight] : gauss)
+    for (const double sign : {-1.0, 1.0}) {
+      const double part = (1 + sign * node) / 2;
+      const auto solved = correct(problem, weights, from.x + part * chord.dx,
+                                  from.lambda + part * chord.dlambda, *piece, border, {});
+      continuation::Linearisation at;
+      if (!converged(solved) || !linearise(problem, solved.x, solved.lambda, *piece, at))
+        return std::nullopt;
+      const auto tangent = tangent_at(at, weights, border);
+      const auto rate = six_point_derivative(
+          [&](double lambda) { return lagrangian(problem, solved.x, lambda, *piece); },
+          solved.lambda, difference_step);
+      if (!tangent || !rate) return std::nullopt;
+      // The curve is passed at unit speed along the chord.
+      const double along = continuation::metric_product(weights, *tangent, border);
+      work += weight / 2 * (*rate)[0] * length * tangent->dlambda / along;
+    }
+  return work;
+}
+
+}  // namespace springfold::analysis

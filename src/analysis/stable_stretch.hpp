@@ -1,0 +1,18 @@
+// One stable stretch of a branch, traced both ways until stability ends. Private to analysis.
+#pragma once
+
+#include "grow_diagram.hpp"
+
+namespace springfold::analysis {
+
+struct StableStretch {
+  BranchRows rows{};
+  bool ends_low = false, ends_high = false;  ///< stability or the growth of lambda ends there
+};
+
+/// Traces from a stable state. Beyond each end there is one row more.
+/// @returns nothing where not one curve leads through the state
+std::optional<StableStretch> trace_stable(const Tracing& tracing,
+                                          const continuation::DiagramStart& from);
+
+}  // namespace springfold::analysis

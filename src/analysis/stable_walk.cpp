@@ -1,0 +1,89 @@
+#include "stable_walk.hpp"
+
+#include <cmath>
+
+#include "frozen.hpp"
+
+namespace springfold::analysis {
+
+using Kind = QuantityDefinition::Kind;
+
+StableWalk::StableWalk(const std::vector<QuantityDefinition>& quantities, const StudyResult& result)
+    : result_{result},
+      index_{column_of(Kind::index, quantities)},
+      lambda_{column_of(Kind::lambda, quantities)} {}
+
+const Event* StableWalk::end_of(int branch, std::size_t row, int direction) const {
+  if (branch < 1) return nullptr;
+  auto b = static_cast<std::size_t>(branch - 1);
+  const auto& rows = result_.branches[b].samples;
+  if (row + 1 >= rows.size()) return nullptr;
+  const bool grows = rows[row + 1].values[lambda_] > rows[row].values[lambda_];
+  int step = grows == (direction > 0) ? 1 : -1;
+  std::size_t at = step > 0 ? row : row + 1;
+  constexpr int most_branches = 100;
+  for (int k = 0; k < most_branches; ++k) {
+    const Event* event = first_unstable(b, at, step);
+    if (event == nullptr) return nullptr;
+    const auto next = stable_branch_from(*event, b, direction);
+    if (!next) return event;
+    b = next->branch;
+    at = next->row;
+    step = next->step;
+  }
+  return nullptr;
+}
+
+std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& event, std::size_t from,
+                                                               int direction) const {
+  if (event.kind != EventKind::branch_point && event.kind != EventKind::branching_kink &&
+      event.kind != EventKind::touch)
+    return std::nullopt;
+  for (std::size_t b = 0; b < result_.branches.size(); ++b) {
+    const Branch& branch = result_.branches[b];
+    for (const Event& other : branch.events) {
+      if (other.label != event.label) continue;
+      for (const int step : {1, -1}) {
+        const auto row = static_cast<std::ptrdiff_t>(other.row) + step;
+        if (row < 0 || row >= std::ssize(branch.samples)) continue;
+        const auto& values = branch.samples[static_cast<std::size_t>(row)].values;
+        const double moved = values[lambda_] - branch.samples[other.row].values[lambda_];
+        if (values[index_] == 0 && moved * direction > 0)
+          return Next{b, static_cast<std::size_t>(row), step, b != from};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+const Event* StableWalk::event_at(std::size_t branch, std::size_t row) const {
+  for (const Event& event : result_.branches[branch].events)
+    if (event.row == row || (event.row + 1 == row && (event.kind == EventKind::switching ||
+                                                      event.kind == EventKind::corner_limit_point ||
+                                                      event.kind == EventKind::branching_kink)))
+      return &event;
+  return nullptr;
+}
+
+const Event* StableWalk::first_unstable(std::size_t branch, std::size_t row, int step) const {
+  const auto& rows = result_.branches[branch].samples;
+  const Event* last = nullptr;
+  for (auto r = static_cast<std::ptrdiff_t>(row); r >= 0 && r < std::ssize(rows); r += step) {
+    const auto k = static_cast<std::size_t>(r);
+    const Event* event = event_at(branch, k);
+    const double index = rows[k].values[index_];
+    if (event != nullptr && event->kind != EventKind::user_value &&
+        event->kind != EventKind::end_of_range)
+      last = event;
+    else if (index > 0)
+      return last;
+    else if (index == 0)
+      last = nullptr;
+  }
+  return last != nullptr &&
+                 (last->kind == EventKind::branching_kink || last->kind == EventKind::branch_point)
+             ? last
+             : nullptr;
+}
+
+}  // namespace springfold::analysis

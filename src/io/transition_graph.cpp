@@ -1,0 +1,85 @@
+// The transition graph as GraphML and in Graphviz' language. All texts in it are our own labels and numbers:
+// nothing of the case is written.
+#include "springfold/analysis/snap.hpp"
+#include "text.hpp"
+#include "transition_access.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StableState;
+using analysis::StudyResult;
+using analysis::Transition;
+using analysis::TransitionReport;
+
+const TransitionReport* report_of(const StudyResult& result) {
+  return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
+}
+
+std::string key(const std::string& id, const std::string& of, const std::string& type) {
+  return "  <key id=\"" + id + "\" for=\"" + of + "\" attr.name=\"" + id + "\" attr.type=\"" +
+         type + "\"/>\n";
+}
+
+std::string data(const std::string& id, const std::string& value) {
+  return "<data key=\"" + id + "\">" + value + "</data>";
+}
+
+std::string truth(bool value) { return value ? "true" : "false"; }
+
+}  // namespace
+
+std::vector<std::string> graph_names(const std::vector<StudyResult>& results) {
+  std::vector<std::string> list;
+  UniqueNames names;
+  for (const StudyResult& result : results)
+    list.push_back(report_of(result) == nullptr ? ""
+                                                : names.make(safe_file_name(result.study) + "-" +
+                                                             std::to_string(result.run)));
+  return list;
+}
+
+std::string transitions_graphml(const StudyResult& result) {
+  const TransitionReport* report = report_of(result);
+  if (report == nullptr) return "";
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
+      key("low", "node", "double") + key("high", "node", "double") +
+      key("reached", "node", "boolean") + key("garden_of_eden", "node", "boolean") +
+      key("loading", "edge", "int") + key("lambda", "edge", "double") +
+      key("released", "edge", "double") + "  <graph edgedefault=\"directed\">\n";
+  for (const StableState& s : report->states)
+    text += "    <node id=\"" + s.label + "\">" + data("low", csv_number(s.low)) +
+            data("high", csv_number(s.high)) + data("reached", truth(s.reached)) +
+            data("garden_of_eden", truth(s.is_garden_of_eden)) + "</node>\n";
+  for (const Transition& t : report->transitions)
+    if (t.to > 0 && !t.is_alternative)
+      text += "    <edge source=\"S" + std::to_string(t.from) + "\" target=\"S" +
+              std::to_string(t.to) + "\">" + data("loading", std::to_string(t.loading)) +
+              data("lambda", csv_number(t.lambda)) + data("released", csv_number(t.released)) +
+              "</edge>\n";
+  return text + "  </graph>\n</graphml>\n";
+}
+
+std::string transitions_dot(const StudyResult& result) {
+  const TransitionReport* report = report_of(result);
+  if (report == nullptr) return "";
+  constexpr int digits = 4;
+  std::string text =
+      "digraph transitions {\n"
+      "  node [fontname=\"DejaVu Sans\", fontsize=10];\n"
+      "  edge [fontname=\"DejaVu Sans\", fontsize=8];\n";
+  for (const StableState& s : report->states)
+    text += "  \"" + s.label + "\" [label=\"" + s.label + "\\n" + rounded(s.low, digits) + " .. " +
+            rounded(s.high, digits) + "\"" + (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
+  for (const Transition& t : report->transitions)
+    if (t.to > 0 && !t.is_alternative)
+      text += "  \"S" + std::to_string(t.from) + "\" -> \"S" + std::to_string(t.to) +
+              "\" [label=\"" + rounded(t.lambda, digits) + "\", color=\"" +
+              (t.loading > 0 ? "#0072B2" : "#D55E00") + "\"" +
+              (t.verdict == analysis::SnapVerdict::unambiguous ? "" : ", style=dashed") + "];\n";
+  return text + "}\n";
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,75 @@
+// Load cycles and graphs of stable states as texts and files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "io/cycle_access.hpp"
+#include "io/jump_access.hpp"
+#include "io/transition_access.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+namespace {
+
+analysis::StudyResult run(const std::string& file, const std::string& study) {
+  const Case c = load_case(std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/" + file);
+  for (const PlannedRun& planned : c.runs)
+    if (planned.study == study) {
+      auto result = analysis::run_study(planned.mechanism, planned.plan);
+      result.study = study;
+      return result;
+    }
+  throw std::out_of_range(study);
+}
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(TransitionText, HasAnArrowForEachJumpOfASwitch) {
+  const auto result = run("snap-through/case-switch.toml", "states");
+  const std::string dot = transitions_dot(result), graphml = transitions_graphml(result);
+  EXPECT_TRUE(has(dot, "\"S1\" -> \"S2\""));
+  EXPECT_TRUE(has(dot, "\"S2\" -> \"S1\""));
+  EXPECT_TRUE(has(graphml, "<edge source=\"S1\" target=\"S2\">"));
+  EXPECT_TRUE(has(graphml, "<node id=\"S2\">"));
+  EXPECT_EQ(lines_in(states_csv({result})), 3u);
+  EXPECT_EQ(lines_in(transitions_csv({result})), 3u);
+  EXPECT_EQ(lines_in(barriers_csv({result})), 2u);
+  EXPECT_EQ(graph_names({result}), std::vector<std::string>{"states-1"});
+  EXPECT_EQ(jumps_json(result)["transitions"]["memory"], "holds");
+}
+
+TEST(TransitionText, IsThereForItsOwnKindOnly) {
+  const auto result = run("snap-through/case-switch.toml", "push");
+  EXPECT_EQ(states_csv({result}), "");
+  EXPECT_EQ(cycles_csv({result}), "");
+  EXPECT_EQ(transitions_dot(result), "");
+  EXPECT_EQ(graph_names({result}), std::vector<std::string>{""});
+}
+
+TEST(CycleText, HasARowForTheStartEveryLevelAndEveryJump) {
+  const auto result = run("load-cycle/case-truss.toml", "press");
+  EXPECT_EQ(lines_in(cycles_csv({result})), 1u + 1 + 4 + 4);
+  EXPECT_EQ(jumps_json(result)["cycle"]["end"], "complete");
+}
+
+TEST(CyclePlace, IsTheWholeOrALevel) {
+  EXPECT_TRUE(is_cycle_place("cycle"));
+  EXPECT_TRUE(is_cycle_place("level 12"));
+  EXPECT_FALSE(is_cycle_place("level 0"));
+  EXPECT_FALSE(is_cycle_place("level"));
+  EXPECT_TRUE(is_transition_place("S3"));
+  EXPECT_TRUE(is_transition_place("S3-S12"));
+  EXPECT_FALSE(is_transition_place("SA1"));
+  EXPECT_FALSE(is_transition_place("S0"));
+}
+
+}  // namespace
+}  // namespace springfold::io
