@@ -1,62 +1,9 @@
 // `gravity`, [[spring]] and loads.
-#include <algorithm>
-
+#include "anchor_reader.hpp"
 #include "mechanism_reader.hpp"
 
 namespace springfold::io {
 namespace {
-
-/// Bodies and "chain.point", for messages.
-std::vector<std::string> anchor_names(const MechanismDraft& draft, bool base_allowed) {
-  std::vector<std::string> names;
-  if (base_allowed) names.push_back("base");
-  for (const BodyDraft& body : draft.bodies)
-    if (!body.name.empty()) names.push_back(body.name);
-  for (const ChainDraft& chain : draft.chains)
-    for (const PointDraft& point : chain.points)
-      if (!point.name.empty()) names.push_back(chain.name + "." + point.name);
-  return names;
-}
-
-/// "tool" or "leg.knee"; reports others.
-void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
-                 AnchorDraft& anchor, Reading& reading) {
-  const std::string& name = item.node->text;
-  if (base_allowed && name == "base") return void(anchor.body = 0);
-  for (std::size_t b = 0; b < draft.bodies.size(); ++b)
-    if (draft.bodies[b].name == name) return void(anchor.body = static_cast<Index>(b + 1));
-  for (std::size_t c = 0; c < draft.chains.size(); ++c)
-    for (std::size_t p = 0; p < draft.chains[c].points.size(); ++p) {
-      const std::string& point = draft.chains[c].points[p].name;
-      if (point.empty() || draft.chains[c].name + "." + point != name) continue;
-      anchor.chain = static_cast<Index>(c);
-      anchor.point = p;
-      return;
-    }
-  reading.problems.add(item.node->place, item.key,
-                       "got " + described(*item.node) + ", need " +
-                           (base_allowed ? "\"base\", " : "") +
-                           "the name of a moving body, or \"chain.point\" for a { point = ... } "
-                           "in a chain" +
-                           suggestion(name, anchor_names(draft, base_allowed)));
-}
-
-bool lives_in_plane(const MechanismDraft& draft, const AnchorDraft& anchor) {
-  const Index body =
-      anchor.chain >= 0 ? draft.chains[static_cast<std::size_t>(anchor.chain)].to : anchor.body;
-  const auto b = static_cast<std::size_t>(body);
-  if (b == 0) return std::all_of(draft.bodies.begin(), draft.bodies.end(), is_planar);
-  return b > draft.bodies.size() || is_planar(draft.bodies[b - 1]);
-}
-
-std::vector<NumberId> read_at(const TableReader& table, const std::string& name,
-                              const MechanismDraft& draft, const AnchorDraft& anchor,
-                              NumberTable& numbers, Reading& reading) {
-  const Node* at = table.find(name);
-  if (!at) return {};
-  return read_vector3({at, table.key_of(name)}, lives_in_plane(draft, anchor), reading.units.length,
-                      numbers, reading);
-}
 
 class LoadReader {
  public:

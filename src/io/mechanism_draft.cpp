@@ -1,5 +1,7 @@
 #include "mechanism_draft.hpp"
 
+#include "bar_draft.hpp"
+
 namespace springfold::io {
 namespace {
 
@@ -235,6 +237,9 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
                                       .to = anchor_of(spring.to, numbers),
                                       .stiffness = numbers[spring.stiffness],
                                       .free = numbers[spring.free]});
+  for (const BarDraft& bar : draft.bars)
+    mechanism.line_springs.push_back(
+        bar_of(bar, anchor_of(bar.from, numbers), anchor_of(bar.to, numbers), mechanism, numbers));
   return mechanism;
 }
 

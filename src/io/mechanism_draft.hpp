@@ -129,6 +129,24 @@ struct LineSpringDraft {
   std::string key{};
 };
 
+/// A node that is fixed in all directions: a name for a point of the base.
+struct SupportDraft {
+  std::string name{};
+  std::vector<NumberId> at{};
+  Place place{};
+  std::string key{};
+};
+
+/// A straight linear bar between two points: a line spring whose free length may be that drawn.
+struct BarDraft {
+  std::string name{};
+  AnchorDraft from{}, to{};
+  std::optional<NumberId> stiffness{}, EA{};     ///< one of both [force/length], [force]
+  std::optional<NumberId> free{}, pretension{};  ///< one or none [length], [force]
+  Place place{};
+  std::string key{};
+};
+
 /// A linear spring on several preloaded joints of a chain.
 struct CoupledDraft {
   std::string name{};
@@ -156,6 +174,8 @@ struct BodyDraft {
   std::vector<NumberId> pose{};
   std::optional<NumberId> mass{};
   std::vector<NumberId> centre{};
+  bool is_node = false;
+  std::vector<std::string> fixed{};  ///< of a node: directions in which it is held, not all
   Place place{};
   std::string key{};
 };
@@ -166,6 +186,8 @@ struct MechanismDraft {
   std::vector<ChainDraft> chains{};
   std::vector<NumberId> gravity{};
   std::vector<LineSpringDraft> springs{};
+  std::vector<SupportDraft> supports{};
+  std::vector<BarDraft> bars{};    ///< in the model they are line springs behind `springs`
   std::vector<LoadDraft> loads{};  ///< of all studies
 };
 
