@@ -160,6 +160,7 @@ struct Continued {
   /// Values of parameters that earlier studies moved, by their number.
   std::vector<std::pair<std::size_t, double>> parameters{};
   std::string problem{};  ///< why there is no such state, in words; empty: there is one
+  double seconds = 0;     ///< CPU time of the studies before
 
   const ParameterFamily* family_or_none() const { return family ? &*family : nullptr; }
 };
@@ -191,6 +192,7 @@ Continued continued(const model::Mechanism& mechanism, const Study& study,
   if (!later.problem.empty()) return later;
   const StudyResult result =
       run_study(first.mechanism, first.study, first.family_or_none(), observer);
+  later.seconds = first.seconds + result.seconds;
   later.problem = trouble(result, earlier.at);
   if (!later.problem.empty()) return later;
   const State state = state_of(result, *values_at(result, earlier.at));
@@ -234,6 +236,7 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   if (later.problem.empty()) {
     StudyResult result =
         run_study(later.mechanism, later.study, later.family_or_none(), observer, options);
+    result.seconds += later.seconds;
     result.start.method +=
         ", from study \"" + history.earlier->study.name + "\" at " + history.earlier->at;
     return result;

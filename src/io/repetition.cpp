@@ -147,12 +147,7 @@ class Expander {
                 const Shared& bindings, std::size_t depth, std::vector<Node>& copies) {
     values_ += size_of(item);
     const std::string own_key = key + "[" + number + "]";
-    if (values_ > most_values) {
-      problems_.add(item.place, own_key,
-                    "more than " + std::to_string(most_values) +
-                        " keys and values with all repetitions, need fewer");
-      return false;
-    }
+    if (values_ > most_values) return refuse_more(item.place, own_key);
     Node copy = item;
     copy.number_text = number;
     if (copy.kind == Node::Kind::table) {
@@ -212,7 +207,7 @@ class Expander {
     for (const NodeEntry& entry : from.entries)
       if (entry.key != "with" && !table.find(entry.key)) more.entries.push_back(entry);
     values_ += size_of(more);
-    if (values_ > most_values) return add_nothing_more(table.place, key);
+    if (values_ > most_values) return refuse_more(table.place, key);
     fill(more, key, inner, depth + 1);
     for (NodeEntry& entry : more.entries) table.entries.push_back(std::move(entry));
     if (!table.find("use")) return true;
@@ -221,10 +216,13 @@ class Expander {
     return false;
   }
 
-  bool add_nothing_more(const Place& place, const std::string& key) {
-    problems_.add(place, key,
-                  "more than " + std::to_string(most_values) +
-                      " keys and values with all repetitions, need fewer");
+  /// Says once that there is too much. @returns false
+  bool refuse_more(const Place& place, const std::string& key) {
+    if (!is_full_)
+      problems_.add(place, key,
+                    "more than " + std::to_string(most_values) +
+                        " keys and values with all repetitions, need fewer");
+    is_full_ = true;
     return false;
   }
 
@@ -358,6 +356,7 @@ class Expander {
   std::set<std::string> parameters_{};
   std::map<std::string, const Node*> templates_{};
   std::size_t values_ = 0;
+  bool is_full_ = false;  ///< there are too many values: nothing more is copied
 };
 
 }  // namespace

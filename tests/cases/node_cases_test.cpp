@@ -26,7 +26,7 @@ std::string bytes_of(const analysis::StudyResult& result) {
 }
 
 std::string truss(const std::string& bars) {
-  return R"([parameters]
+  return R"toml([parameters]
 a = 1
 [[node]]
 name = "n0"
@@ -39,23 +39,23 @@ at = [0, "a/2"]
 name = "n2"
 at = ["a", 0]
 fixed = true
-)" + bars +
-         R"([[study]]
+)toml" + bars +
+         R"toml([[study]]
 name = "press"
 control = "load"
 direction = [0, -1]
 until = { n1.y = [-1, 1] }
-)";
+)toml";
 }
 
 TEST(RepeatedTables, GiveTheSameBytesAsWrittenOut) {
-  const Ran repeated = run(truss(R"([[bar]]
+  const Ran repeated = run(truss(R"toml([[bar]]
 repeat = { i = [0, 1] }
 from = "n{2*i}"
 to = "n1"
 EA = "2 + i"
-)"));
-  const Ran by_hand = run(truss(R"([[bar]]
+)toml"));
+  const Ran by_hand = run(truss(R"toml([[bar]]
 from = "n0"
 to = "n1"
 EA = "2 + 0"
@@ -63,7 +63,7 @@ EA = "2 + 0"
 from = "n2"
 to = "n1"
 EA = "2 + 1"
-)"));
+)toml"));
   EXPECT_EQ(bytes_of(repeated.results[0]), bytes_of(by_hand.results[0]));
   EXPECT_GT(repeated.results[0].branches.at(0).samples.size(), 20U);
 }
@@ -73,7 +73,7 @@ TEST(Bars, GiveTheLimitLoadsOfTheSameTrussOfChains) {
   const Ran bars =
       run(truss("[[bar]]\nrepeat = { i = [0, 2, 2] }\nfrom = \"n{i}\"\nto = "
                 "\"n1\"\nstiffness = 3\n"));
-  const Ran chains = run(R"([[body]]
+  const Ran chains = run(R"toml([[body]]
 name = "n1"
 task_space = "xy"
 pose = [0, 0.5]
@@ -82,8 +82,7 @@ repeat = { i = [0, 1] }
 name = "bar{i}"
 from_at = ["2*i - 1", 0]
 elements = [
-  { joint = "revolute", axis = "z", name = "foot", initial = "atan2(0.5, 1 - 2*i)"
-},
+  { joint = "revolute", axis = "z", name = "foot", initial = "atan2(0.5, 1 - 2*i)" },
   { joint = "prismatic", axis = "x", name = "length", role = "virtual", stiffness = 3 },
   { rigid = ["sqrt(1.25)", 0] },
 ]
@@ -92,18 +91,33 @@ name = "press"
 control = "load"
 direction = [0, -1]
 until = { n1.y = [-1, 1] }
-)");
+)toml");
   const double L0 = std::sqrt(1.25), l = std::cbrt(L0), y = std::sqrt(l * l - 1);
-const double P = 2 * 3 * (L0 / l - 1) * y;
-for (const Ran* ran : {&bars, &chains})
-  EXPECT_THAT(lambdas(ran->results[0], EventKind::limit_point),
-              testing::UnorderedElementsAre(testing::DoubleNear(P, 1e-12),
-                                            testing::DoubleNear(-P, 1e-12)));
+  const double P = 2 * 3 * (L0 / l - 1) * y;
+  for (const Ran* ran : {&bars, &chains})
+    EXPECT_THAT(lambdas(ran->results[0], EventKind::limit_point),
+                testing::UnorderedElementsAre(testing::DoubleNear(P, 1e-12),
+                                              testing::DoubleNear(-P, 1e-12)));
+}
+
+// Along the axis of symmetry nothing moves but what is driven: F(y) = 2 k (L0/l - 1) y.
+TEST(Bars, CanBeDrivenAlongAnAxisOfSymmetryWhereNothingAnswers) {
+  std::string text = truss("[[bar]]\nrepeat = { i = [0, 2, 2] }\nfrom = \"n{i}\"\nto = "
+                           "\"n1\"\nstiffness = 3\n");
+  const Ran driven = run(text.replace(text.find("\"load\""), 6, "\"mixed\""));
+  const analysis::StudyResult& result = driven.results[0];
+  ASSERT_TRUE(analysis::complete(result)) << result.start.message;
+  const std::size_t rows = result.branches[0].samples.size();
+  EXPECT_GT(rows, 10U);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double y = value(result, row, "n1.y"), l = std::hypot(1, y);
+    EXPECT_NEAR(value(result, row, "force"), 6 * (std::sqrt(1.25) / l - 1) * y, 1e-13);
+  }
 }
 
 // A body on four springs as it is drawn: K_phi = sum k (u x r)^2, no chain at all.
 TEST(ABodyHeldBySpringsAlone, HasTheStiffnessOfItsSprings) {
-  const Ran ran = run(R"([[body]]
+  const Ran ran = run(R"toml([[body]]
 name = "plate"
 task_space = "planar"
 pose = [0, 0, 0]
@@ -120,7 +134,7 @@ name = "turn"
 control = "mixed"
 direction = [0, 0, 1]
 until = { deflection = [-1, 1] }
-)");
+)toml");
   const analysis::StudyResult& result = ran.results[0];
   ASSERT_TRUE(analysis::complete(result)) << result.start.message;
   const double c = std::cos(20 * std::acos(-1.0) / 180), s = std::sin(20 * std::acos(-1.0) / 180);
@@ -137,7 +151,7 @@ until = { deflection = [-1, 1] }
 }
 
 std::string frame_with(const std::string& studies) {
-  return R"([[node]]
+  return R"toml([[node]]
 name = "pin"
 at = [0, 0]
 fixed = true
@@ -161,26 +175,26 @@ name = "tie"
 from = "pin"
 to = "foot"
 stiffness = 1
-)" + studies;
+)toml" + studies;
 }
 
-const std::string push = R"([[study]]
+const std::string push = R"toml([[study]]
 name = "push"
 body = "apex"
 control = "load"
 direction = [0, -1]
 start = { from = "preload" }
 until = { apex.y = [0.1, 0.75] }
-)";
+)toml";
 
 TEST(LoadHistories, KeepTheLoadOfTheStudyBefore) {
-  const Ran ran = run(frame_with(R"([[study]]
+  const Ran ran = run(frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)" + push));
+)toml" + push));
   const auto& second = ran.of("push");
   ASSERT_TRUE(analysis::complete(second)) << second.start.message;
   EXPECT_LT(second.start.moved, 1e-12);
@@ -189,38 +203,38 @@ until = { lambda = [0, 0.4] }
 }
 
 TEST(LoadHistories, ADrivenPoseIsKeptAsTheForceThatDroveIt) {
-  const Ran ran = run(frame_with(R"([[study]]
+  const Ran ran = run(frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "mixed"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)" + push));
+)toml" + push));
   EXPECT_NEAR(lambdas(ran.of("push"), EventKind::limit_point).at(0), 0.4534552257, 1e-9);
 }
 
 TEST(LoadHistories, AParameterIsKeptAsItWasLeft) {
-  std::string text = frame_with(R"([[study]]
+  std::string text = frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "parameter"
 parameter = "squeeze"
 load = ["-squeeze", 0]
 until = { lambda = [0, 0.4] }
-)" + push);
+)toml" + push);
   const Ran ran = run("[parameters]\nsqueeze = 0\n" + text);
   EXPECT_NEAR(lambdas(ran.of("push"), EventKind::limit_point).at(0), 0.4534552257, 1e-9);
 }
 
 // Held at half the span a the truss of two bars of length 1 turns back at l^3 = a^2.
 TEST(LoadHistories, ADirectionIsBlockedWhereTheStudyBeforeLeftIt) {
-  std::string text = frame_with(R"([[study]]
+  std::string text = frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)" + push);
+)toml" + push);
   text = text.replace(text.find("{ from = \"preload\" }"), 20,
                       "{ from = \"preload\", hold = [\"foot.x\"] }");
   const Ran ran = run(text);
@@ -233,13 +247,13 @@ until = { lambda = [0, 0.4] }
 }
 
 TEST(LoadHistories, StepsFollowEachOtherAndStartAtLabelledPoints) {
-  const Ran ran = run(frame_with(R"([[study]]
+  const Ran ran = run(frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)" + push + R"([[study]]
+)toml" + push + R"toml([[study]]
 name = "on"
 body = "apex"
 control = "mixed"
@@ -251,7 +265,7 @@ name = "rest"
 body = "apex"
 kind = "equilibrium"
 start = { from = "on", at = "end" }
-)"));
+)toml"));
   const auto& on = ran.of("on");
   ASSERT_TRUE(analysis::complete(on)) << on.start.message;
   const auto& before = ran.of("push");
@@ -266,13 +280,13 @@ start = { from = "on", at = "end" }
 }
 
 TEST(LoadHistories, SayWhyThereIsNoStateToStartFrom) {
-  std::string text = frame_with(R"([[study]]
+  std::string text = frame_with(R"toml([[study]]
 name = "preload"
 body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)" + push);
+)toml" + push);
   text =
       text.replace(text.find("{ from = \"preload\" }"), 20, "{ from = \"preload\", at = \"LP7\" }");
   const Ran ran = run(text);
