@@ -15,6 +15,9 @@ namespace {
 
 using continuation::CurvePoint;
 
+/// What a few operations leave of terms that cancel, relative to these.
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
 /// Largest wrench of a chain and load of the study at the start; zero where they are nothing but rounding.
 double largest_force(const PathProblem& problem, const statics::FirstEquilibrium& first,
                      const CurvePoint& start) {
@@ -27,7 +30,6 @@ double largest_force(const PathProblem& problem, const statics::FirstEquilibrium
     largest = std::max(largest, first.inputs.W.lpNorm<Eigen::Infinity>());
   continuation::Linearisation at;
   if (!linearise(problem, start.x, start.lambda, start.piece, at)) return 0;
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   const Vector sizes = magnitudes(at, start.x);
   return largest > rounding * sizes.lpNorm<Eigen::Infinity>() ? largest : 0;
 }
@@ -51,6 +53,15 @@ double within_range(const Study& study, const Setup& setup, double unit) {
 double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& start, double unit) {
   constexpr double largest_lambda = 64;
   return within_range(study, setup, std::max(unit, std::abs(start.lambda) / largest_lambda));
+}
+
+/// Does the response say nothing of lambda, which then keeps its natural unit? Where a body without chains
+/// is driven, lambda is the only way that there need be, as along an axis of symmetry. And what
+/// answers to a parameter by rounding alone does not answer.
+bool is_unanswered(const PathProblem& problem, const Study& study, double unit) {
+  const bool driven = study.control == ControlMode::pose || study.control == ControlMode::mixed;
+  if (driven && problem.layout().first_pose == 0) return true;
+  return study.control != ControlMode::load && unit * rounding >= 1;
 }
 
 /// Wrenches of the start in another unit of force.
@@ -97,7 +108,7 @@ bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) 
     const double force =
         std::max({largest_force(problem, first, start), response->multiplier, stiffness});
     Units units{setup.scales.force * power_of_two_near(force), {}};
-    if (response->lambda)
+    if (response->lambda && !is_unanswered(problem, given.study, *response->lambda))
       units.lambda = setup.lambda_scale * lambda_unit(given.study, setup, start, *response->lambda);
     if (!change_units(given, units, first, setup)) return true;
   }

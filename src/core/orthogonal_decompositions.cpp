@@ -15,8 +15,19 @@ unsigned int options_of(SingularVectors left, SingularVectors right) {
   return options;
 }
 
+/// Of a matrix without entries, which Eigen does not take: all vectors of a side are singular ones.
+Svd svd_of_nothing(const Matrix& A, SingularVectors left, SingularVectors right) {
+  Svd svd{.values = Vector(0), .rank = 0};
+  if (left == SingularVectors::full) svd.U = Matrix::Identity(A.rows(), A.rows());
+  if (left == SingularVectors::thin) svd.U = Matrix(A.rows(), 0);
+  if (right == SingularVectors::full) svd.V = Matrix::Identity(A.cols(), A.cols());
+  if (right == SingularVectors::thin) svd.V = Matrix(A.cols(), 0);
+  return svd;
+}
+
 template <class Solver>
 Svd svd_of(const Matrix& A, SingularVectors left, SingularVectors right) {
+  if (A.size() == 0) return svd_of_nothing(A, left, right);
   const Solver solver(A, options_of(left, right));
   Svd svd{.values = solver.singularValues(), .rank = solver.rank()};
   if (left != SingularVectors::none) svd.U = solver.matrixU();
@@ -87,10 +98,12 @@ Matrix kernel_of(const Matrix& A, std::optional<double> threshold) {
 }
 
 Vector least_squares(const Matrix& A, const Vector& right, std::optional<double> threshold) {
+  if (A.size() == 0) return Vector::Zero(A.cols());
   return complete(A, threshold).solve(right);
 }
 
 Matrix least_squares_of_columns(const Matrix& A, const Matrix& right) {
+  if (A.size() == 0) return Matrix::Zero(A.cols(), right.cols());
   return complete(A, {}).solve(right);
 }
 

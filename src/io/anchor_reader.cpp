@@ -2,19 +2,40 @@
 
 #include <algorithm>
 
+#include "mechanism_reader.hpp"
+
 namespace springfold::io {
 namespace {
 
-/// Bodies and "chain.point", for messages.
+/// Bodies, nodes and "chain.point", for messages.
 std::vector<std::string> anchor_names(const MechanismDraft& draft, bool base_allowed) {
   std::vector<std::string> names;
   if (base_allowed) names.push_back("base");
   for (const BodyDraft& body : draft.bodies)
     if (!body.name.empty()) names.push_back(body.name);
+  if (base_allowed)
+    for (const SupportDraft& support : draft.supports)
+      if (!support.name.empty()) names.push_back(support.name);
   for (const ChainDraft& chain : draft.chains)
     for (const PointDraft& point : chain.points)
       if (!point.name.empty()) names.push_back(chain.name + "." + point.name);
   return names;
+}
+
+/// A fixed node: the base, at its place. @returns whether there is one of that name
+bool find_support(const Item& item, const MechanismDraft& draft, bool base_allowed,
+                  AnchorDraft& anchor, Reading& reading) {
+  const auto support =
+      std::find_if(draft.supports.begin(), draft.supports.end(),
+                   [&item](const SupportDraft& node) { return node.name == item.node->text; });
+  if (support == draft.supports.end()) return false;
+  if (!base_allowed)
+    reading.problems.add(item.node->place, item.key,
+                         "got " + described(*item.node) +
+                             ", a fixed node, where a load does nothing, need one that moves");
+  anchor.body = 0;
+  anchor.at = support->at;
+  return true;
 }
 
 }  // namespace
@@ -25,6 +46,7 @@ void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowe
   if (base_allowed && name == "base") return void(anchor.body = 0);
   for (std::size_t b = 0; b < draft.bodies.size(); ++b)
     if (draft.bodies[b].name == name) return void(anchor.body = static_cast<Index>(b + 1));
+  if (find_support(item, draft, base_allowed, anchor, reading)) return;
   for (std::size_t c = 0; c < draft.chains.size(); ++c)
     for (std::size_t p = 0; p < draft.chains[c].points.size(); ++p) {
       const std::string& point = draft.chains[c].points[p].name;
@@ -53,7 +75,10 @@ std::vector<NumberId> read_at(const TableReader& table, const std::string& name,
                               const MechanismDraft& draft, const AnchorDraft& anchor,
                               NumberTable& numbers, Reading& reading) {
   const Node* at = table.find(name);
-  if (!at) return {};
+  if (!at) return anchor.at;
+  if (!anchor.at.empty())
+    reading.problems.add(at->place, table.key_of(name),
+                         "a fixed node is a point and has no other points, need none");
   return read_vector3({at, table.key_of(name)}, lives_in_plane(draft, anchor), reading.units.length,
                       numbers, reading);
 }

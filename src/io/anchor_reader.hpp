@@ -1,4 +1,4 @@
-// Points at which springs and loads act.
+// Where loads, springs and bars act: names of bodies, nodes and points of chains.
 #pragma once
 
 #include <string>
@@ -8,13 +8,15 @@
 
 namespace springfold::io {
 
-/// "tool" or "leg.knee"; reports others.
+/// "tool", "leg.knee", the name of a node; with `base_allowed` also "base" and fixed nodes. Reports
+/// others.
 void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
                  AnchorDraft& anchor, Reading& reading);
 
+/// Does the anchor stay in the plane? The base does if all bodies do.
 bool lives_in_plane(const MechanismDraft& draft, const AnchorDraft& anchor);
 
-/// The table's entry `name`: a point in the frame of the anchor; nothing if it is missing.
+/// The place `name` on the anchor, whose name is read; without the key that of a fixed node, or none.
 std::vector<NumberId> read_at(const TableReader& table, const std::string& name,
                               const MechanismDraft& draft, const AnchorDraft& anchor,
                               NumberTable& numbers, Reading& reading);

@@ -3,6 +3,7 @@
 #include <set>
 #include <string_view>
 
+#include "bar_draft.hpp"
 #include "case_draft.hpp"
 #include "case_hints.hpp"
 #include "compared_quantity.hpp"
@@ -56,6 +57,10 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
   const auto spring = numbered(view, "spring");
   if (spring && spring->number <= draft.springs.size()) {
     const LineSpringDraft& at = draft.springs[spring->number - 1];
+    return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
+  }
+  if (spring && spring->number <= draft.springs.size() + draft.bars.size()) {
+    const BarDraft& at = draft.bars[spring->number - 1 - draft.springs.size()];
     return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
   }
   const auto shape = numbered(view, "shape");
@@ -114,6 +119,7 @@ class Builder {
   Case build() {
     result_.title = draft_->title;
     result_.units = draft_->units;
+    list_nodes(draft_->mechanism, result_);
     for (std::size_t i = 0; i < draft_->studies.size(); ++i)
       for (int run = 1; run <= draft_->studies[i].runs(); ++run) add_run(i, run);
     add_plots();
@@ -123,28 +129,65 @@ class Builder {
   }
 
  private:
-  void add_run(std::size_t i, int run) {
+  Values parameters_of(std::size_t i, int run) {
+    return evaluate(draft_->parameters, draft_->studies[i].changes(run), draft_->book, "",
+                    problems_);
+  }
+
+  /// Mechanism and study of one run.
+  PlannedRun plan_of(std::size_t i, int run, const std::vector<double>& of_mechanism,
+                     const std::vector<double>& numbers, const Values& parameters) {
     const StudyDraft& study = draft_->studies[i];
-    const Values parameters =
-        evaluate(draft_->parameters, study.changes(run), draft_->book, "", problems_);
-    const std::vector<double> numbers = study.numbers.values(draft_->book, parameters).values;
     PlannedRun planned{.study = study.name, .run = run};
     planned.label = label_of(study, run, parameters);
     planned.has_given_label = study.vary && !study.vary->labels.empty();
-    const std::vector<double> of_mechanism =
-        draft_->mechanism.numbers.values(draft_->book, parameters).values;
     planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);
     for (model::Load& load : build_loads(study.loads, numbers))
       planned.mechanism.loads.push_back(std::move(load));
     const auto body = static_cast<std::size_t>(study.body - 1);
     planned.plan =
         build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);
+    add_holds(study.history, planned.mechanism);
+    for (const HoldDraft& hold : study.history.holds) planned.history.held.push_back(hold.chain);
+    if (study.history.study) planned.history.earlier = earlier_of(i, run, parameters);
     for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
       planned.parameters[draft_->parameters[p].name] = parameters.values[p];
     if (study.control == analysis::ControlMode::parameter && study.parameter)
-      check_segments(i, run);
-    if (study.control == analysis::ControlMode::parameter && study.parameter)
       planned.family = family_of(draft_, i, run, parameters);
+    return planned;
+  }
+
+  /// The study in whose state this one starts: the run with the same number, or its only one.
+  std::shared_ptr<const analysis::Earlier> earlier_of(std::size_t i, int run,
+                                                      const Values& parameters) {
+    const HistoryDraft& history = draft_->studies[i].history;
+    const StudyDraft& before = draft_->studies[*history.study];
+    const int run_before = before.runs() == 1 ? 1 : run;
+    const Values own = parameters_of(*history.study, run_before);
+    PlannedRun planned = plan_of(*history.study, run_before,
+                                 draft_->mechanism.numbers.values(draft_->book, own).values,
+                                 before.numbers.values(draft_->book, own).values, own);
+    analysis::Earlier earlier{.mechanism = std::move(planned.mechanism),
+                              .study = std::move(planned.plan),
+                              .family = std::move(planned.family),
+                              .history = std::move(planned.history)};
+    earlier.at = history.at;
+    earlier.keeps_loads = history.keeps_loads;
+    earlier.common_loads = draft_->mechanism.loads.size();
+    earlier.parameter = before.parameter.value_or(0);
+    earlier.cases = cases_of(draft_, i, run, parameters);
+    return std::make_shared<const analysis::Earlier>(std::move(earlier));
+  }
+
+  void add_run(std::size_t i, int run) {
+    const StudyDraft& study = draft_->studies[i];
+    const Values parameters = parameters_of(i, run);
+    const std::vector<double> numbers = study.numbers.values(draft_->book, parameters).values;
+    const std::vector<double> of_mechanism =
+        draft_->mechanism.numbers.values(draft_->book, parameters).values;
+    PlannedRun planned = plan_of(i, run, of_mechanism, numbers, parameters);
+    if (study.control == analysis::ControlMode::parameter && study.parameter)
+      check_segments(i, run);
     planned.plan.map.situation = situations_of(draft_, i, run);
     if (analysis::is_of_critical_points(study.kind))
       planned.plan.critical.cases = cases_of(draft_, i, run, parameters);
@@ -204,6 +247,8 @@ class Builder {
   bool check(const PlannedRun& planned, const std::vector<double>& numbers, std::size_t i) {
     const StudyDraft& study = draft_->studies[i];
     const std::size_t before = problems_.size();
+    check_bars(draft_->mechanism, numbers, planned.mechanism, study.when(planned.run), problems_);
+    if (problems_.size() != before) return false;
     for (const std::string& text : model::problems_in(planned.mechanism))
       add_model_problem(text, draft_->mechanism, numbers, study, planned.run, problems_);
     if (problems_.size() != before) return false;

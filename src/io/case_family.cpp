@@ -23,6 +23,7 @@ std::shared_ptr<const analysis::CaseFamily> cases_of(std::shared_ptr<const CaseD
         build_study(from, draft->mechanism.bodies[body].task_space, own, draft->parameters)};
     for (model::Load& load : build_loads(from.loads, own))
       variant.mechanism.loads.push_back(std::move(load));
+    add_holds(from.history, variant.mechanism);
     return variant;
   };
   return family;

@@ -1,6 +1,7 @@
 #include "case_draft.hpp"
 #include "command_reader.hpp"
 #include "memory_limits.hpp"
+#include "repetition.hpp"
 #include "sha256.hpp"
 #include "springfold/io/read_case.hpp"
 
@@ -80,7 +81,9 @@ Case load_case(const fs::path& file, const std::map<std::string, std::string>& o
                const std::function<bool()>& stop_requested) {
   Problems problems;
   SourceReader sources{problems, stop_requested};
-  const std::vector<Document> documents = sources.read_case(file);
+  std::vector<Document> documents = sources.read_case(file);
+  throw_if_any(problems);
+  expand_repetitions(documents, problems);
   throw_if_any(problems);
   const std::vector<Document> expected =
       read_expected_file(file, documents.back().root, sources, problems);

@@ -107,13 +107,13 @@ void add_hints(const CaseDraft& draft, std::size_t study, const std::vector<doub
                std::vector<std::string>& hints) {
   add_angle_hints(draft.mechanism.numbers, of_mechanism, hints);
   add_angle_hints(draft.studies[study].numbers, of_study, hints);
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
+  for (std::size_t i = 0; i < draft.mechanism.chains.size(); ++i)
     add_line_hints(draft.mechanism.chains[i], mechanism.chains[i], of_mechanism, hints);
 }
 
 void check_planes(const MechanismDraft& draft, const std::vector<double>& numbers,
                   const model::Mechanism& mechanism, const std::string& when, Problems& problems) {
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+  for (std::size_t i = 0; i < draft.chains.size(); ++i) {
     const model::Chain& chain = mechanism.chains[i];
     if (!lies_in_plane(mechanism, chain)) continue;
     const std::vector<std::size_t> origins = origins_of(draft.chains[i], numbers);

@@ -3,6 +3,7 @@
 #include "case_draft.hpp"
 #include "mechanism_reader.hpp"
 #include "plot_reader.hpp"
+#include "repetition.hpp"
 #include "study_reader.hpp"
 
 namespace springfold::io {
@@ -10,15 +11,16 @@ namespace {
 
 constexpr std::size_t most_parameters = 1000;
 
-const std::vector<std::string> case_keys{"title", "include",  "units",   "parameters", "gravity",
-                                         "body",  "chain",    "spring",  "load",       "study",
-                                         "plot",  "map_plot", "expected"};
+const std::vector<std::string> case_keys{
+    "title", "include", "units", "parameters", "gravity", "template", "body",     "node",
+    "chain", "spring",  "bar",   "load",       "study",   "plot",     "map_plot", "expected"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
                             Reading& reading) {
   std::vector<Item> items;
-  const bool mechanism = name == "body" || name == "chain" || name == "spring" || name == "load";
+  const auto& parts = parts_of_mechanism();
+  const bool mechanism = std::find(parts.begin(), parts.end(), name) != parts.end();
   for (const Document& document : documents) {
     const Node* node = document.root.find(name);
     if (!node || (document.included && !mechanism)) continue;
@@ -157,13 +159,20 @@ CaseDraft read_case(const std::vector<Document>& documents,
   const std::vector<Item> bodies = tables_of(documents, "body", reading);
   const std::vector<Item> chains = tables_of(documents, "chain", reading);
   const std::vector<Item> studies = tables_of(documents, "study", reading);
-  for (const char* name : {"body", "chain", "study"}) require_table(documents, name, problems);
+  const std::vector<Item> nodes = tables_of(documents, "node", reading);
+  const std::vector<Item> springs = tables_of(documents, "spring", reading);
+  const std::vector<Item> bars = tables_of(documents, "bar", reading);
+  if (nodes.empty()) require_table(documents, "body", problems);
+  if (springs.empty() && bars.empty()) require_table(documents, "chain", problems);
+  require_table(documents, "study", problems);
   read_bodies(bodies, draft.mechanism, reading);
+  read_nodes(nodes, draft.mechanism, reading);
   read_chains(chains, draft.mechanism, reading);
   for (const Document& document : documents)  // the case's own comes last and counts
     if (const Node* gravity = document.root.find("gravity"))
       read_gravity({gravity, "gravity"}, draft.mechanism, reading);
-  read_springs(tables_of(documents, "spring", reading), draft.mechanism, reading);
+  read_springs(springs, draft.mechanism, reading);
+  read_bars(bars, draft.mechanism, reading);
   const Index only_body = draft.mechanism.bodies.size() == 1 ? 1 : 0;
   draft.mechanism.loads = read_loads(tables_of(documents, "load", reading), draft.mechanism,
                                      only_body, draft.mechanism.numbers, reading);

@@ -25,16 +25,17 @@ std::string pose_need(TaskSpace space) {
   return "a list";
 }
 
-/// Names of bodies and chains begin column names: all must differ.
+}  // namespace
+
 bool is_taken(const std::string& name, const MechanismDraft& draft) {
   const auto has_name = [&name](const auto& thing) { return thing.name == name; };
   return name == "base" || std::any_of(draft.bodies.begin(), draft.bodies.end(), has_name) ||
          std::any_of(draft.chains.begin(), draft.chains.end(), has_name) ||
          std::any_of(draft.springs.begin(), draft.springs.end(), has_name) ||
-         std::any_of(draft.shape_springs.begin(), draft.shape_springs.end(), has_name);
+         std::any_of(draft.shape_springs.begin(), draft.shape_springs.end(), has_name) ||
+         std::any_of(draft.supports.begin(), draft.supports.end(), has_name) ||
+         std::any_of(draft.bars.begin(), draft.bars.end(), has_name);
 }
-
-}  // namespace
 
 std::string read_own_name(const TableReader& table, const MechanismDraft& draft, Reading& reading) {
   const std::optional<std::string> name = table.required_text("name", "a name");

@@ -1,5 +1,7 @@
 #include "mechanism_draft.hpp"
 
+#include "bar_draft.hpp"
+
 namespace springfold::io {
 namespace {
 
@@ -213,6 +215,9 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
                                       .to = anchor_of(spring.to, numbers),
                                       .stiffness = numbers[spring.stiffness],
                                       .free = numbers[spring.free]});
+  for (const BarDraft& bar : draft.bars)
+    mechanism.line_springs.push_back(
+        bar_of(bar, anchor_of(bar.from, numbers), anchor_of(bar.to, numbers), mechanism, numbers));
   for (const ShapeSpringDraft& spring : draft.shape_springs)
     mechanism.shape_springs.push_back(shape_spring_of(spring, numbers));
   return mechanism;

@@ -112,6 +112,24 @@ struct LineSpringDraft {
   std::string key{};
 };
 
+/// A node that is fixed in all directions: a name for a point of the base.
+struct SupportDraft {
+  std::string name{};
+  std::vector<NumberId> at{};
+  Place place{};
+  std::string key{};
+};
+
+/// A straight linear bar between two points: a line spring whose free length may be that drawn.
+struct BarDraft {
+  std::string name{};
+  AnchorDraft from{}, to{};
+  std::optional<NumberId> stiffness{}, EA{};     ///< one of both [force/length], [force]
+  std::optional<NumberId> free{}, pretension{};  ///< one or none [length], [force]
+  Place place{};
+  std::string key{};
+};
+
 struct GasDraft {
   NumberId nRT = 0, initial = 0, exponent = 0;
 };
@@ -152,6 +170,8 @@ struct BodyDraft {
   std::vector<NumberId> pose{};
   std::optional<NumberId> mass{};
   std::vector<NumberId> centre{};
+  bool is_node = false;
+  std::vector<std::string> fixed{};  ///< of a node: directions in which it is held, not all
   Place place{};
   std::string key{};
 };
@@ -162,6 +182,8 @@ struct MechanismDraft {
   std::vector<ChainDraft> chains{};
   std::vector<NumberId> gravity{};
   std::vector<LineSpringDraft> springs{};
+  std::vector<SupportDraft> supports{};
+  std::vector<BarDraft> bars{};  ///< in the model they are line springs behind `springs`
   std::vector<ShapeSpringDraft> shape_springs{};
   std::vector<LoadDraft> loads{};  ///< of all studies
 };

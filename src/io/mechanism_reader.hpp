@@ -41,6 +41,16 @@ std::vector<LoadDraft> read_loads(const std::vector<Item>& tables, const Mechani
 /// `mass`: >= 0.
 NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& reading);
 
+/// `[[node]]`: point bodies, fixed points of the base, and chains along which nodes slide. All bodies
+/// must be read before.
+void read_nodes(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
+
+/// `[[bar]]`. All chains and springs must be read before.
+void read_bars(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);
+
+/// Has a body, node, chain, spring or bar this name? Column names begin with them: all must differ.
+bool is_taken(const std::string& name, const MechanismDraft& draft);
+
 /// A name of a body, chain or spring that is not taken yet; reports others.
 std::string read_own_name(const TableReader& table, const MechanismDraft& draft, Reading& reading);
 

@@ -27,6 +27,7 @@ struct Family {
     model::Mechanism built = build_mechanism(draft->mechanism, numbers);
     for (model::Load& own : build_loads(draft->studies[study].loads, study_numbers))
       built.loads.push_back(std::move(own));
+    add_holds(draft->studies[study].history, built);
     return {std::move(built), vector_of(draft->studies[study].load, study_numbers)};
   }
 };

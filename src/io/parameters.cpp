@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bindings.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -98,7 +99,8 @@ Definition read_definition(const Node& node, const std::string& key, const std::
     problems.add(node.place, key, "got " + described(node) + ", need " + need + " or a formula");
     return definition;
   }
-  const FormulaBook::Added added = book.add(node.text);
+  const FormulaBook::Added added =
+      book.add(node.bindings ? with_bindings(node.text, *node.bindings) : node.text);
   if (!added.id) {
     problems.add(node.place, key,
                  "got " + described(node) + ", need " + need + " or a formula: " + added.problem);

@@ -35,12 +35,23 @@ std::optional<int> count_of(double value) {
   return static_cast<int>(std::lround(value));
 }
 
+/// The mechanism as it acts in the study, to be drawn: without the chains that hold bodies where an
+/// earlier study left them, which is known only when that one is run.
+model::Mechanism acting(const PlannedRun& planned, const model::Mechanism& now) {
+  model::Mechanism mechanism =
+      analysis::with_springs_from_start(planned.mechanism, planned.plan, now);
+  const std::vector<std::string>& held = planned.history.held;
+  std::erase_if(mechanism.chains, [&held](const model::Chain& chain) {
+    return std::find(held.begin(), held.end(), chain.name) != held.end();
+  });
+  return mechanism;
+}
+
 }  // namespace
 
 RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
     : planned_{planned}, result_{result} {
-  system_ = statics::prepare(
-      analysis::with_springs_from_start(planned.mechanism, planned.plan, planned.mechanism));
+  system_ = statics::prepare(acting(planned, planned.mechanism));
   has_columns_ = true;
   for (Index i = 0; i < system_.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -67,8 +78,7 @@ statics::System RowScenes::system_at(double lambda) const {
   if (planned_.plan.control != ControlMode::parameter || !planned_.family ||
       planned_.plan.kind != StudyKind::force_deflection)
     return system_;
-  return statics::prepare(analysis::with_springs_from_start(planned_.mechanism, planned_.plan,
-                                                            planned_.family->at(lambda).mechanism));
+  return statics::prepare(acting(planned_, planned_.family->at(lambda).mechanism));
 }
 
 void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture& posture) const {

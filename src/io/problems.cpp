@@ -35,6 +35,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+/// "bar[2].free" of "bar[2, i = 3].free": one mistake in what is repeated is one mistake.
+std::string without_indices(const std::string& text) {
+  std::string once;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t end = text[i] == ',' ? text.find(']', i) : std::string::npos;
+    const bool indices =
+        end != std::string::npos && text.substr(i, end - i).find(" = ") != std::string::npos;
+    if (indices && text.find_first_not_of("0123456789", text.rfind('[', i) + 1) == i) i = end;
+    once += text[i];
+  }
+  return once;
+}
+
 }  // namespace
 
 void Problems::add(const Place& place, const std::string& key, const std::string& what,
@@ -47,11 +60,13 @@ void Problems::add(const Place& place, const std::string& key, const std::string
   if (!key.empty()) text += key + ": ";
   text += what;
   text = shown(text);  // keys and names come from the file: one message stays one line
-  // The same mistake comes again soon, with the next run; others are found when all are printed.
+  const std::string once = without_indices(text);
+  // The same mistake comes again soon, with the next run or the next index of a repetition; others are
+  // found when all are printed.
   constexpr std::ptrdiff_t looked_at = 200;
   const auto begin = items_.end() - std::min(std::ssize(items_), looked_at);
-  const auto is_same = [&text](const Item& item) { return item.text == text; };
-  if (std::none_of(begin, items_.end(), is_same)) items_.push_back({place, text, when});
+  const auto is_same = [&once](const Item& item) { return item.once == once; };
+  if (std::none_of(begin, items_.end(), is_same)) items_.push_back({place, text, once, when});
 }
 
 bool Problems::are_in(const std::string& file) const {

@@ -45,6 +45,7 @@ class Problems {
   struct Item {
     Place place{};
     std::string text{};
+    std::string once{};  ///< without the indices of repetitions
     std::string when{};
   };
   std::vector<Item> items_;

@@ -7,6 +7,7 @@
 
 #include "command_draft.hpp"
 #include "critical_draft.hpp"
+#include "history_draft.hpp"
 #include "mechanism_draft.hpp"
 #include "snap_reader.hpp"
 #include "springfold/analysis/study.hpp"
@@ -67,6 +68,7 @@ struct StudyDraft {
   analysis::StartSolver start_solver = analysis::StartSolver::newton;
   std::vector<NumberId> start_pose{};  ///< d or none
   NumberId attempts = 0, seed = 0, maximum_move = 0;
+  HistoryDraft history{};  ///< start.from
   analysis::Path path = analysis::Path::arc_length;
   /// Steps that the case leaves out follow those that it gives.
   std::optional<NumberId> initial_step{}, minimum_step{}, maximum_step{};

@@ -238,9 +238,10 @@ class StudyReader {
 
   void read_start() {
     const analysis::StartOptions defaults;
-    const TableReader start =
-        table_or_nothing("start", "a table such as { pose = [...] }",
-                         {"pose", "solve", "solver", "attempts", "seed", "maximum_move"});
+    std::vector<std::string> keys{"pose", "solve", "solver", "attempts", "seed", "maximum_move"};
+    keys.insert(keys.end(), history_keys().begin(), history_keys().end());
+    const TableReader start = table_or_nothing("start", "a table such as { pose = [...] }", keys);
+    draft_.history = read_history(start, mechanism_, reading_);
     draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
     draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
                                     StartSolve::wrench}[start.choice("solve", solve_words, 0)];
@@ -388,6 +389,7 @@ std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
                                "different names");
     studies.push_back(std::move(study));
   }
+  connect_histories(mechanism, studies, reading.problems);
   return studies;
 }
 

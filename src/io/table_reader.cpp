@@ -149,8 +149,11 @@ std::vector<Item> list_items(const Item& item, const std::string& need, Reading&
     return {};
   }
   std::vector<Item> items;
-  for (std::size_t i = 0; i < item.node->items.size(); ++i)
-    items.push_back({&item.node->items[i], item.key + "[" + std::to_string(i + 1) + "]"});
+  for (std::size_t i = 0; i < item.node->items.size(); ++i) {
+    const Node& node = item.node->items[i];
+    const std::string number = node.number_text.empty() ? std::to_string(i + 1) : node.number_text;
+    items.push_back({&node, item.key + "[" + number + "]"});
+  }
   return items;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 namespace springfold::io {
 
 struct NodeEntry;
+struct Bindings;  // bindings.hpp
 
 /// A value of a TOML file.
 struct Node {
@@ -22,6 +24,12 @@ struct Node {
   std::string text{};                ///< text
   std::vector<Node> items{};         ///< array
   std::vector<NodeEntry> entries{};  ///< table, in the order of the file
+  /// Names that formulas here may use beside parameters: indices of repetitions, parameters of
+  /// templates. Null: none.
+  std::shared_ptr<const Bindings> bindings{};
+  /// Of an element of a list in which some are repeated: its number in the file and the indices,
+  /// "2, i = 3". Otherwise empty.
+  std::string number_text{};
 
   /// The value under `key`, nullptr if the table has none. @pre kind is table
   const Node* find(std::string_view key) const;

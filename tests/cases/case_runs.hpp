@@ -35,7 +35,8 @@ inline Ran run(const std::string& text) {
   std::filesystem::remove(file);
   for (const PlannedRun& planned : ran.read.runs) {
     ran.results.push_back(analysis::run_study(planned.mechanism, planned.plan,
-                                              planned.family ? &*planned.family : nullptr));
+                                              planned.family ? &*planned.family : nullptr,
+                                              planned.history));
     ran.results.back().study = planned.study;
     ran.results.back().run = planned.run;
   }

@@ -72,5 +72,56 @@ TEST_F(Check, AndOtherCommandsAreSuggestedForMistypedOnes) {
               HasSubstr("did you mean \"springfold run case.toml\"?"));
 }
 
+TEST_F(Check, ListsEveryKindOfThingAndSaysWhatLambdaIs) {
+  const Outcome good = check(R"([[node]]
+name = "pin"
+at = [0, 0]
+fixed = true
+[[node]]
+name = "foot"
+at = [2, 0]
+fixed = ["y"]
+[[node]]
+repeat = { i = [0, 19] }
+name = "n{i}"
+at = [1, "1 + i"]
+[[bar]]
+from = "pin"
+to = "foot"
+stiffness = 3
+[[spring]]
+name = "tie"
+to = "n0"
+to_at = [0, 0]
+stiffness = 2
+[[load]]
+on = "n0"
+force = [0, -1]
+scale = "lambda"
+[[study]]
+name = "press"
+body = "foot"
+control = "load"
+direction = [-2, 0]
+[[study]]
+name = "on"
+body = "n0"
+control = "mixed"
+direction = [0, 1]
+start = { from = "press", at = "start" }
+)",
+                             {"--no-solve"});
+  EXPECT_EQ(good.code, all_done) << good.err;
+  for (const char* line :
+       {"node      pin (fixed)", "node      foot (held in y)", "node      and 10 more: 22 in all",
+        "spring    tie: base [0, 0] to n0, stiffness 2, free length 0",
+        "bar       pin-foot: base [0, 0] to foot, stiffness 3, free length 2",
+        "load      1: force [0, -1, 0] on n0, times lambda",
+        "lambda: force [N] on foot along [-1, 0], and factor of load 1",
+        "starts from study \"press\" at start",
+        "lambda: way [m] of n0 along [0, 1], free across it"})
+    EXPECT_THAT(good.out, HasSubstr(line));
+}
+
 }  // namespace
 }  // namespace springfold::cli

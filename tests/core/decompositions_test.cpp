@@ -168,6 +168,15 @@ TEST(LeastSquares, AreUniqueOnlyWhereColumnsAreIndependent) {
   EXPECT_LT((fitted(A, right) - *X).norm(), 100 * exact);
 }
 
+TEST(EmptyMatrices, HaveZerosAsSolutionsAndWholeSpacesAsKernels) {
+  EXPECT_EQ(least_squares(Matrix(3, 0), Vector::Ones(3)).size(), 0);
+  EXPECT_EQ(least_squares(Matrix(0, 2), Vector(0)), Vector(Vector::Zero(2)));
+  const Svd svd = jacobi_svd(Matrix(0, 2), SingularVectors::full, SingularVectors::full);
+  EXPECT_EQ(svd.values.size(), 0);
+  EXPECT_EQ(svd.rank, 0);
+  EXPECT_EQ(svd.V, Matrix(Matrix::Identity(2, 2)));
+}
+
 TEST(Definite, SystemsAreSolvedForVectorsAndMatrices) {
   const Matrix B = random_matrix(5, 5, 16), A = B * B.transpose() + Matrix::Identity(5, 5);
   const Matrix right = random_matrix(5, 2, 17);

@@ -26,7 +26,7 @@ TEST_F(CaseMessages, NameUnknownKeysWithTheNearestKnownOne) {
               ElementsAre("case.toml:1:1: titel: unknown key, did you mean \"title\"?"));
   EXPECT_THAT(after("attempts = 3", "colour = 3"),
               ElementsAre("case.toml:33:70: study[1].start.colour: unknown key; known here: pose, "
-                          "solve, solver, attempts, seed, maximum_move"));
+                          "solve, solver, attempts, seed, maximum_move, from, at, loads, hold"));
 }
 
 TEST_F(CaseMessages, TakeAMisspeltKeyForTheMissingOne) {

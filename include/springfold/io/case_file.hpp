@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "springfold/analysis/history.hpp"
 #include "springfold/analysis/study.hpp"
 
 namespace springfold::io {
@@ -89,6 +90,7 @@ struct PlannedRun {
   model::Mechanism mechanism{};
   analysis::Study plan{};
   std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
+  analysis::History history{};                        ///< the studies before it: start.from
   std::map<std::string, double> parameters{};         ///< all named parameters as used
   std::vector<PartPlace>
       places{};  ///< of the study's keys, bodies and chains; "": the study itself
@@ -153,6 +155,13 @@ struct Expectations {
   std::vector<std::string> notes{};  ///< printed below the table
 };
 
+/// A node of the case, for listings: a point body, or a named point of the base.
+struct CaseNode {
+  std::string name{};
+  bool moves = true;                 ///< false: fixed in all directions
+  std::vector<std::string> fixed{};  ///< directions in which it is held: "x", "y", "z"
+};
+
 struct Case {
   std::filesystem::path file{};
   std::string title{};
@@ -164,6 +173,8 @@ struct Case {
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};
+  std::vector<CaseNode> nodes{};
+  std::vector<std::string> bars{};   ///< names of the line springs that the case calls bars
   std::vector<std::string> hints{};  ///< what is allowed and seldom meant, each with its place
 };
 

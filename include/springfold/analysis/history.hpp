@@ -1,0 +1,60 @@
+// Load histories: a study that starts in a state of an earlier one.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/analysis/run.hpp"
+
+namespace springfold::analysis {
+
+struct Earlier;
+
+/// Where a study starts from, if not from its own start.
+struct History {
+  std::shared_ptr<const Earlier> earlier{};  ///< null: it starts on its own
+  /// Names of chains of the mechanism that hold a point body where the study starts.
+  std::vector<std::string> held{};
+};
+
+/// The study whose state another one starts from.
+struct Earlier {
+  model::Mechanism mechanism{};
+  Study study{};
+  std::optional<ParameterFamily> family{};  ///< control mode parameter
+  History history{};                        ///< of that study itself
+  std::string at = "end";                   ///< "start", "end" of branch 1, or a label: "LP1"
+  bool keeps_loads = true;  ///< what acts there goes on acting, with the later study's own loads
+  std::size_t common_loads =
+      0;                      ///< the first loads of both mechanisms are the case's, not a study's
+  std::size_t parameter = 0;  ///< control mode parameter: its number in `cases`
+  /// The later study for other values of the parameters; needed where an earlier one moves one.
+  std::shared_ptr<const CaseFamily> cases{};
+};
+
+/// As run_study, after the studies before it: their states and loads are taken over. Poses, joint
+/// coordinates and commands begin as they are there; loads become constant ones, and so does the
+/// force that drove a pose; chains of History::held hold their bodies where they are then. The later
+/// equilibrium is solved again, from that state alone.
+/// @pre if history.earlier: the kinds of both are force_deflection, equilibrium or equilibria
+StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
+                      const ParameterFamily* family, const History& history,
+                      const Observer& observer = {}, const RunOptions& options = {});
+
+/// As solve_start, after the studies before it, which are run.
+std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
+                                       const ParameterFamily* family, const History& history);
+
+/// Adds a chain that holds coordinates of a point body (xy, xyz) where it is drawn, and lets it slide
+/// along the others. The chain is called "<body>.<name>", its joints "x", "y", "z"; its wrench is the
+/// reaction.
+/// @param held  per coordinate of the body
+/// @pre the body's task space is xy or xyz
+void hold(Index body, const std::vector<bool>& held, const std::string& name,
+          model::Mechanism& mechanism);
+
+}  // namespace springfold::analysis

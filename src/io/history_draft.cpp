@@ -1,0 +1,164 @@
+#include "history_draft.hpp"
+
+#include <algorithm>
+
+#include "springfold/analysis/history.hpp"
+#include "study_draft.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyKind;
+
+constexpr std::size_t most_steps = 16;  ///< studies one after the other, each runs those before it
+
+/// "LP1", "UZ12", "J1": a code of one or two signs and a number.
+bool is_label(const std::string& text) {
+  const auto upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t code = text.size() > 1 && upper(text[1]) ? 2 : 1;
+  return text.size() > code && text.size() <= 12 && upper(text[0]) &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(code), text.end(), digit);
+}
+
+std::vector<std::string> coordinates_of(const MechanismDraft& mechanism) {
+  std::vector<std::string> names;
+  for (const BodyDraft& body : mechanism.bodies)
+    for (std::size_t i = 0; i < body.pose.size() && i < 3; ++i)
+      if (body.task_space == model::TaskSpace::xy || body.task_space == model::TaskSpace::xyz)
+        names.push_back(body.name + "." + "xyz"[i]);
+  return names;
+}
+
+/// "foot.x" into the list of holds; reports others.
+void read_hold(const Item& item, const MechanismDraft& mechanism, HistoryDraft& history,
+               Reading& reading) {
+  const std::string& text = item.node->text;
+  const std::vector<std::string> known = coordinates_of(mechanism);
+  if (std::find(known.begin(), known.end(), text) == known.end())
+    return reading.problems.add(item.node->place, item.key,
+                                "got " + described(*item.node) +
+                                    ", need a coordinate of a node, or of a body with task space "
+                                    "\"xy\" or \"xyz\", such as \"foot.x\"" +
+                                    suggestion(text, known));
+  const std::string name = text.substr(0, text.size() - 2);
+  const auto body = std::find_if(mechanism.bodies.begin(), mechanism.bodies.end(),
+                                 [&name](const BodyDraft& b) { return b.name == name; });
+  const auto coordinate = static_cast<std::size_t>(text.back() - 'x');
+  const Index number = body - mechanism.bodies.begin() + 1;
+  auto hold = std::find_if(history.holds.begin(), history.holds.end(),
+                           [number](const HoldDraft& h) { return h.body == number; });
+  if (hold == history.holds.end())
+    hold = history.holds.insert(
+        hold, {number, std::vector<bool>(body->pose.size(), false), name + ".hold"});
+  const bool fixed = std::find(body->fixed.begin(), body->fixed.end(),
+                               text.substr(text.size() - 1)) != body->fixed.end();
+  if (fixed || hold->held[coordinate])
+    reading.problems.add(item.node->place, item.key,
+                         "got " + described(*item.node) + ", which is " +
+                             (fixed ? "fixed already" : "named twice") + ", need others");
+  hold->held[coordinate] = true;
+}
+
+bool has_states(const StudyDraft& study) {
+  return study.kind == StudyKind::force_deflection || study.kind == StudyKind::equilibrium ||
+         study.kind == StudyKind::equilibria;
+}
+
+/// A joint whose spring is counted from the start pose; empty: none.
+std::string counted_from_start(const MechanismDraft& mechanism) {
+  for (const ChainDraft& chain : mechanism.chains)
+    for (const ElementDraft& element : chain.elements)
+      if (const auto* joint = std::get_if<JointDraft>(&element.content); joint && joint->spring)
+        if (std::visit([](const auto& spring) { return spring.from_start; }, *joint->spring))
+          return chain.name + "." + joint->name;
+  return {};
+}
+
+void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft>& studies,
+                   const StudyDraft& study, Problems& problems) {
+  const NamedPlace& at = study.history.from;
+  const StudyDraft& earlier = studies[*study.history.study];
+  const auto refuse = [&](const std::string& what) { problems.add(at.place, at.key, what); };
+  if (!has_states(study) || !has_states(earlier))
+    return refuse(
+        "both studies need a kind with single states: \"force_deflection\", "
+        "\"snap_through\", \"equilibrium\" or \"equilibria\"");
+  if (earlier.runs() != 1 && earlier.runs() != study.runs())
+    return refuse("study \"" + earlier.name + "\" has " + std::to_string(earlier.runs()) +
+                  " runs and this one " + std::to_string(study.runs()) +
+                  ", need as many, which go together by their numbers, or one");
+  if (const std::string joint = counted_from_start(mechanism); !joint.empty())
+    return refuse("the spring of " + joint +
+                  " is counted from the start, origin = \"start\", which is no longer this "
+                  "study's own, need origin = \"joint\"");
+  std::size_t steps = 0;
+  const StudyDraft* way = &study;
+  while (way->history.study && ++steps <= most_steps) way = &studies[*way->history.study];
+  if (steps > most_steps)
+    refuse("studies start from each other in a circle, or more than " + std::to_string(most_steps) +
+           " one after the other");
+}
+
+}  // namespace
+
+const std::vector<std::string>& history_keys() {
+  static const std::vector<std::string> keys{"from", "at", "loads", "hold"};
+  return keys;
+}
+
+HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechanism,
+                          Reading& reading) {
+  HistoryDraft history;
+  const auto from = start.has("from") ? start.required_text("from", "the name of another study")
+                                      : std::optional<std::string>{};
+  if (!start.has("from")) {
+    for (const char* key : {"at", "loads", "hold"})
+      if (const Node* node = start.find(key))
+        reading.problems.add(node->place, start.key_of(key),
+                             "goes with from, need from = \"...\", the name of an earlier study");
+    return history;
+  }
+  if (!from) return history;
+  history.from = {*from, start.find("from")->place, start.key_of("from")};
+  for (const char* key : {"pose", "solve", "solver", "attempts", "seed"})
+    if (const Node* node = start.find(key))
+      reading.problems.add(node->place, start.key_of(key),
+                           "has no meaning with from: the study starts in that state");
+  const Node* at = start.find("at");
+  if (at != nullptr) history.at = at->text;
+  if (history.at != "start" && history.at != "end" && !is_label(history.at))
+    reading.problems.add(
+        at->place, start.key_of("at"),
+        "got " + described(*at) + ", need \"start\", \"end\" or a label such as \"LP1\"");
+  history.keeps_loads = start.choice("loads", {"kept", "own"}, 0) == 0;
+  for (const Item& item : start.list("hold", "a list of coordinates such as [\"foot.x\"]"))
+    read_hold(item, mechanism, history, reading);
+  return history;
+}
+
+void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>& studies,
+                       Problems& problems) {
+  std::vector<std::string> names;
+  for (const StudyDraft& study : studies) names.push_back(study.name);
+  for (StudyDraft& study : studies) {
+    const NamedPlace& from = study.history.from;
+    if (from.name.empty()) continue;
+    const auto found = std::find(names.begin(), names.end(), from.name);
+    if (found == names.end() || &studies[static_cast<std::size_t>(found - names.begin())] == &study)
+      problems.add(from.place, from.key,
+                   "got \"" + from.name + "\", need the name of another study" +
+                       suggestion(from.name, names));
+    else
+      study.history.study = static_cast<std::size_t>(found - names.begin());
+  }
+  for (const StudyDraft& study : studies)
+    if (study.history.study) check_history(mechanism, studies, study, problems);
+}
+
+void add_holds(const HistoryDraft& history, model::Mechanism& mechanism) {
+  for (const HoldDraft& hold : history.holds)
+    analysis::hold(hold.body, hold.held, "hold", mechanism);
+}
+
+}  // namespace springfold::io

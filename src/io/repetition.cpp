@@ -1,0 +1,373 @@
+#include "repetition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bindings.hpp"
+#include "formula.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using Shared = std::shared_ptr<const Bindings>;
+
+constexpr double largest_index = 1e6;
+constexpr std::size_t most_copies = 10000;  ///< as many tables of one name a case may have
+constexpr std::size_t most_levels = 8;      ///< templates and groups within each other
+/// Keys and values of all copies together. One takes about 200 bytes.
+constexpr std::size_t most_values = 500'000;
+constexpr std::size_t text_of_a_value = 100;
+
+const std::string repeat_need = "a table such as { i = [0, 5] }: the first and the last index";
+
+/// Keys and values, long texts as several.
+std::size_t size_of(const Node& node) {
+  std::size_t size = 1 + node.text.size() / text_of_a_value;
+  for (const Node& item : node.items) size += size_of(item);
+  for (const NodeEntry& entry : node.entries) size += size_of(entry.value);
+  return size;
+}
+
+void remove_key(Node& table, std::string_view key) {
+  std::erase_if(table.entries, [key](const NodeEntry& entry) { return entry.key == key; });
+}
+
+Node* find_in(Node& table, std::string_view key) {
+  const auto found = std::find_if(table.entries.begin(), table.entries.end(),
+                                  [key](const NodeEntry& entry) { return entry.key == key; });
+  return found == table.entries.end() ? nullptr : &found->value;
+}
+
+struct IndexRange {
+  std::string name{};
+  long first = 0, last = 0, step = 1;
+
+  std::size_t count() const { return static_cast<std::size_t>((last - first) / step + 1); }
+};
+
+class Expander {
+ public:
+  Expander(std::vector<Document>& documents, Problems& problems)
+      : documents_{documents}, problems_{problems} {}
+
+  void run() {
+    for (const Document& document : documents_) {
+      collect_names(document.root);
+      collect_templates(document.root);
+    }
+    for (Document& document : documents_) {
+      for (const std::string& part : parts_of_mechanism())
+        if (Node* list = find_in(document.root, part)) expand_list(*list, part, {}, 0);
+      Node* studies = find_in(document.root, "study");
+      if (studies == nullptr) continue;
+      for (std::size_t n = 0; n < studies->items.size(); ++n)
+        if (Node* loads = find_in(studies->items[n], "loads"))
+          expand_list(*loads, "study[" + std::to_string(n + 1) + "].loads", {}, 0);
+    }
+  }
+
+ private:
+  void collect_names(const Node& root) {
+    const Node* parameters = root.find("parameters");
+    if (!parameters) return;
+    for (const NodeEntry& entry : parameters->entries) parameters_.insert(entry.key);
+  }
+
+  void collect_templates(const Node& root) {
+    const Node* templates = root.find("template");
+    if (!templates) return;
+    if (templates->kind != Node::Kind::table)
+      return problems_.add(templates->place, "template",
+                           "got " + described(*templates) + ", need tables [template.name]");
+    for (const NodeEntry& entry : templates->entries) {
+      if (entry.value.kind != Node::Kind::table)
+        problems_.add(
+            entry.value.place, "template." + entry.key,
+            "got " + described(entry.value) + ", need a table [template." + entry.key + "]");
+      else
+        templates_[entry.key] = &entry.value;
+    }
+  }
+
+  /// Copies of all tables of a list, in order. Groups of elements are laid out one after the other.
+  void expand_list(Node& list, const std::string& key, const Shared& outer, std::size_t depth) {
+    if (list.kind != Node::Kind::array || !is_asked_for(list, outer)) return;
+    std::vector<Node> copies;
+    for (std::size_t n = 0; n < list.items.size(); ++n)
+      expand_item(list.items[n], key, std::to_string(n + 1), outer, depth, copies);
+    list.items = std::move(copies);
+  }
+
+  static bool is_asked_for(const Node& list, const Shared& outer) {
+    return outer || std::any_of(list.items.begin(), list.items.end(), [](const Node& item) {
+             if (item.find("repeat") || item.find("use")) return true;
+             const Node* inner = item.find("elements");
+             return inner && is_asked_for(*inner, {});
+           });
+  }
+
+  void expand_item(const Node& item, const std::string& key, const std::string& number,
+                   const Shared& outer, std::size_t depth, std::vector<Node>& copies) {
+    const std::string own_key = key + "[" + number + "]";
+    if (depth > most_levels)
+      return problems_.add(item.place, own_key,
+                           "templates or groups within each other, more than " +
+                               std::to_string(most_levels) + " deep");
+    const auto ranges = ranges_of(item, own_key, outer);
+    if (!ranges) return;
+    std::size_t count = 1;
+    for (const IndexRange& range : *ranges)
+      count = std::min(count * range.count(), most_copies + 1);
+    if (count > most_copies)
+      return problems_.add(
+          item.find("repeat")->place, own_key + ".repeat",
+          "got more than " + std::to_string(most_copies) + " copies, need at most as many");
+    for (std::size_t c = 0; c < count; ++c) {
+      Bindings bindings = outer ? *outer : Bindings{};
+      std::string text = number;
+      std::size_t rest = c, weight = count;
+      for (const IndexRange& range : *ranges) {  // the last one runs fastest
+        weight /= range.count();
+        const long index = range.first + range.step * static_cast<long>(rest / weight);
+        rest %= weight;
+        text += ", " + range.name + " = " + std::to_string(index);
+        bindings.list.push_back({range.name, std::to_string(index), index});
+      }
+      if (!add_copy(item, key, text, std::make_shared<const Bindings>(std::move(bindings)), depth,
+                    copies))
+        return;
+    }
+  }
+
+  /// @returns whether more copies may follow
+  bool add_copy(const Node& item, const std::string& key, const std::string& number,
+                const Shared& bindings, std::size_t depth, std::vector<Node>& copies) {
+    values_ += size_of(item);
+    const std::string own_key = key + "[" + number + "]";
+    if (values_ > most_values) return refuse_more(item.place, own_key);
+    Node copy = item;
+    copy.number_text = number;
+    if (copy.kind == Node::Kind::table) {
+      remove_key(copy, "repeat");
+      fill(copy, own_key, bindings, depth);
+      if (!apply_template(copy, own_key, bindings, depth)) return false;
+      // A group: elements that are no chain of their own.
+      Node* elements = find_in(copy, "elements");
+      const bool is_group = elements && key.ends_with(".elements");
+      if (is_group) {
+        for (const NodeEntry& entry : copy.entries)
+          if (entry.key != "elements")
+            problems_.add(entry.place, own_key + "." + entry.key,
+                          "has no meaning in a group, need elements and repeat alone");
+        for (std::size_t n = 0; n < elements->items.size(); ++n) {
+          Node& part = elements->items[n];
+          part.number_text =
+              number + ", " + (part.number_text.empty() ? std::to_string(n + 1) : part.number_text);
+          copies.push_back(std::move(part));
+        }
+        return true;
+      }
+    }
+    copies.push_back(std::move(copy));
+    return true;
+  }
+
+  /// Adds what the template says and the table does not.
+  bool apply_template(Node& table, const std::string& key, const Shared& outer, std::size_t depth) {
+    const Node* use = table.find("use");
+    const Node* with = table.find("with");
+    if (!use) {
+      if (with) problems_.add(with->place, key + ".with", "goes with use, need use = \"...\"");
+      return !with;
+    }
+    const auto found =
+        use->kind == Node::Kind::text ? templates_.find(use->text) : templates_.end();
+    if (found == templates_.end()) {
+      std::vector<std::string> known;
+      for (const auto& entry : templates_) known.push_back(entry.first);
+      problems_.add(use->place, key + ".use",
+                    "got " + described(*use) + ", need the name of a [template.name]" +
+                        suggestion(use->text, known));
+      return false;
+    }
+    Bindings bindings = outer ? *outer : Bindings{};
+    Bindings own;
+    const Node& from = *found->second;
+    const Node* defaults = from.find("with");
+    if (defaults && !bind(*defaults, "template." + use->text + ".with", {}, {}, own)) return false;
+    if (with && !bind(*with, key + ".with", outer, defaults, own)) return false;
+    for (Binding& binding : own.list) bindings.list.push_back(std::move(binding));
+    const auto inner = std::make_shared<const Bindings>(std::move(bindings));
+    remove_key(table, "use");
+    remove_key(table, "with");
+    Node more;
+    for (const NodeEntry& entry : from.entries)
+      if (entry.key != "with" && !table.find(entry.key)) more.entries.push_back(entry);
+    values_ += size_of(more);
+    if (values_ > most_values) return refuse_more(table.place, key);
+    fill(more, key, inner, depth + 1);
+    for (NodeEntry& entry : more.entries) table.entries.push_back(std::move(entry));
+    if (!table.find("use")) return true;
+    if (depth < most_levels) return apply_template(table, key, inner, depth + 1);
+    problems_.add(table.place, key, "templates that use each other in a circle");
+    return false;
+  }
+
+  /// Says once that there is too much. @returns false
+  bool refuse_more(const Place& place, const std::string& key) {
+    if (!is_full_)
+      problems_.add(place, key,
+                    "more than " + std::to_string(most_values) +
+                        " keys and values with all repetitions, need fewer");
+    is_full_ = true;
+    return false;
+  }
+
+  /// @param defaults  the template's own `with`: other names would bind nothing, where it has one
+  bool bind(const Node& with, const std::string& key, const Shared& outer, const Node* defaults,
+            Bindings& own) {
+    if (with.kind != Node::Kind::table) {
+      problems_.add(with.place, key,
+                    "got " + described(with) + ", need a table such as { angle = \"30*deg\" }");
+      return false;
+    }
+    bool good = true;
+    for (const NodeEntry& entry : with.entries) {
+      const std::string entry_key = key + "." + entry.key;
+      const Node& value = entry.value;
+      const bool usable = value.kind == Node::Kind::number || value.kind == Node::Kind::text;
+      if (!is_identifier(entry.key) || is_formula_word(entry.key))
+        problems_.add(entry.place, entry_key,
+                      "need a name of letters, digits and '_' that formulas do not keep for "
+                      "themselves");
+      else if (!usable)
+        problems_.add(value.place, entry_key,
+                      "got " + described(value) + ", need a number, a formula or a name");
+      else if (defaults && !defaults->find(entry.key))
+        problems_.add(entry.place, entry_key,
+                      "no such name in the template" + suggestion(entry.key, keys_of(*defaults)));
+      else {
+        own.list.push_back(binding_of(entry, outer));
+        continue;
+      }
+      good = false;
+    }
+    return good;
+  }
+
+  static std::vector<std::string> keys_of(const Node& table) {
+    std::vector<std::string> keys;
+    for (const NodeEntry& entry : table.entries) keys.push_back(entry.key);
+    return keys;
+  }
+
+  static Binding binding_of(const NodeEntry& entry, const Shared& outer) {
+    Binding binding{.name = entry.key};
+    const Node& value = entry.value;
+    if (value.kind == Node::Kind::text) {
+      binding.text = outer ? with_bindings(value.text, *outer) : value.text;
+      return binding;
+    }
+    binding.text = shortest(value.number);
+    if (std::floor(value.number) == value.number && std::abs(value.number) <= largest_index)
+      binding.whole = static_cast<long>(value.number);
+    return binding;
+  }
+
+  /// Indices of `repeat`, none where there is none; nothing if it is unusable.
+  std::optional<std::vector<IndexRange>> ranges_of(const Node& item, const std::string& key,
+                                                   const Shared& outer) {
+    const Node* repeat = item.kind == Node::Kind::table ? item.find("repeat") : nullptr;
+    std::vector<IndexRange> ranges;
+    if (!repeat) return ranges;
+    if (repeat->kind != Node::Kind::table || repeat->entries.empty()) {
+      problems_.add(repeat->place, key + ".repeat",
+                    "got " + described(*repeat) + ", need " + repeat_need);
+      return std::nullopt;
+    }
+    for (const NodeEntry& entry : repeat->entries) {
+      const auto range = range_of(entry, key + ".repeat." + entry.key, outer);
+      if (!range) return std::nullopt;
+      ranges.push_back(*range);
+    }
+    return ranges;
+  }
+
+  std::optional<IndexRange> range_of(const NodeEntry& entry, const std::string& key,
+                                     const Shared& outer) {
+    const auto refuse = [&](const Place& place, const std::string& what) {
+      problems_.add(place, key, what);
+      return std::nullopt;
+    };
+    if (!is_identifier(entry.key) || is_formula_word(entry.key))
+      return refuse(entry.place,
+                    "need a name of letters, digits and '_' that formulas do not keep for "
+                    "themselves");
+    if (parameters_.contains(entry.key) || (outer && outer->find(entry.key)))
+      return refuse(entry.place, "is the name of a parameter or of an index already, need another");
+    const Node& value = entry.value;
+    const bool fits =
+        value.kind == Node::Kind::array && (value.items.size() == 2 || value.items.size() == 3) &&
+        std::all_of(value.items.begin(), value.items.end(), [](const Node& end) {
+          return end.kind == Node::Kind::number && std::floor(end.number) == end.number &&
+                 std::abs(end.number) <= largest_index;
+        });
+    if (!fits)
+      return refuse(value.place, "got " + described(value) +
+                                     ", need [first, last] or [first, last, step], whole numbers "
+                                     "from -1000000 to 1000000");
+    IndexRange range{.name = entry.key,
+                     .first = static_cast<long>(value.items[0].number),
+                     .last = static_cast<long>(value.items[1].number)};
+    if (value.items.size() == 3) range.step = static_cast<long>(value.items[2].number);
+    if (range.step < 1) return refuse(value.place, "need a step of at least 1");
+    if (range.last < range.first)
+      return refuse(value.place, "got [" + std::to_string(range.first) + ", " +
+                                     std::to_string(range.last) + "], need first <= last");
+    return range;
+  }
+
+  /// Fills braces and binds names in all values of the table; lists within are expanded.
+  void fill(Node& node, const std::string& key, const Shared& bindings, std::size_t depth) {
+    if (node.kind == Node::Kind::text && !bindings->list.empty()) {
+      FilledText text = filled(node.text, *bindings);
+      if (!text.problem.empty())
+        problems_.add(node.place, key, "got " + described(node) + ": " + text.problem);
+      node.text = std::move(text.text);
+      node.bindings = bindings;
+    }
+    for (std::size_t n = 0; n < node.items.size(); ++n)
+      fill(node.items[n], key + "[" + std::to_string(n + 1) + "]", bindings, depth);
+    for (NodeEntry& entry : node.entries) {
+      const std::string entry_key = key + "." + entry.key;
+      const bool list = entry.key == "elements" && entry.value.kind == Node::Kind::array;
+      if (list)
+        expand_list(entry.value, entry_key, bindings, depth + 1);
+      else
+        fill(entry.value, entry_key, bindings, depth);
+    }
+  }
+
+  std::vector<Document>& documents_;
+  Problems& problems_;
+  std::set<std::string> parameters_{};
+  std::map<std::string, const Node*> templates_{};
+  std::size_t values_ = 0;
+  bool is_full_ = false;  ///< there are too many values: nothing more is copied
+};
+
+}  // namespace
+
+const std::vector<std::string>& parts_of_mechanism() {
+  static const std::vector<std::string> parts{"body", "node", "chain", "spring", "bar", "load"};
+  return parts;
+}
+
+void expand_repetitions(std::vector<Document>& documents, Problems& problems) {
+  Expander{documents, problems}.run();
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,123 @@
+// `start.from`: studies that start where another one ended, as they are read.
+#include <gmock/gmock.h>
+
+#include "case_files.hpp"
+
+namespace springfold::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string steps = R"([parameters]
+k = 1
+[[node]]
+name = "pin"
+at = [0, 0]
+fixed = true
+[[node]]
+name = "foot"
+at = [2, 0]
+fixed = ["y"]
+[[node]]
+name = "top"
+at = [1, 1]
+[[bar]]
+from = "pin"
+to = "top"
+stiffness = "k"
+[[bar]]
+from = "foot"
+to = "top"
+stiffness = "k"
+[[bar]]
+from = "pin"
+to = "foot"
+stiffness = "k"
+[[study]]
+name = "first"
+body = "foot"
+control = "load"
+direction = [-1, 0]
+vary = { parameter = "k", values = [1, 2] }
+[[study]]
+name = "second"
+body = "top"
+control = "load"
+direction = [0, -1]
+start = { from = "first", at = "end", hold = ["foot.x"] }
+vary = { parameter = "k", values = [1, 2] }
+)";
+
+class HistoryMessages : public CaseFiles {
+ protected:
+  std::vector<std::string> after(const std::string& old, const std::string& with) const {
+    return messages(replaced(steps, old, with));
+  }
+};
+
+TEST_F(HistoryMessages, AreNoneForAGoodCase) { EXPECT_THAT(messages(steps), IsEmpty()); }
+
+TEST_F(HistoryMessages, RunsGoTogetherByTheirNumbers) {
+  const Case read = load(steps);
+  const PlannedRun& second = read.runs.at(3);
+  ASSERT_TRUE(second.history.earlier);
+  EXPECT_EQ(second.history.earlier->study.name, "first");
+  EXPECT_EQ(second.history.earlier->mechanism.line_springs[0].stiffness, 2);
+  EXPECT_THAT(second.history.held, ElementsAre("foot.hold"));
+  EXPECT_EQ(second.mechanism.chains.back().name, "foot.hold");
+}
+
+TEST_F(HistoryMessages, WantAStudyThatExistsAndNoCircle) {
+  EXPECT_THAT(after("from = \"first\"", "from = \"frist\""),
+              ElementsAre(HasSubstr("study[2].start.from: got \"frist\", need the name of another "
+                                    "study, did you mean \"first\"?")));
+  EXPECT_THAT(
+      after("direction = [-1, 0]\n", "direction = [-1, 0]\nstart = { from = \"second\" }\n"),
+      ElementsAre(HasSubstr("study[1].start.from: studies start from each other in a circle, "
+                            "or more than 16 one after the other"),
+                  HasSubstr("study[2].start.from: studies start")));
+}
+
+TEST_F(HistoryMessages, WantRunsThatGoTogether) {
+  EXPECT_THAT(
+      messages(replaced(steps, "values = [1, 2] }\n[[study]]", "values = [1, 2, 3] }\n[[study]]")),
+      ElementsAre(HasSubstr("study[2].start.from: study \"first\" has 3 runs and this one 2, "
+                            "need as many, which go together by their numbers, or one")));
+}
+
+TEST_F(HistoryMessages, WantPointsLoadsAndHoldsThatMakeSense) {
+  EXPECT_THAT(after("at = \"end\"", "at = \"LP\""),
+              ElementsAre(HasSubstr("study[2].start.at: got \"LP\", need \"start\", \"end\" or a "
+                                    "label such as \"LP1\"")));
+  EXPECT_THAT(
+      after("at = \"end\"", "loads = \"keep\""),
+      ElementsAre(HasSubstr("study[2].start.loads: got \"keep\", need \"kept\" or \"own\"")));
+  EXPECT_THAT(
+      after("\"foot.x\"", "\"foot.z\""),
+      ElementsAre(HasSubstr("study[2].start.hold[1]: got \"foot.z\", need a coordinate of a "
+                            "node, or of a body with task space \"xy\" or \"xyz\", such as "
+                            "\"foot.x\"")));
+  EXPECT_THAT(
+      after("\"foot.x\"", "\"foot.y\""),
+      ElementsAre(HasSubstr("study[2].start.hold[1]: got \"foot.y\", which is fixed already, "
+                            "need others")));
+  EXPECT_THAT(
+      after("at = \"end\"", "pose = [1, 1]"),
+      ElementsAre(HasSubstr("study[2].start.pose: has no meaning with from: the study starts "
+                            "in that state")));
+  EXPECT_THAT(after("from = \"first\", at = \"end\", hold = [\"foot.x\"]", "at = \"end\""),
+              ElementsAre(HasSubstr("study[2].start.at: goes with from, need from = \"...\"")));
+}
+
+TEST_F(HistoryMessages, RefuseKindsWithoutSingleStates) {
+  EXPECT_THAT(
+      after("name = \"second\"\nbody = \"top\"\ncontrol = \"load\"",
+            "name = \"second\"\nkind = \"sensitivity\"\nbody = \"top\"\ncontrol = \"load\""),
+      testing::Contains(HasSubstr("study[2].start.from: both studies need a kind with single "
+                                  "states")));
+}
+
+}  // namespace
+}  // namespace springfold::io

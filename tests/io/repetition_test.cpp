@@ -1,0 +1,202 @@
+// `repeat`, `use` and `with`: what is written once is read as if it were written out.
+#include <gmock/gmock.h>
+
+#include "case_files.hpp"
+#include "io/bindings.hpp"
+
+namespace springfold::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const std::string ring = R"toml([parameters]
+R = 2
+[[node]]
+repeat = { i = [0, 3] }
+name = "n{i}"
+at = ["R*cos(i*90*deg)", "R*sin(i*90*deg)"]
+[[node]]
+name = "hub"
+at = [0, 0]
+fixed = true
+[[bar]]
+repeat = { i = [0, 3] }
+from = "n{i}"
+to = "n{(i+1)%4}"
+stiffness = "1 + i"
+[[bar]]
+repeat = { i = [0, 3] }
+from = "hub"
+to = "n{i}"
+stiffness = 1
+[[study]]
+name = "a"
+body = "n0"
+kind = "equilibrium"
+)toml";
+
+class Repetition : public CaseFiles {
+ protected:
+  std::vector<std::string> after(const std::string& old, const std::string& with) const {
+    return messages(replaced(ring, old, with));
+  }
+};
+
+TEST_F(Repetition, CopiesATableForEveryIndexInNamesAndFormulas) {
+  const model::Mechanism mechanism = load(ring).runs.front().mechanism;
+  ASSERT_EQ(mechanism.bodies.size(), 4U);
+  EXPECT_EQ(mechanism.bodies[3].name, "n3");
+  EXPECT_DOUBLE_EQ(mechanism.bodies[1].pose[1], 2);
+  ASSERT_EQ(mechanism.line_springs.size(), 8U);
+  EXPECT_EQ(mechanism.line_springs[3].name, "n3-n0");
+  EXPECT_EQ(mechanism.line_springs[3].stiffness, 4);
+}
+
+TEST_F(Repetition, RunsThroughSeveralIndicesTheLastOneFastest) {
+  std::string text = replaced(ring, "{ i = [0, 3] }\nname = \"n{i}\"",
+                              "{ i = [0, 2, 2], j = [-1, 0] }\nname = \"n{i-j}\"");
+  text = replaced(text, "[\"R*cos(i*90*deg)\", \"R*sin(i*90*deg)\"]",
+                  "[\"R*cos((i+j)*90*deg)\", \"R*sin((i+j)*90*deg)\"]");
+  const model::Mechanism mechanism = load(text).runs.front().mechanism;
+  std::vector<std::string> names;
+  for (const model::Body& body : mechanism.bodies) names.push_back(body.name);
+  EXPECT_THAT(names, ElementsAre("n1", "n0", "n3", "n2"));
+}
+
+const std::string arms = R"toml(
+[template.leg]
+with = { angle = 0, side = "left", k = 1 }
+elements = [
+  { joint = "revolute", axis = "z", name = "{side}_foot", initial = "angle" },
+  { repeat = { s = [1, 2] }, elements = [
+    { joint = "prismatic", axis = "x", name = "l{s}", role = "virtual", stiffness = "k*s" }, { rigid = ["R/2", 0] } ] },
+]
+[parameters]
+R = 2
+[[body]]
+name = "top"
+task_space = "xy"
+pose = [0, 2]
+[[chain]]
+use = "leg"
+name = "a"
+with = { angle = "R*45*deg" }
+[[chain]]
+repeat = { i = [1, 2] }
+use = "leg"
+name = "b{i}"
+with = { angle = "i*45*deg", side = "right", k = 7 }
+[[study]]
+name = "a"
+kind = "equilibrium"
+)toml";
+
+TEST_F(Repetition, TemplatesGiveChainsTheirElementsWithOtherNumbers) {
+  const model::Mechanism mechanism = load(arms).runs.front().mechanism;
+  ASSERT_EQ(mechanism.chains.size(), 3U);
+  const model::Chain& a = mechanism.chains[0];
+  const model::Chain& b = mechanism.chains[2];
+  ASSERT_EQ(b.elements.size(), 5U);
+  EXPECT_DOUBLE_EQ(std::get<model::Joint>(a.elements[0]).initial, std::atan2(1, 0));
+  EXPECT_EQ(std::get<model::Joint>(a.elements[0]).name, "left_foot");
+  EXPECT_EQ(std::get<model::Joint>(b.elements[0]).name, "right_foot");
+  EXPECT_DOUBLE_EQ(std::get<model::Joint>(b.elements[0]).initial, std::atan2(1, 0));
+  const auto& second = std::get<model::Joint>(b.elements[3]);
+  EXPECT_EQ(second.name, "l2");
+  EXPECT_EQ(std::get<model::LinearSpring>(*second.spring).stiffness, 14);
+}
+
+TEST_F(Repetition, NamesTheIndexInMessagesAtThePlaceOfTheTextOnceForAllCopies) {
+  EXPECT_THAT(after("stiffness = \"1 + i\"", "stiffness = \"1 - i\""),
+              ElementsAre("case.toml:15:13: bar[1, i = 2].stiffness: got \"1 - i\" = -1, need a "
+                          "number >= 0 [N/m]",
+                          "case.toml:15:13: bar[1, i = 3].stiffness: got \"1 - i\" = -2, need a "
+                          "number >= 0 [N/m]"));
+  EXPECT_THAT(after("stiffness = \"1 + i\"", "stiffness = \"1 + ii\""),
+              ElementsAre(testing::StartsWith("case.toml:15:13: bar[1, i = 0].stiffness: got \"1 + "
+                                              "ii\", need a number >= 0 [N/m] or a formula: ")));
+}
+
+TEST_F(Repetition, WantsRangesThatCanBeCounted) {
+  EXPECT_THAT(
+      after("{ i = [0, 3] }", "4"),
+      ElementsAre("case.toml:4:10: node[1].repeat: got 4, need a table such as { i = [0, 5] "
+                  "}: the first and the last index"));
+  EXPECT_THAT(
+      after("[0, 3]", "[0, 3.5]"),
+      ElementsAre("case.toml:4:16: node[1].repeat.i: got a list of 2, need [first, last] or "
+                  "[first, last, step], whole numbers from -1000000 to 1000000"));
+  EXPECT_THAT(after("[0, 3]", "[3, 0]"),
+              ElementsAre("case.toml:4:16: node[1].repeat.i: got [3, 0], need first <= last"));
+  EXPECT_THAT(after("[0, 3]", "[0, 3, 0]"),
+              ElementsAre("case.toml:4:16: node[1].repeat.i: need a step of at least 1"));
+  EXPECT_THAT(after("{ i = [0, 3] }", "{ R = [0, 3] }"),
+              ElementsAre("case.toml:4:12: node[1].repeat.R: is the name of a parameter or of an "
+                          "index already, need another"));
+  EXPECT_THAT(
+      after("{ i = [0, 3] }", "{ i = [0, 999], j = [0, 999] }"),
+      ElementsAre("case.toml:4:10: node[1].repeat: got more than 10000 copies, need at most "
+                  "as many"));
+}
+
+TEST_F(Repetition, IsBoundedInAllTogether) {
+  std::string text = ring;
+  for (int i = 0; i < 20; ++i)
+    text += "[[load]]\nrepeat = { i = [1, 9999] }\non = \"n0\"\nforce = [1, 0]\n";
+  EXPECT_THAT(
+      messages(text),
+      ElementsAre(testing::HasSubstr("more than 500000 keys and values with all repetitions")));
+}
+
+TEST_F(Repetition, WantsBracesThatCanBeRead) {
+  EXPECT_THAT(
+      after("\"n{i}\"", "\"n{i\""),
+      testing::Contains("case.toml:5:8: node[1, i = 0].name: got \"n{i\": a '{' without its "
+                        "'}'"));
+  EXPECT_THAT(
+      after("n{(i+1)%4}", "n{(j+1)%4}"),
+      ElementsAre("case.toml:14:6: bar[1, i = 0].to: got \"n{(j+1)%4}\": \"j\" in { } is no "
+                  "index here; known here: i"));
+  EXPECT_THAT(
+      after("n{(i+1)%4}", "n{i/2}"),
+      ElementsAre("case.toml:14:6: bar[1, i = 0].to: got \"n{i/2}\": cannot read {i/2}, need "
+                  "whole numbers and indices with + - * % and parentheses"));
+}
+
+TEST_F(Repetition, WantsTemplatesAndTheirNamesToExist) {
+  const auto changed = [this](const std::string& old, const std::string& with) {
+    return messages(replaced(arms, old, with));
+  };
+  EXPECT_THAT(changed("use = \"leg\"\nname = \"a\"", "use = \"log\"\nname = \"a\""),
+              ElementsAre(testing::HasSubstr("chain[1].use: got \"log\", need the name of a "
+                                             "[template.name], did you mean \"leg\"?")));
+  EXPECT_THAT(
+      changed("with = { angle = \"R", "with = { angel = \"R"),
+      ElementsAre(testing::HasSubstr("chain[1].with.angel: no such name in the template, did "
+                                     "you mean \"angle\"?")));
+  EXPECT_THAT(changed("use = \"leg\"\nname = \"a\"", "name = \"a\""),
+              ElementsAre(testing::HasSubstr("chain[1].with: goes with use, need use = \"...\"")));
+  EXPECT_THAT(changed("[template.leg]\n", "[template.leg]\nuse = \"leg\"\n"),
+              ElementsAre(testing::HasSubstr("chain[1]: templates that use each other in a circle"),
+                          testing::HasSubstr("chain[2, i = 1]")));
+}
+
+TEST(Bindings, StandInFormulasForNamesAlone) {
+  const Bindings bindings{{{"e", "2", 2}, {"k", "a + b", {}}}};
+  EXPECT_EQ(with_bindings("2e3*e + sin(e) + ke + k(1)", bindings),
+            "2e3*(2) + sin((2)) + ke + k(1)");
+  EXPECT_EQ(with_bindings("-k*1.5e", bindings), "-(a + b)*1.5(2)");
+}
+
+TEST(Bindings, CountInBracesWithWholeNumbers) {
+  const Bindings bindings{{{"i", "5", 5}, {"j", "-2", -2}, {"w", "left", {}}}};
+  EXPECT_EQ(filled("a{i}b{ j }{i*2 + 1}{(j - 1) % 4}{-j}", bindings).text, "a5b-21112");
+  EXPECT_EQ(filled("{w}_x", bindings).text, "left_x");
+  for (const char* wrong :
+       {"{", "}", "{w+1}", "{1000000*1000000}", "{i%0}", "{}", "{i i}", "{((i)}"})
+    EXPECT_THAT(filled(wrong, bindings).problem, testing::Not(IsEmpty())) << wrong;
+}
+
+}  // namespace
+}  // namespace springfold::io
