@@ -228,9 +228,9 @@ void report_no_state(const std::string& problem, StartReport& report) {
 
 }  // namespace
 
-StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
-                      const ParameterFamily* family, const History& history,
-                      const Observer& observer, const RunOptions& options) {
+StudyResult run_study_after(const History& history, const model::Mechanism& mechanism,
+                            const Study& study, const ParameterFamily* family,
+                            const Observer& observer, const RunOptions& options) {
   if (!history.earlier) return run_study(mechanism, study, family, observer, options);
   const Continued later = continued(mechanism, study, family, history, observer);
   if (later.problem.empty()) {
@@ -251,8 +251,9 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   return result;
 }
 
-std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
-                                       const ParameterFamily* family, const History& history) {
+std::optional<StartReport> solve_start_after(const History& history,
+                                             const model::Mechanism& mechanism, const Study& study,
+                                             const ParameterFamily* family) {
   if (!history.earlier) return solve_start(mechanism, study, family);
   const Continued later = continued(mechanism, study, family, history, {});
   if (later.problem.empty())

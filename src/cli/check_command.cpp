@@ -42,7 +42,7 @@ int check_starts(const io::Case& the_case, const Session& session) {
     }
     const auto* family = planned.family ? &*planned.family : nullptr;
     const auto start =
-        analysis::solve_start(planned.mechanism, planned.plan, family, planned.history);
+        analysis::solve_start_after(planned.history, planned.mechanism, planned.plan, family);
     if (!start) continue;
     ++tried;
     const bool may_miss = planned.plan.kind == StudyKind::equilibria && !start->found;

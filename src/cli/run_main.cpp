@@ -24,7 +24,8 @@ namespace {
 analysis::StudyResult run_planned(const io::PlannedRun& planned,
                                   const analysis::Observer& observer) {
   const auto* family = planned.family ? &*planned.family : nullptr;
-  return analysis::run_study(planned.mechanism, planned.plan, family, planned.history, observer);
+  return analysis::run_study_after(planned.history, planned.mechanism, planned.plan, family,
+                                   observer);
 }
 
 analysis::StudyResult run_planned_map(const io::PlannedRun& planned,

@@ -95,9 +95,9 @@ void check_bars(const MechanismDraft& draft, const Numbers& numbers,
 }
 
 void list_nodes(const MechanismDraft& draft, Case& the_case) {
+  for (const SupportDraft& node : draft.supports) the_case.nodes.push_back({node.name, false, {}});
   for (const BodyDraft& body : draft.bodies)
     if (body.is_node) the_case.nodes.push_back({body.name, true, body.fixed});
-  for (const SupportDraft& node : draft.supports) the_case.nodes.push_back({node.name, false, {}});
   for (const BarDraft& bar : draft.bars) the_case.bars.push_back(bar.name);
 }
 

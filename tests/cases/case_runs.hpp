@@ -34,9 +34,9 @@ inline Ran run(const std::string& text) {
   Ran ran{load_case(file), {}};
   std::filesystem::remove(file);
   for (const PlannedRun& planned : ran.read.runs) {
-    ran.results.push_back(analysis::run_study(planned.mechanism, planned.plan,
-                                              planned.family ? &*planned.family : nullptr,
-                                              planned.history));
+    ran.results.push_back(analysis::run_study_after(planned.history, planned.mechanism,
+                                                    planned.plan,
+                                                    planned.family ? &*planned.family : nullptr));
     ran.results.back().study = planned.study;
     ran.results.back().run = planned.run;
   }

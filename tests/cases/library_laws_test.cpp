@@ -49,8 +49,8 @@ TEST(EveryCase, CountsTheSameModesUnstableUnderLoadControlAsUnderDeadLoad) {
       if (run.plan.kind != analysis::StudyKind::force_deflection ||
           run.plan.control != analysis::ControlMode::load)
         continue;
-      const auto result = analysis::run_study(run.mechanism, run.plan,
-                                              run.family ? &*run.family : nullptr, run.history);
+      const auto result = analysis::run_study_after(run.history, run.mechanism, run.plan,
+                                                    run.family ? &*run.family : nullptr);
       EXPECT_EQ(rows_that_differ(result, "index", "index_force"), 0)
           << file << ", " << run.study << ", run " << run.run;
       ++studies;

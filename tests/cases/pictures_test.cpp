@@ -69,7 +69,7 @@ TEST(Pictures, InEveryEquilibriumTheChainsEndWhereTheirBodiesAre) {
   for (const fs::path& file : library()) {
     const Case the_case = load_case(file);
     for (const PlannedRun& run : starts_of(the_case)) {
-      const auto result = analysis::run_study(run.mechanism, run.plan, nullptr, run.history);
+      const auto result = analysis::run_study_after(run.history, run.mechanism, run.plan);
       if (!result.start.found) continue;
       const std::string where = file.string() + " " + run.study;
       const auto panel = RowScenes{run, result}.panel_of(result.branches.front().samples.front(),
@@ -87,7 +87,7 @@ TEST(Pictures, InEveryEquilibriumTheChainsEndWhereTheirBodiesAre) {
 TEST(Pictures, AllPosturesOfATracedBranchClose) {
   const Case the_case = load_case(SPRINGFOLD_SOURCE_DIR "/cases/toggle/case.toml");
   const PlannedRun& run = the_case.runs.front();
-  const auto result = analysis::run_study(run.mechanism, run.plan, nullptr, run.history);
+  const auto result = analysis::run_study_after(run.history, run.mechanism, run.plan);
   const RowScenes scenes{run, result};
   ASSERT_TRUE(scenes.has_postures());
   for (const analysis::Branch& branch : result.branches)
@@ -116,7 +116,7 @@ TEST(Pictures, ASpringCountedFromTheStartIsRelaxedThere) {
       }
   PlannedRun run{.mechanism = mechanism, .plan = study};
   run = start_of(run);
-  const auto result = analysis::run_study(run.mechanism, run.plan, nullptr, run.history);
+  const auto result = analysis::run_study_after(run.history, run.mechanism, run.plan);
   ASSERT_TRUE(result.start.found);
   const auto scene = RowScenes{run, result}.scene_of(result.branches.front().samples.front());
   ASSERT_TRUE(scene);

@@ -145,7 +145,7 @@ class OrthoglideFilm : public testing::Test {
       if (planned.study == "Q2" && planned.run == 1) run = &planned;
   }
   analysis::StudyResult result_of(const io::PlannedRun& planned) const {
-    return analysis::run_study(planned.mechanism, planned.plan);
+    return analysis::run_study(planned.mechanism, planned.plan, nullptr, {});
   }
   io::Case the_case = io::load_case(std::filesystem::path{SPRINGFOLD_SOURCE_DIR} /
                                     "cases/orthoglide-planar/case.toml");
@@ -201,7 +201,7 @@ TEST(SymmetricFilm, ADeflectionThatIsZeroButForRoundingIsNoAxis) {
       io::load_case(std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/rpr-platform/case.toml");
   for (const auto& run : the_case.runs) {
     if (run.study != "swell") continue;  // the middle position stays where it is
-    const auto result = analysis::run_study(run.mechanism, run.plan, &*run.family);
+    const auto result = analysis::run_study(run.mechanism, run.plan, &*run.family, {});
     const auto outcome = io::film_of(run, result, the_case.units, {});
     EXPECT_EQ(outcome.problem, "");
     EXPECT_EQ(outcome.film.diagram.x_name, "s");

@@ -60,7 +60,7 @@ TEST_F(NodeMessages, NodesArePointBodiesAndFixedOnesPointsOfTheBase) {
   EXPECT_EQ(mechanism.line_springs[0].from.body, 0);
   EXPECT_TRUE(mechanism.line_springs[0].from.at.isZero(0));
   ASSERT_EQ(read.nodes.size(), 3U);
-  EXPECT_FALSE(read.nodes[2].moves);
+  EXPECT_FALSE(read.nodes[0].moves);
 }
 
 TEST_F(NodeMessages, ANodeHeldInOneDirectionSlidesOnAChainOfItsOwn) {

@@ -41,13 +41,14 @@ struct Earlier {
 /// force that drove a pose; chains of History::held hold their bodies where they are then. The later
 /// equilibrium is solved again, from that state alone.
 /// @pre if history.earlier: the kinds of both are force_deflection, equilibrium or equilibria
-StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
-                      const ParameterFamily* family, const History& history,
-                      const Observer& observer = {}, const RunOptions& options = {});
+StudyResult run_study_after(const History& history, const model::Mechanism& mechanism,
+                            const Study& study, const ParameterFamily* family = nullptr,
+                            const Observer& observer = {}, const RunOptions& options = {});
 
 /// As solve_start, after the studies before it, which are run.
-std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
-                                       const ParameterFamily* family, const History& history);
+std::optional<StartReport> solve_start_after(const History& history,
+                                             const model::Mechanism& mechanism, const Study& study,
+                                             const ParameterFamily* family = nullptr);
 
 /// Adds a chain that holds coordinates of a point body (xy, xyz) where it is drawn, and lets it slide
 /// along the others. The chain is called "<body>.<name>", its joints "x", "y", "z"; its wrench is the

@@ -173,7 +173,7 @@ struct Case {
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};
-  std::vector<CaseNode> nodes{};
+  std::vector<CaseNode> nodes{};     ///< fixed ones first
   std::vector<std::string> bars{};   ///< names of the line springs that the case calls bars
   std::vector<std::string> hints{};  ///< what is allowed and seldom meant, each with its place
 };
