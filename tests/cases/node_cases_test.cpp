@@ -102,8 +102,9 @@ until = { n1.y = [-1, 1] }
 
 // Along the axis of symmetry nothing moves but what is driven: F(y) = 2 k (L0/l - 1) y.
 TEST(Bars, CanBeDrivenAlongAnAxisOfSymmetryWhereNothingAnswers) {
-  std::string text = truss("[[bar]]\nrepeat = { i = [0, 2, 2] }\nfrom = \"n{i}\"\nto = "
-                           "\"n1\"\nstiffness = 3\n");
+  std::string text = truss(
+      "[[bar]]\nrepeat = { i = [0, 2, 2] }\nfrom = \"n{i}\"\nto = "
+      "\"n1\"\nstiffness = 3\n");
   const Ran driven = run(text.replace(text.find("\"load\""), 6, "\"mixed\""));
   const analysis::StudyResult& result = driven.results[0];
   ASSERT_TRUE(analysis::complete(result)) << result.start.message;
