@@ -179,7 +179,8 @@ Stop explained(Stop stop, const Entry& end, const Entry& other, const PathProble
   if (const auto why = nears_kinematic_singularity(problem, end.point, other.point))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, end.point, other.point))
-    stop.reason += "; " + *legs;
+    stop = legs->is_end_of_reach ? Stop{"end of the reach: " + legs->text, true}
+                                 : Stop{stop.reason + "; " + legs->text, false};
   return stop;
 }
 

@@ -90,9 +90,14 @@ std::optional<std::string> nears_kinematic_singularity(const PathProblem& proble
 
 namespace {
 
-/// Smallest singular value of every chain's closure in its own coordinates; empty where not defined.
-std::vector<double> smallest_of_chains(const PathProblem& problem,
-                                       const continuation::CurvePoint& point) {
+struct ChainState {
+  double smallest = 0;  ///< singular value of its closure in its own coordinates
+  double wrench = 0;
+};
+
+/// Of every chain; empty where not defined.
+std::vector<ChainState> states_of_chains(const PathProblem& problem,
+                                         const continuation::CurvePoint& point) {
   Vector z, r;
   statics::Workspace work;
   Matrix A;
@@ -100,34 +105,40 @@ std::vector<double> smallest_of_chains(const PathProblem& problem,
   if (problem.structured() ||
       !equilibrium_matrix(system, point.piece, z, problem.inputs(point.lambda), work, r, A))
     return {};
-  std::vector<double> list;
+  std::vector<ChainState> list;
   for (const statics::ChainSlice& slice : system.chain_slices) {
     const Matrix J = A.block(slice.F, slice.x, slice.F_count, slice.x_count);
-    list.push_back(J.size() > 0 ? jacobi_svd(J).values.minCoeff() : 0);
+    list.push_back({J.size() > 0 ? jacobi_svd(J).values.minCoeff() : 0,
+                    z.segment(slice.F, slice.F_count).norm()});
   }
   return list;
 }
 
 }  // namespace
 
-std::optional<std::string> stretched_chains(const PathProblem& problem,
-                                            const continuation::CurvePoint& end,
-                                            const continuation::CurvePoint& other) {
-  constexpr double share = 1e-2;
-  const std::vector<double> here = smallest_of_chains(problem, end),
-                            there = smallest_of_chains(problem, other);
+std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
+                                                const continuation::CurvePoint& end,
+                                                const continuation::CurvePoint& other) {
+  constexpr double share = 1e-2, at_end = 1e-3, more_force = 100;
+  const std::vector<ChainState> here = states_of_chains(problem, end),
+                                there = states_of_chains(problem, other);
   std::string names;
   int count = 0;
+  StretchedChains found;
   for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i) {
-    if (!(here[i] < share * there[i])) continue;
+    if (!(here[i].smallest < share * there[i].smallest)) continue;
     names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
     ++count;
+    found.is_end_of_reach = found.is_end_of_reach ||
+                            (here[i].smallest < at_end * there[i].smallest &&
+                             here[i].wrench > more_force * there[i].wrench && there[i].wrench > 0);
   }
   if (count == 0) return std::nullopt;
-  return (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
-         std::string(
-             " stretched out here: the joints hardly move the end any further, and the force along "
-             "it grows without bound");
+  found.text = (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
+               std::string(
+                   " stretched out here: the joints hardly move the end any further, and the force "
+                   "along it grows without bound");
+  return found;
 }
 
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,

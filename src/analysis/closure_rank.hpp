@@ -32,9 +32,16 @@ std::optional<std::string> nears_kinematic_singularity(const PathProblem& proble
 
 /// Chains whose joints hardly move their end in some direction at `end`: the smallest singular value of their
 /// own closure has fallen below a hundredth of what it is at `other`. Legs that are stretched out.
-/// @returns so in words; nothing where there is none
-std::optional<std::string> stretched_chains(const PathProblem& problem,
-                                            const continuation::CurvePoint& end,
-                                            const continuation::CurvePoint& other);
+struct StretchedChains {
+  std::string text{};  ///< so in words
+  bool is_end_of_reach =
+      false;  ///< below a thousandth, and their force has grown a hundredfold: the curve goes to
+              ///< infinite forces here, and there is nothing behind
+};
+
+/// @returns nothing where there is none
+std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
+                                                const continuation::CurvePoint& end,
+                                                const continuation::CurvePoint& other);
 
 }  // namespace springfold::analysis

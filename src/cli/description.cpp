@@ -165,8 +165,48 @@ std::string load_name(const Mechanism& mechanism, std::size_t i) {
   return name.empty() ? std::to_string(i + 1) : "\"" + name + "\"";
 }
 
+std::string word_of(model::ShapeKind kind) {
+  switch (kind) {
+    case model::ShapeKind::path:
+      return "path";
+    case model::ShapeKind::angle:
+      return "angle";
+    case model::ShapeKind::dihedral:
+      return "fold";
+    case model::ShapeKind::area:
+      return "area";
+    case model::ShapeKind::volume:
+      return "volume";
+    case model::ShapeKind::line:
+      return "line";
+    case model::ShapeKind::plane:
+      return "plane";
+  }
+  return "";
+}
+
+/// "area of tip, base [0, 1], arm.knee".
+std::string text_of(const Mechanism& mechanism, const model::Shape& shape) {
+  constexpr std::size_t most = 6;
+  std::string points;
+  for (std::size_t i = 0; i < std::min(most, shape.points.size()); ++i)
+    points += (i == 0 ? "" : ", ") + place_text(mechanism, shape.points[i]);
+  if (shape.points.size() > most) points += fmt::format(" and {} more", shape.points.size() - most);
+  return word_of(shape.kind) + " of " + points;
+}
+
+std::string text_of(const Mechanism& mechanism, const model::ShapeSpring& spring) {
+  return fmt::format("{}: {}{}", spring.name, text_of(mechanism, spring.shape),
+                     spring.gas ? fmt::format(", gas with nRT {:.6g} at rest at {:.6g}",
+                                              spring.gas->nRT, spring.gas->initial)
+                                : "");
+}
+
 std::string text_of(const Mechanism& mechanism, std::size_t i) {
   const model::Load& load = mechanism.loads[i];
+  if (load.kind == model::LoadKind::pressure)
+    return fmt::format("{}: pressure {:.6g} in the {}{}", load_name(mechanism, i), load.vector[0],
+                       text_of(mechanism, load.shape), load.with_lambda ? ", times lambda" : "");
   return fmt::format("{}: {} {} on {}{}{}", load_name(mechanism, i),
                      load.kind == model::LoadKind::force ? "force" : "moment",
                      list_text(load.vector, 3), place_text(mechanism, load.on),
@@ -198,6 +238,8 @@ std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
         .add(fmt::format("{}: {} to {}, stiffness {:.6g}, free length {:.6g}", spring.name,
                          place_text(mechanism, spring.from), place_text(mechanism, spring.to),
                          spring.stiffness, spring.free));
+  for (const model::ShapeSpring& spring : mechanism.shape_springs)
+    springs.add(text_of(mechanism, spring));
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) loads.add(text_of(mechanism, i));
   return nodes.text() + bodies.text() + chains + springs.text() + bars.text() + loads.text();
 }
