@@ -123,6 +123,7 @@ SnapResult run_with_jumps(const model::Mechanism& mechanism, const Study& study,
   snap.traced = run_from_start(mechanism, study, family, observer,
                                [&](const Tracing& tracing, const Scales& scales,
                                    const continuation::CurvePoint& start, StudyResult& result) {
+                                 snap = {};  // begun again in another unit of lambda
                                  trace_with_jumps(tracing, scales, start, settings, result, snap);
                                });
   return snap;
