@@ -249,8 +249,7 @@ void check_loads(const Mechanism& mechanism, std::vector<std::string>& problems)
 std::vector<std::string> problems_in(const Mechanism& mechanism) {
   std::vector<std::string> problems;
   if (mechanism.bodies.empty()) problems.push_back("body: a mechanism needs a moving body");
-  if (mechanism.chains.empty() && mechanism.line_springs.empty() &&
-      mechanism.shape_springs.empty())
+  if (mechanism.chains.empty() && mechanism.line_springs.empty() && mechanism.shape_springs.empty())
     problems.push_back("chain: a mechanism needs a chain");
   std::set<std::string> names{"base"};
   for (std::size_t b = 0; b < mechanism.bodies.size(); ++b) {
