@@ -41,7 +41,7 @@ void check_points(const Embedded& problem, const Draw& draw, const continuation:
     if (silent && draw.on_curve && !draw.on_curve(z, p.lambda)) verdict.jumped = true;
     const double parameter = draw.parameter(z, p.lambda);
     if (i == 1) sense = parameter > before ? 1 : -1;
-    if (i > 1 && (parameter - before) * sense < -1e-9 * draw.size) verdict.jumped = true;
+    if (silent && i > 1 && (parameter - before) * sense < -1e-9 * draw.size) verdict.jumped = true;
     before = parameter;
     bool clearly = false;
     const Index count = negative_count(draw, z, p, clearly);

@@ -1,4 +1,5 @@
 // Two branches that cross under a small angle, and two eigenvalues that pass zero in opposite senses.
+#include <algorithm>
 #include <cmath>
 
 #include "families.hpp"
@@ -38,8 +39,12 @@ Draw crossing(Random& random) {
   if (kind == perfect) {
     draw.gap = d;
     draw.answers.push_back({AnswerKind::branch_point, l0, scalar(0)});
+    // Rounding moves points by more than `same` where stiffnesses differ much: still nothing beside the other branch.
+    constexpr double share = 1e-2;
     draw.on_curve = [=](const Vector& z, double lambda) {
-      return std::abs(split(z[0], lambda) + side * d * (lambda - l0) / 2) < same;
+      const double l = lambda - l0;
+      return std::abs(split(z[0], lambda) + side * d * l / 2) <
+             std::max(same, share * d * std::abs(l));
     };
   } else {
     draw.gap = 2 * std::sqrt(std::abs(e)) / draw.size;
