@@ -270,10 +270,11 @@ start = { from = "on", at = "end" }
   const auto& on = ran.of("on");
   ASSERT_TRUE(analysis::complete(on)) << on.start.message;
   const auto& before = ran.of("push");
-  for (const auto& event : before.branches[0].events)
-    if (event.label == "LP1")
-      EXPECT_NEAR(value(on, on.branches[0].start_row, "apex.y"), value(before, event.row, "apex.y"),
-                  1e-10);
+  for (const auto& event : before.branches[0].events) {
+    if (event.label != "LP1") continue;
+    EXPECT_NEAR(value(on, on.branches[0].start_row, "apex.y"), value(before, event.row, "apex.y"),
+                1e-10);
+  }
   const auto& rest = ran.of("rest");
   ASSERT_TRUE(rest.start.found) << rest.start.message;
   EXPECT_NEAR(value(rest, 0, "apex.y"), value(on, on.branches[0].samples.size() - 1, "apex.y"),
