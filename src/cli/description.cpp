@@ -192,7 +192,8 @@ std::string text_of(const Mechanism& mechanism, const model::Shape& shape) {
   for (std::size_t i = 0; i < std::min(most, shape.points.size()); ++i)
     points += (i == 0 ? "" : ", ") + place_text(mechanism, shape.points[i]);
   if (shape.points.size() > most) points += fmt::format(" and {} more", shape.points.size() - most);
-  return word_of(shape.kind) + " of " + points;
+  const bool distance = shape.kind == model::ShapeKind::path && shape.points.size() == 2;
+  return (distance ? "distance" : word_of(shape.kind)) + " of " + points;
 }
 
 std::string text_of(const Mechanism& mechanism, const model::ShapeSpring& spring) {

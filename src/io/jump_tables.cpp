@@ -43,7 +43,8 @@ std::string pose_text(const StudyResult& result, const SnapState& state) {
     if (!is_pose || std::find(coordinates.begin(), coordinates.end(), name.substr(dot + 1)) ==
                         coordinates.end())
       continue;
-    text += (text.empty() ? "" : ", ") + name + " = " + rounded(state.values[i], digits);
+    text += (text.empty() ? "" : ", ") + name + " = " +
+            rounded(shown_value(result, state.values, i), digits);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "result_access.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -138,6 +139,21 @@ std::string heading_of(const analysis::StudyResult& result) {
   std::string heading = shown(result.study) + ", run " + std::to_string(result.run);
   if (!result.label.empty()) heading += " (" + shown(result.label) + ")";
   return heading;
+}
+
+double shown_against(double value, double scale) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  return std::abs(value) <= rounding * scale ? 0 : value;
+}
+
+double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
+                   std::size_t column) {
+  const Unit unit = result.quantities[column].unit;
+  double scale = unit == Unit::angle ? 1 : 0;
+  for (std::size_t i = 0; i < std::min(row.size(), result.quantities.size()); ++i)
+    if (result.quantities[i].unit == unit && std::isfinite(row[i]))
+      scale = std::max(scale, std::abs(row[i]));
+  return shown_against(row[column], scale);
 }
 
 }  // namespace springfold::io

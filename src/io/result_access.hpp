@@ -19,6 +19,13 @@ std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::s
 double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
                 std::size_t row, std::string_view quantity);
 
+/// The number for people: 0 where it is nothing but rounding beside the scale.
+double shown_against(double value, double scale);
+
+/// An entry of a row for people: 0 where it is nothing but rounding beside the largest entry of its unit (angles: beside 1 rad).
+double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
+                   std::size_t column);
+
 /// The result of one run of a study; nullptr if it was not run.
 const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
                                        std::string_view study, int run);

@@ -46,9 +46,10 @@ std::string named_values(std::string_view label, const std::vector<std::string>&
   std::string text;
   const Branch& first = result.branches.front();
   for (const auto& name : names) {
-    const auto& quantity = result.quantities[*column_of(result, name)];
+    const std::size_t column = *column_of(result, name);
+    const auto& quantity = result.quantities[column];
     const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
-    const double value = value_at(result, first, first.start_row, name);
+    const double value = shown_value(result, first.samples[first.start_row].values, column);
     text += (text.empty() ? "" : ", ") + name + " = " + rounded(value, digits);
     if (!unit.empty()) text += " " + unit;
   }

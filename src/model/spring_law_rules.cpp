@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <locale>
+#include <sstream>
 
 #include "falling.hpp"
 #include "springfold/model/spring_law.hpp"
@@ -13,13 +15,20 @@ using Problems = std::vector<std::string>;
 
 const std::string hint = "; give falling = true if it is meant so";
 
+std::string text_of(double number) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << number;
+  return text.str();
+}
+
 /// Collects the broken rules of one law.
 struct Rules {
   Problems& problems;
 
   void stiffness(double k, bool falling) const {
     if (!std::isfinite(k) || (k < 0 && !falling))
-      problems.push_back("stiffness: need a finite number >= 0, got " + std::to_string(k) +
+      problems.push_back("stiffness: need a finite number >= 0, got " + text_of(k) +
                          (k < 0 && std::isfinite(k) ? hint : ""));
   }
   void finite(double value, const std::string& name) const {
@@ -43,8 +52,8 @@ struct Rules {
   void rising(const Law& law) const {
     if (law.falling || !problems.empty()) return;
     if (const auto u = falls_at(law))
-      problems.push_back("falls at a deformation of " + std::to_string(*u) +
-                         ", need a law that rises" + hint + ", or a range within which it rises");
+      problems.push_back("falls at a deformation of " + text_of(*u) + ", need a law that rises" +
+                         hint + ", or a range within which it rises");
   }
 
   void operator()(const LinearSpring& s) const {

@@ -185,8 +185,7 @@ void plane_distance(const VectorOf<S>& p, ShapeValue<S>& out) {
 }  // namespace detail
 
 /// @param p  positions of the points one behind the other, 3m entries, world axes
-/// @returns in `out`: not finite where alpha is not smooth (points that coincide, angles in space at
-///          0 and pi)
+/// @param out  not finite where alpha is not smooth (points that coincide, angles in space at 0 and pi)
 template <class S>
 void evaluate_shape(const CompiledShape& shape, const VectorOf<S>& p, ShapeValue<S>& out) {
   assert(p.size() % 3 == 0);
