@@ -83,6 +83,16 @@ Terrain Frozen::terrain(const Scales& scales, const std::vector<JointDamping>& d
     for (const JointDamping& d : damping)
       if (d.joint == system.coordinate_names[k]) factors[i] = d.value / unit;
   }
+  // Bodies that no chain holds have no joints that could be damped for them.
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+    const auto body = static_cast<Index>(b) + 1;
+    const auto& chains = system.mechanism.chains;
+    if (std::any_of(chains.begin(), chains.end(),
+                    [body](const auto& chain) { return chain.from == body || chain.to == body; }))
+      continue;
+    const statics::BodySlice& slice = system.body_slices[b];
+    for (Index i = 0; i < slice.count && slice.t + i < n; ++i) factors[slice.t + i] = 1;
+  }
   std::vector<Index> moving;
   for (Index i = 0; i < n; ++i)
     if (!terrain.is_multiplier[static_cast<std::size_t>(i)]) moving.push_back(i);

@@ -83,7 +83,9 @@ class Cycle {
           report_.jumps.begin(), report_.jumps.end(),
           [&](const Jump& j) { return j.from == end->label && j.loading == direction; });
       if (jump == report_.jumps.end()) return LoadCycle::End::undecided;
-      if (!land(*jump)) return LoadCycle::End::no_landing;
+      if (!land(*jump))
+        return jump->landing.values.empty() ? LoadCycle::End::no_landing
+                                            : LoadCycle::End::out_of_range;
     }
     return LoadCycle::End::undecided;
   }

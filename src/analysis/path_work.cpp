@@ -56,7 +56,8 @@ std::optional<double> path_work(const PathProblem& problem, const PathState& fro
   const Vector weights = problem.metric();
   const Direction chord{to.x - from.x, to.lambda - from.lambda};
   const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
-  if (!(length > 0)) return 0.0;
+  constexpr double no_way = 1e-13;  // rounding of points: its direction says nothing
+  if (!(length > no_way)) return 0.0;
   const Direction border{chord.dx / length, chord.dlambda / length};
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;

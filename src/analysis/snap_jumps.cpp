@@ -12,6 +12,7 @@
 #include "inertia.hpp"
 #include "leg_angles.hpp"
 #include "limits.hpp"
+#include "springfold/analysis/event_rows.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "start.hpp"
 
@@ -24,12 +25,6 @@ using Kind = QuantityDefinition::Kind;
 /// Between very many states a jump asks only whether there is more than one landing: the search ends with as many
 /// states of rest, and goes on only where they do not answer that.
 constexpr int few_states = 12;
-
-/// Where neighbouring rows of one switching stand for its two sides.
-bool has_two_rows(const Event& event) {
-  return event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point ||
-         event.kind == EventKind::branching_kink;
-}
 
 bool may_lose_stability(const Event& event) {
   switch (event.kind) {
@@ -145,6 +140,8 @@ class Jumper {
           !frozen.landscape().same(landing->x, inertial.landing->x))
         doubt(event, "the motion with masses comes to rest somewhere else than the way down");
     }
+    if (inertial.motion.end == InertialMotion::End::no_end)
+      doubt(event, "the motion with masses was not integrated to a state of rest");
     jump.inertial = std::move(inertial.motion);
   }
 
@@ -159,7 +156,7 @@ class Jumper {
           piece && std::find(pieces.begin(), pieces.end(), *piece) == pieces.end())
         pieces.push_back(*piece);
     };
-    if (!has_two_rows(event)) {
+    if (!has_two_rows(branch, event)) {
       add(event.row);
       return pieces;
     }
@@ -324,7 +321,7 @@ std::vector<Loss> losses_of(const StudyResult& result,
     for (std::size_t e = 0; e < branch.events.size(); ++e) {
       const Event& event = branch.events[e];
       if (!may_lose_stability(event) || event.row == 0) continue;
-      const std::size_t last = event.row + (has_two_rows(event) ? 1 : 0);
+      const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
       const double before = value(event.row - 1, index), after = value(last + 1, index);
       const bool ends = last + 1 >= branch.samples.size();
       const bool from_before = before == 0 && (after > 0 || ends);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "frozen.hpp"
+#include "springfold/analysis/event_rows.hpp"
 
 namespace springfold::analysis {
 
@@ -44,7 +45,8 @@ std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& even
     for (const Event& other : branch.events) {
       if (other.label != event.label) continue;
       for (const int step : {1, -1}) {
-        const auto row = static_cast<std::ptrdiff_t>(other.row) + step;
+        const bool behind_both = step > 0 && has_two_rows(branch, other);
+        const auto row = static_cast<std::ptrdiff_t>(other.row) + (behind_both ? 2 : step);
         if (row < 0 || row >= std::ssize(branch.samples)) continue;
         const auto& values = branch.samples[static_cast<std::size_t>(row)].values;
         const double moved = values[lambda_] - branch.samples[other.row].values[lambda_];
@@ -57,11 +59,9 @@ std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& even
 }
 
 const Event* StableWalk::event_at(std::size_t branch, std::size_t row) const {
-  for (const Event& event : result_.branches[branch].events)
-    if (event.row == row || (event.row + 1 == row && (event.kind == EventKind::switching ||
-                                                      event.kind == EventKind::corner_limit_point ||
-                                                      event.kind == EventKind::branching_kink)))
-      return &event;
+  const Branch& on = result_.branches[branch];
+  for (const Event& event : on.events)
+    if (event.row == row || (event.row + 1 == row && has_two_rows(on, event))) return &event;
   return nullptr;
 }
 

@@ -9,6 +9,7 @@
 #include "fall.hpp"
 #include "frozen.hpp"
 #include "limits.hpp"
+#include "number_text.hpp"
 #include "snap_jumps.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "stable_stretch.hpp"
@@ -322,6 +323,9 @@ class Explorer {
       return number[m];
     };
     for (std::size_t s = 0; s < book.states().size(); ++s) {
+      if (!book.states()[s].is_clear)
+        doubt("a state of rest at lambda = " + rounded(t_.lambda_scale * frozen.lambda()) +
+              " has next to no stiffness: barriers there are not decided");
       if (book.states()[s].index != 1 || !book.states()[s].is_clear) continue;
       const WaysDown ways = book.ways_from(s);
       if (ways.minima.size() != 2) continue;

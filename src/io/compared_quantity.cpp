@@ -57,7 +57,7 @@ Point on_side(Point point, Side side, const std::string& quantity) {
   if (side == Side::unsaid || point.event == nullptr || point.branch == nullptr) return point;
   const std::vector<analysis::Sample>& samples = point.branch->samples;
   const std::size_t row = point.event->row;
-  if (has_two_sides(*point.event)) {
+  if (has_two_rows(*point.branch, *point.event)) {
     if (side == Side::before || row + 1 >= samples.size()) return point;
     point.sample = &samples[row + 1];
     point.stiffness = &point.event->stiffness_after;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bindings.hpp"
 #include "law_formula.hpp"
 #include "spring_reader.hpp"
 
@@ -81,7 +82,10 @@ SpringDraft read_formula_law(const SpringReader& reader) {
   const auto& parameters = reader.reading.book.variables();
   if (std::find(parameters.begin(), parameters.end(), "u") != parameters.end())
     refuse("u is also a parameter of the case, which needs another name");
-  LawFormula law = read_law_formula(*text, "u");
+  if (node->bindings && node->bindings->find("u"))
+    refuse("u is also an index or a name of the template, which needs another name");
+  const std::string bound = node->bindings ? with_bindings(*text, *node->bindings) : *text;
+  LawFormula law = read_law_formula(bound, "u");
   if (!law.problem.empty()) refuse(law.problem);
   draft.formula = std::move(law.formula);
   std::vector<NumberId> ids;

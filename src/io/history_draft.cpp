@@ -75,6 +75,24 @@ std::string counted_from_start(const MechanismDraft& mechanism) {
   return {};
 }
 
+/// Can the anchor turn, in the plane?
+bool turns(const MechanismDraft& mechanism, const AnchorDraft& anchor) {
+  if (anchor.chain >= 0) return true;
+  return anchor.body > 0 &&
+         mechanism.bodies[static_cast<std::size_t>(anchor.body - 1)].task_space ==
+             model::TaskSpace::planar;
+}
+
+/// The first spring of an angle in the plane that follows the turns of its bodies; "" if there is none.
+std::string counts_turns(const MechanismDraft& mechanism) {
+  for (const ShapeSpringDraft& spring : mechanism.shape_springs)
+    if (spring.shape.kind == model::ShapeKind::angle && spring.shape.points.size() == 3 &&
+        (turns(mechanism, spring.shape.points.front()) ||
+         turns(mechanism, spring.shape.points.back())))
+      return spring.name;
+  return {};
+}
+
 void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft>& studies,
                    const StudyDraft& study, Problems& problems) {
   const NamedPlace& at = study.history.from;
@@ -92,6 +110,11 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
     return refuse("the spring of " + joint +
                   " is counted from the start, origin = \"start\", which is no longer this "
                   "study's own, need origin = \"joint\"");
+  if (const std::string spring = counts_turns(mechanism); !spring.empty())
+    return refuse(
+        "the angle of spring " + spring +
+        " counts the turns of its bodies from where the case draws them, which is no longer "
+        "this study's start, need a joint with a spring instead");
   std::size_t steps = 0;
   const StudyDraft* way = &study;
   while (way->history.study && ++steps <= most_steps) way = &studies[*way->history.study];

@@ -80,40 +80,6 @@ const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& res
   return found == the_case.runs.end() ? nullptr : &*found;
 }
 
-bool has_two_sides(const analysis::Event& event) {
-  switch (event.kind) {
-    case EventKind::switching:
-    case EventKind::corner_limit_point:
-    case EventKind::branching_kink:
-      return true;
-    case EventKind::limit_point:
-    case EventKind::branch_point:
-    case EventKind::kinematic_singularity:
-    case EventKind::touch:
-    case EventKind::family:
-    case EventKind::user_value:
-    case EventKind::end_of_range:
-    case EventKind::stability_change:
-    case EventKind::unresolved:
-    case EventKind::cusp:
-    case EventKind::isola_centre:
-    case EventKind::crossing:
-    case EventKind::hilltop:
-    case EventKind::branch_points_merge:
-    case EventKind::more_modes:
-    case EventKind::fold_meets_activation:
-    case EventKind::corner_loses_reversal:
-    case EventKind::touches_activation:
-    case EventKind::two_activations:
-    case EventKind::parameter_turns:
-    case EventKind::extremum:
-    case EventKind::threshold:
-    case EventKind::jump:
-      return false;
-  }
-  return false;
-}
-
 std::map<std::string, int> event_counts(const analysis::StudyResult& result) {
   std::map<std::string, int> counts;
   std::set<std::string> seen;  // a point where branches meet stands on all of them

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "springfold/analysis/event_rows.hpp"
 #include "springfold/analysis/result.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -32,9 +33,6 @@ const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>&
 
 /// What was planned for this result; nullptr if the case does not have it.
 const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& result);
-
-/// Has the event two rows, one for each side of a switching spring?
-bool has_two_sides(const analysis::Event& event);
 
 /// Special points per code over all branches, each once, only codes that occur.
 std::map<std::string, int> event_counts(const analysis::StudyResult& result);

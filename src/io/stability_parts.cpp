@@ -70,7 +70,7 @@ std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
   };
   for (const auto& event : branch.events) {
     limit_trust(event.row, trust_at(event.kind));
-    if (has_two_sides(event)) limit_trust(event.row + 1, trust_at(event.kind));
+    if (has_two_rows(branch, event)) limit_trust(event.row + 1, trust_at(event.kind));
   }
   for (auto& row : rows)
     if (std::isnan(row.index)) row.trust = Trust::none;

@@ -99,7 +99,7 @@ std::string index_text(const StudyResult& result, const Branch& branch,
       event.kind == EventKind::user_value || event.kind == EventKind::end_of_range;
   const bool has_neighbours = event.row > 0 && event.row + 1 < branch.samples.size();
   std::size_t first = event.row, second = event.row;
-  if (has_two_sides(event))
+  if (has_two_rows(branch, event))
     second = event.row + 1;
   else if (!is_ordinary && has_neighbours)
     first = event.row - 1, second = event.row + 1;
