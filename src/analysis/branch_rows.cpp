@@ -107,6 +107,25 @@ bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quant
   return false;
 }
 
+/// Both curves as one, from the backward end on; nothing where their arcs were not tested.
+std::optional<VerifiedArcs> arcs_of(const Curve& backward, const Curve& forward) {
+  if (backward.arcs.empty() && forward.arcs.empty()) return std::nullopt;
+  VerifiedArcs all;
+  const auto add = [&all](double begin, double end, continuation::ArcEvidence evidence) {
+    all.length += end - begin;
+    if (evidence != continuation::ArcEvidence::sampled)
+      all.verified += end - begin;
+    else if (!all.sampled.empty() && all.sampled.back().s_end == begin)
+      all.sampled.back().s_end = end;
+    else
+      all.sampled.push_back({begin, end});
+  };
+  for (std::size_t i = backward.arcs.size(); i-- > 0;)
+    add(-backward.arcs[i].s_end, -backward.arcs[i].s_begin, backward.arcs[i].evidence);
+  for (const continuation::Arc& arc : forward.arcs) add(arc.s_begin, arc.s_end, arc.evidence);
+  return all;
+}
+
 void append_log(const Curve& curve, double sign, std::vector<StepNote>& log) {
   for (const continuation::StepNote& note : curve.log)
     log.push_back({sign * note.s, sign * note.step, note.reason});
@@ -272,6 +291,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
   refuse_contradictions(entries, evaluator, branch);
   append_log(backward, -1, branch.log);
   append_log(forward, 1, branch.log);
+  branch.arcs = arcs_of(backward, forward);
   return rows;
 }
 

@@ -181,6 +181,7 @@ continuation::TraceOptions options_of(const TraceSettings& settings) {
   options.step.minimum = settings.minimum_step;
   options.step.maximum = settings.maximum_step;
   options.maximum_points = settings.maximum_points;
+  options.verify_arcs = settings.verify_arcs;
   return options;
 }
 

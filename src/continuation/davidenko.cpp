@@ -19,7 +19,7 @@ constexpr double no_rate = 1e-13;            ///< |dlambda/ds| below this has no
 
 /// Integrates the flow over the arc length h.
 /// @returns the relative error of the step, nothing where the tangent is not defined
-std::optional<double> integrate(const Walker& walker, const CurvePoint& from, double h, Arc& arc) {
+std::optional<double> integrate(const Walker& walker, const CurvePoint& from, double h, FlowArc& arc) {
   using State = std::vector<double>;
   struct Step {  // all that the dense output needs
     boost::numeric::odeint::runge_kutta_dopri5<State> stepper{};
@@ -113,7 +113,7 @@ struct Found {
 
 /// Changes of sign of one function between the samples.
 /// @returns false where one could not be located
-bool find_zeros_of(Watched& watched, const Walker& walker, const Arc& arc,
+bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
                    const std::vector<CurvePoint>& samples, std::vector<Found>& found) {
   std::size_t last = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -136,7 +136,7 @@ bool find_zeros_of(Watched& watched, const Walker& walker, const Arc& arc,
 }
 
 /// Records what lies between the samples, in order.
-Outcome record(Walk& walk, const Arc& arc, const std::vector<CurvePoint>& samples,
+Outcome record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
                std::string& refusal) {
   std::vector<Watched> watched = walk.watched;  // a refused step leaves no trace
   std::vector<Found> found;
@@ -206,7 +206,7 @@ Outcome leave_surface(Walk& walk, const ArcZero& met, double from) {
 
 /// The step itself: integrated and judged, then brought back onto the curve at four places.
 /// @returns the start and these four; nothing if the step is refused
-std::optional<std::vector<CurvePoint>> step(Walk& walk, Arc& arc, std::string& refusal) {
+std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::string& refusal) {
   const StepOptions& options = walk.walker.options.step;
   const double h = walk.h;
   const auto error = integrate(walk.walker, walk.here, h, arc);
@@ -244,7 +244,7 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, Arc& arc, std::string& r
 
 Outcome advance(Walk& walk, std::string& refusal) {
   const double h = walk.h;
-  Arc arc;
+  FlowArc arc;
   auto samples = step(walk, arc, refusal);
   if (!samples) return Outcome::shorten;
   ArcSurface surface = first_surface(walk.walker, arc, *samples, walk.left);

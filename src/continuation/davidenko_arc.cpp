@@ -35,7 +35,7 @@ std::optional<Sides> sides_of(ProblemView problem, const CurvePoint& point) {
 }
 
 /// Where switch j leaves its side between two samples, or dips below zero and comes back.
-ArcSurface surface_between(const Walker& walker, const Arc& arc, const CurvePoint& a,
+ArcSurface surface_between(const Walker& walker, const FlowArc& arc, const CurvePoint& a,
                            const CurvePoint& b, Index j, bool left) {
   const std::string doubt = "close to " + walker.problem.switch_name(j);
   const auto read = [&walker, j](Vector Sides::*what) {
@@ -77,7 +77,7 @@ void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& p
   if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
 }
 
-std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, double t) {
+std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc, double t) {
   if (t == 0) return arc.from;
   const Vector u = arc.dense(t);
   const Index n = u.size() - 1;
@@ -107,7 +107,7 @@ std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, dou
   return point;
 }
 
-std::optional<ArcZero> zero_on_arc(const Walker& walker, const Arc& arc, double a, double b,
+std::optional<ArcZero> zero_on_arc(const Walker& walker, const FlowArc& arc, double a, double b,
                                    const Value& value) {
   bool failed = false;
   const auto f = [&](double t) -> double {
@@ -132,7 +132,7 @@ std::optional<ArcZero> zero_on_arc(const Walker& walker, const Arc& arc, double 
   return ArcZero{std::move(*point), low, high};
 }
 
-ArcSurface first_surface(const Walker& walker, const Arc& arc,
+ArcSurface first_surface(const Walker& walker, const FlowArc& arc,
                          const std::vector<CurvePoint>& samples, const std::vector<Index>& left) {
   for (std::size_t k = 1; k < samples.size(); ++k) {
     ArcSurface first;

@@ -10,7 +10,7 @@
 namespace springfold::continuation {
 
 /// From one point of the curve along the flow, arc lengths t = 0 to h from there.
-struct Arc {
+struct FlowArc {
   CurvePoint from{};
   double h = 0;
   std::function<Vector(double t)> dense{};  ///< (x, lambda), near the curve; n + 1 entries
@@ -24,7 +24,7 @@ void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& p
 
 /// Point of the curve at arc length t, brought back from the dense output.
 /// @returns nothing where that is too far away
-std::optional<CurvePoint> point_on_arc(const Walker& walker, const Arc& arc, double t);
+std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc, double t);
 
 struct ArcZero {
   CurvePoint point{};
@@ -33,7 +33,7 @@ struct ArcZero {
 
 /// Zero of a function between the arc lengths a and b (TOMS 748); every trial is a corrected point.
 /// @returns nothing when there is no change of sign, or a trial point cannot be corrected
-std::optional<ArcZero> zero_on_arc(const Walker& walker, const Arc& arc, double a, double b,
+std::optional<ArcZero> zero_on_arc(const Walker& walker, const FlowArc& arc, double a, double b,
                                    const std::function<double(const CurvePoint&)>& value);
 
 /// Where the arc meets its first switching surface.
@@ -44,7 +44,7 @@ struct ArcSurface {
 
 /// @param samples  points of the arc in order, the first is arc.from
 /// @param left  switches that are zero at arc.from because the curve leaves them there
-ArcSurface first_surface(const Walker& walker, const Arc& arc,
+ArcSurface first_surface(const Walker& walker, const FlowArc& arc,
                          const std::vector<CurvePoint>& samples, const std::vector<Index>& left);
 
 }  // namespace springfold::continuation

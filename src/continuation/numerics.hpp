@@ -16,6 +16,9 @@ inline constexpr double exact_model = 500 * rounding_unit;
 /// What is measured at a few places may be this many times larger between them.
 inline constexpr double between_samples = 10;
 
+/// The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times larger.
+inline constexpr double displaced_safety = 2;
+
 /// A matrix that changes by less than this share of itself stays regular; one half leaves a factor of two for motion
 /// that is not straight.
 inline constexpr double stays_regular = 0.5;

@@ -16,6 +16,7 @@
 #include "numerics.hpp"
 #include "samples.hpp"
 #include "springfold/continuation/evidence.hpp"
+#include "springfold/continuation/verification.hpp"
 #include "unexplained.hpp"
 #include "watched_step.hpp"
 #include "working_memory.hpp"
@@ -359,6 +360,7 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   follow(walker, events, observer, at_hit, progress, curve);
   settle_families(curve);
   check_narrow_places(walker, curve);
+  if (options.verify_arcs) curve.arcs = verified_arcs(problem, curve, options);
   return curve;
 }
 

@@ -52,7 +52,7 @@ Json json_of(const std::optional<analysis::SnapSettings>& snap) {
 
 /// Name and value of every option of one study, without saying which are defaults.
 std::vector<NamedOption> listed(const analysis::Study& study, const std::string& body) {
-  const auto& [initial, minimum, maximum, points, spacing] = study.trace;
+  const auto& [initial, minimum, maximum, points, spacing, verify_arcs] = study.trace;
   return {{"kind", std::string(to_string(study.kind))},
           {"control", std::string(to_string(study.control))},
           {"body", body},
@@ -73,6 +73,7 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"trace.maximum_step", maximum},
           {"trace.maximum_points", points},
           {"trace.spacing", spacing},
+          {"trace.verify_arcs", verify_arcs},
           {"path", study.path == analysis::Path::davidenko ? "davidenko" : "arc_length"},
           {"branches.depth", study.branches.depth},
           {"branches.maximum", study.branches.maximum},

@@ -58,6 +58,7 @@ analysis::TraceSettings trace_of(const StudyDraft& draft, const std::vector<doub
   if (!draft.minimum_step) trace.minimum_step = std::min(trace.minimum_step, trace.initial_step);
   trace.maximum_points = static_cast<int>(numbers[draft.maximum_points]);
   trace.spacing = numbers[draft.spacing];
+  trace.verify_arcs = draft.verify_arcs;
   return trace;
 }
 

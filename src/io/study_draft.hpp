@@ -73,6 +73,7 @@ struct StudyDraft {
   /// Steps that the case leaves out follow those that it gives.
   std::optional<NumberId> initial_step{}, minimum_step{}, maximum_step{};
   NumberId maximum_points = 0, spacing = 0;
+  bool verify_arcs = false;
   NumberId depth = 0, maximum_branches = 0, search_starts = 0, search_seed = 0;
   std::vector<NumberId> search_at{};
   NumberId equilibria_starts = 0, equilibria_seed = 0, equilibria_maximum = 0;

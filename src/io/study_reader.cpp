@@ -307,9 +307,9 @@ class StudyReader {
     draft_.path = std::array{analysis::Path::arc_length,
                              analysis::Path::davidenko}[table_.choice("path", path_words, 0)];
     const analysis::TraceSettings defaults;
-    const TableReader trace = table_or_nothing(
-        "trace", "a table such as { maximum_step = 0.05 }",
-        {"initial_step", "minimum_step", "maximum_step", "maximum_points", "spacing"});
+    const TableReader trace = table_or_nothing("trace", "a table such as { maximum_step = 0.05 }",
+                                               {"initial_step", "minimum_step", "maximum_step",
+                                                "maximum_points", "spacing", "verify_arcs"});
     const Rule step{Range::positive, ""};
     NumberTable& numbers = draft_.numbers;
     for (auto [name, id] : {std::pair{"initial_step", &draft_.initial_step},
@@ -319,6 +319,7 @@ class StudyReader {
     draft_.maximum_points =
         trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
     draft_.spacing = trace.number("spacing", {Range::non_negative, ""}, numbers, defaults.spacing);
+    draft_.verify_arcs = trace.truth("verify_arcs", defaults.verify_arcs);
   }
 
   void read_branches() {

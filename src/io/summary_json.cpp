@@ -58,6 +58,15 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
   return json;
 }
 
+Json json_of(const analysis::VerifiedArcs& arcs) {
+  Json sampled = Json::array();
+  for (const auto& stretch : arcs.sampled) sampled.push_back({stretch.s_begin, stretch.s_end});
+  return {{"length", arcs.length},
+          {"verified", arcs.verified},
+          {"share", arcs.share()},
+          {"sampled", std::move(sampled)}};
+}
+
 Json json_of(const StudyResult& result, const analysis::Branch& branch, const std::string& file) {
   Json json = {{"file", file},
                {"points", branch.samples.size()},
@@ -69,6 +78,7 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch, const st
                {"start", branch.start},
                {"backward", json_of(branch.backward)},
                {"forward", json_of(branch.forward)}};
+  json["arcs"] = branch.arcs ? json_of(*branch.arcs) : Json{};
   json["resting"] = Json::array();
   for (const analysis::RestingRows& rows : branch.resting) {
     using Stable = analysis::RestingRows::Stable;

@@ -207,6 +207,19 @@ std::string diagram_lines(const StudyResult& result, const PlannedRun* planned) 
   return text;
 }
 
+/// How much of it is shown to be one curve.
+std::string arcs_text(const analysis::VerifiedArcs& arcs) {
+  constexpr double percent = 100, hundredth = 0.01;
+  const bool all = arcs.sampled.empty();
+  // Rounded down: only all of it is 100 %.
+  const double share = std::floor(percent * arcs.share() / hundredth) * hundredth;
+  return (all ? "verified as one curve"
+              : rounded(share, 4) + " % of its length verified as one curve") +
+         (all ? std::string(" along its whole length")
+              : ", the rest is known at points only: " +
+                    counted(static_cast<int>(arcs.sampled.size()), "part"));
+}
+
 std::string branch_lines(const StudyResult& result, std::size_t b) {
   const Branch& branch = result.branches[b];
   std::string text;
@@ -218,6 +231,7 @@ std::string branch_lines(const StudyResult& result, std::size_t b) {
     return text;  // an equilibrium study: all is said by the start
   text += line("curve", counted(static_cast<int>(branch.samples.size()), "point") + ", " +
                             counted(static_cast<int>(refused), "refused or cut step"));
+  if (branch.arcs) text += line("", arcs_text(*branch.arcs));
   text += point_lines(result, branch);
   if (branch.origin.empty()) text += stop_line("first row", branch.backward);
   return text + stop_line("last row", branch.forward);

@@ -134,6 +134,18 @@ struct StepNote {
 /// One connected curve, from its backward end (first row) to its forward end (last row). A branch
 /// through a start point runs both ways from it; one that begins at a special point has it as its
 /// first row.
+/// How much of a branch is shown to be one curve, by the test of every arc between its points (TraceSettings::verify_arcs).
+struct VerifiedArcs {
+  /// Arc lengths [-], negative behind the start.
+  struct Stretch {
+    double s_begin = 0, s_end = 0;
+  };
+  double length = 0, verified = 0;
+  std::vector<Stretch> sampled{};  ///< where only points are known, in the order of s
+
+  double share() const { return length > 0 ? verified / length : 1; }
+};
+
 struct Branch {
   std::vector<Sample> samples{};
   std::vector<Event> events{};
@@ -147,6 +159,7 @@ struct Branch {
   int origin_branch = 0;  ///< number (from 1) of the branch on which that point was met first;
                           ///< 0: the start itself is that point
   int start = 0;          ///< 0: the study's start, n: the n-th equilibrium of the searches
+  std::optional<VerifiedArcs> arcs{};  ///< where the study asks for it
 };
 
 /// A special point at which branches meet.

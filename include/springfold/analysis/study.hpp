@@ -117,6 +117,8 @@ struct TraceSettings {
   double maximum_step = 0.05;
   int maximum_points = 5000;  ///< in each direction
   double spacing = 0;         ///< > 0: rows also at the multiples of this arc length
+  bool verify_arcs =
+      false;  ///< test every arc of the finished curve (continuation/verification.hpp)
 };
 
 /// Branches beside the one through the start point.

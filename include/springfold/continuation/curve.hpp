@@ -86,12 +86,28 @@ struct StepNote {
   std::string reason{};  ///< in words
 };
 
+/// What shows that an arc of a curve belongs to it as a whole (verification.hpp).
+enum class ArcEvidence {
+  sampled,   ///< points on it, and the test of every step: nothing more is shown
+  regular,   ///< in a tube around it there is no other solution
+  crossing,  ///< one simple branch point may lie on it, and the curve passes along its own branch
+};
+
+struct Arc {
+  double s_begin = 0, s_end = 0;
+  ArcEvidence evidence = ArcEvidence::sampled;
+  double radius =
+      0;  ///< of the tube, in the metric (unknowns of weight zero: in their unit); sampled: 0
+};
+
 struct Curve {
   std::vector<CurvePoint> points{};  ///< accepted points, the start first; no special points
   std::vector<Hit> hits{};           ///< in the order of s
   StopReason stop = StopReason::bad_start;
   std::string stop_detail{};  ///< in words
   std::vector<StepNote> log{};
+  std::vector<Arc>
+      arcs{};  ///< what is known of the arcs between the points; TraceOptions::verify_arcs
 };
 
 enum class EventAction { record, stop };

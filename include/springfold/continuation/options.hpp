@@ -31,6 +31,7 @@ struct TraceOptions {
   bool verify = true;  ///< look inside every accepted step (evidence.hpp)
   bool limit_points = true;
   bool branch_points = true;
+  bool verify_arcs = false;           ///< test every arc of the finished curve (verification.hpp)
   double location_tolerance = 1e-13;  ///< of kinks, relative to the step they lie in
   double simultaneous = 1e-10;        ///< switches this close to zero at a kink act together
 };
