@@ -33,6 +33,10 @@ TEST(SourceTree, EveryLayerIncludesOnlyWhatLiesBelowIt) {
   for (const SourceFile& file : library_files()) EXPECT_THAT(forbidden_includes(file), IsEmpty());
 }
 
+TEST(SourceTree, EveryRoomOfTheEngineIncludesOnlyRoomsBelowIt) {
+  for (const SourceFile& file : library_files()) EXPECT_THAT(forbidden_rooms(file), IsEmpty());
+}
+
 TEST(SourceTree, ThirdPartiesThatWeMayWantToReplaceStandInOneFileEach) {
   EXPECT_THAT(scattered_libraries(library_files()), IsEmpty());
 }
@@ -84,6 +88,14 @@ TEST(ForbiddenIncludes, SeePrivateHeadersOfOtherLayers) {
   EXPECT_THAT(forbidden_includes({"src/cli/run.cpp", "#include \"io/text.hpp\"\n"}), SizeIs(1));
   EXPECT_THAT(forbidden_includes({"src/io/run.cpp", "#include \"io/text.hpp\"\n"}), IsEmpty());
   EXPECT_THAT(forbidden_includes({"src/io/run.cpp", "#include \"text.hpp\"\n"}), IsEmpty());
+}
+
+TEST(ForbiddenRooms, SeeARoomAboveAndFilesInNone) {
+  const std::string text = "#include \"continuation/kinks/kink_rays.hpp\"\n";
+  EXPECT_THAT(forbidden_rooms({"src/continuation/points/step.cpp", text}), SizeIs(1));
+  EXPECT_THAT(forbidden_rooms({"src/continuation/following/trace.cpp", text}), IsEmpty());
+  EXPECT_THAT(forbidden_rooms({"src/continuation/trace.cpp", text}), SizeIs(1));
+  EXPECT_THAT(forbidden_rooms({"src/statics/system.cpp", text}), IsEmpty());
 }
 
 TEST(ScatteredLibraries, AreSeenInASecondFile) {

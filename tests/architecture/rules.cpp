@@ -25,6 +25,17 @@ const std::map<std::string, Layers> below{
     {"cli", {"core", "continuation", "model", "statics", "analysis", "drawing", "io"}},
 };
 
+/// What each room of the engine may include besides itself.
+const std::map<std::string, Layers> rooms_below{
+    {"linear", {}},
+    {"points", {"linear"}},
+    {"locating", {"linear", "points"}},
+    {"kinks", {"linear", "points", "locating"}},
+    {"branches", {"linear", "points", "locating", "kinks"}},
+    {"following", {"linear", "points", "locating", "kinks"}},
+    {"parameters", {"linear"}},
+};
+
 struct Library {
   std::string name;
   std::regex headers;
@@ -138,7 +149,7 @@ std::vector<std::string> includes_of(const SourceFile& file) {
 
 std::vector<std::string> forbidden_includes(const SourceFile& file) {
   static const std::regex our_public{"springfold/([a-z]+)/.*"},
-      our_private{"(([a-z]+)/)?\\w+\\.hpp"};
+      our_private{"(([a-z]+)/([a-z]+/)?)?\\w+\\.hpp"};
   const Place place = place_of(file);
   const auto allowed = below.find(place.layer);
   if (allowed == below.end()) return {file.path + " belongs to no layer"};
@@ -169,6 +180,22 @@ std::vector<std::string> forbidden_includes(const SourceFile& file) {
       found.push_back(sentence(file, include, "no library that design.md knows"));
     }
   }
+  return found;
+}
+
+std::vector<std::string> forbidden_rooms(const SourceFile& file) {
+  static const std::regex inside{"src/continuation/([a-z]+)/.*"},
+      private_header{"continuation/([a-z]+)/\\w+\\.hpp"};
+  std::smatch match;
+  if (!file.path.starts_with("src/continuation/")) return {};
+  if (!std::regex_match(file.path, match, inside) || rooms_below.count(match[1]) == 0)
+    return {file.path + " stands in no room of the engine"};
+  const std::string room = match[1];
+  std::vector<std::string> found;
+  for (const std::string& include : includes_of(file))
+    if (std::regex_match(include, match, private_header) && match[1] != room &&
+        rooms_below.at(room).count(match[1]) == 0)
+      found.push_back(sentence(file, include, "not below " + room));
   return found;
 }
 
