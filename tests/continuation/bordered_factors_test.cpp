@@ -1,5 +1,5 @@
 // One factorisation for the corrector, the tangent, the count and the test functions.
-#include "continuation/bordered_factors.hpp"
+#include "continuation/linear/bordered_factors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Four unknowns that are the same point with all signs changed.
 #include <gmock/gmock.h>
 
-#include "continuation/coincide.hpp"
+#include "continuation/points/coincide.hpp"
 #include "springfold/continuation/search.hpp"
 
 namespace springfold::continuation {

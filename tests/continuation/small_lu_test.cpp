@@ -1,4 +1,4 @@
-#include "continuation/small_lu.hpp"
+#include "continuation/linear/small_lu.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A walk evaluates and factorises nothing twice.
-#include "continuation/working_memory.hpp"
+#include "continuation/points/working_memory.hpp"
 
 #include <map>
 #include <utility>

@@ -1,5 +1,5 @@
 // All zeros of a function on an interval.
-#include "continuation/zeros.hpp"
+#include "continuation/locating/zeros.hpp"
 
 #include <gtest/gtest.h>
 

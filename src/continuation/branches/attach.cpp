@@ -1,0 +1,175 @@
+#include "continuation/branches/attach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/normalised.hpp"
+#include "continuation/points/numerics.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Where a point is nearly as symmetric as a circle, branches are hard to tell from each other beside it,
+/// and a trace back ends before it. It has arrived all the same if most of the way lies behind it, nothing
+/// singular was met, and the rest leads straight to the junction along the way's own tangent.
+/// @returns length of the rest
+std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, const Curve& back,
+                                       double gap) {
+  constexpr double most = 0.5, straight = 0.99;
+  const CurvePoint& last = back.points.back();
+  const Direction rest = between(walker, way.point, last);
+  const double length = length_of(walker, rest);
+  const bool met = std::any_of(back.hits.begin(), back.hits.end(),
+                               [](const Hit& hit) { return hit.kind != HitKind::unresolved; });
+  if (met || back.stop == StopReason::observer || !(length > 0) || length > most * gap ||
+      cosine(walker, rest, way.point.tangent) < straight)
+    return std::nullopt;
+  return length;
+}
+
+/// Along a family of equilibria at one lambda the trace back does not see the junction: special points are not
+/// looked for there. It has arrived if it passes the very place.
+/// @returns length of the way to the junction
+std::optional<double> passage_on_level(const Walker& walker, const CurvePoint& junction,
+                                       const Curve& back, double tolerance) {
+  constexpr double still = 1e-8;
+  for (std::size_t i = 0; i + 1 < back.points.size(); ++i) {
+    const CurvePoint &a = back.points[i], &b = back.points[i + 1];
+    if (std::max(std::abs(a.tangent.dlambda), std::abs(b.tangent.dlambda)) > still)
+      return std::nullopt;
+    const Direction to_junction = between(walker, a, junction), step = between(walker, a, b);
+    const double length = length_of(walker, step);
+    const double share =
+        length > 0 ? cosine(walker, to_junction, step) * length_of(walker, to_junction) / length
+                   : 0.0;
+    if (share < 0 || share > 1) continue;
+    const Direction off{to_junction.dx - share * step.dx,
+                        to_junction.dlambda - share * step.dlambda};
+    if (length_of(walker, off) > tolerance + length * length) return std::nullopt;
+    return a.s + share * (b.s - a.s);
+  }
+  return std::nullopt;
+}
+
+/// Puts a piece of this length before the first point of a curve.
+void prepend(std::vector<CurvePoint> points, const std::vector<Hit>& hits, double length,
+             Curve& curve) {
+  points.front().s = 0;
+  for (CurvePoint& p : curve.points) p.s += length;
+  for (Hit& h : curve.hits) {
+    h.point.s += length;
+    for (CurvePoint& p : h.leaving) p.s += length;
+    h.s_before += length;
+    h.s_after += length;
+  }
+  for (StepNote& note : curve.log) note.s += length;
+  curve.points.insert(curve.points.begin(), points.begin(), points.end());
+  curve.hits.insert(curve.hits.begin(), hits.begin(), hits.end());
+}
+
+/// The trace from the start of a way back to its junction.
+struct WayBack {
+  Curve curve{};
+  std::vector<Hit> met{};  ///< what lies between
+  bool reached = false;    ///< the last hit of `curve` is the junction itself
+};
+
+/// Its steps depend on the length of the gap only, so that it is the same at every step length of the caller.
+WayBack trace_back(const Walker& walker, const DiagramOptions& options, const CurvePoint& junction,
+                   const Way& way, double gap) {
+  WayBack back;
+  // Rounding blurs the place of a multiple point, and beside a degenerate one lambda is flat to
+  // rounding; nothing else can be as near.
+  const auto is_junction_itself = [&](const Hit& hit) {
+    const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
+    const double distance = length_of(walker, between(walker, junction, hit.point));
+    const bool level = std::abs(hit.point.lambda - junction.lambda) <= 1e-12 * scale;
+    const double blur = level ? 0.2 : hit.kind == HitKind::unresolved ? 0.1 : 1e-3;
+    return distance <= std::max(options.same_place * scale, blur * gap);
+  };
+  const auto at_hit = [&](const Hit& hit) {
+    back.reached = is_junction_itself(hit);
+    if (!back.reached) back.met.push_back(hit);
+    return !back.reached;
+  };
+  const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
+  TraceOptions near = options.trace;
+  near.maximum_points = 500;
+  near.step.initial = 0.5 * gap;
+  near.step.maximum = gap;
+  near.step.minimum = std::min(near.step.minimum, 1e-3 * gap);
+  const Direction inwards{-way.start.tangent.dx, -way.start.tangent.dlambda};
+  back.curve =
+      trace_in_own_units(walker.problem, way.start.x, way.start.lambda,
+                         {way.start.piece, inwards, {}, {}}, {}, near, not_too_far, at_hit);
+  // A kink ends the trace by itself.
+  if (!back.reached && !back.curve.hits.empty())
+    back.reached = is_junction_itself(back.curve.hits.back());
+  return back;
+}
+
+/// Length of the way to the junction; takes out of `back` what belongs to the junction.
+std::optional<double> length_back(const Walker& walker, const CurvePoint& junction, const Way& way,
+                                  double gap, double tolerance, WayBack& back) {
+  if (back.reached) return back.curve.hits.back().point.s;
+  if (const auto level = passage_on_level(walker, junction, back.curve, tolerance)) {
+    std::erase_if(back.met, [](const Hit& hit) { return hit.kind == HitKind::family; });
+    return level;
+  }
+  const auto rest = rest_of_way_back(walker, way, back.curve, gap);
+  if (!rest) return std::nullopt;
+  std::erase_if(back.met, [](const Hit& hit) { return hit.kind == HitKind::unresolved; });
+  return back.curve.points.back().s + *rest;
+}
+
+CurvePoint turned(CurvePoint p, double length) {
+  p.s = length - p.s;
+  p.tangent.dx *= -1;
+  p.tangent.dlambda *= -1;
+  return p;
+}
+
+/// A family on which the curve begins reaches to the junction itself.
+void begin_families_at(const CurvePoint& junction, double length, Curve& curve) {
+  for (Hit& hit : curve.hits) {
+    if (hit.kind != HitKind::family || hit.s_before != 0) continue;
+    hit.point = junction;
+    hit.point.s = hit.s_before = -length;
+  }
+}
+
+}  // namespace
+
+bool attach_to_junction(const Walker& walker, const DiagramOptions& options,
+                        const CurvePoint& junction, const Way& way, Curve& curve) {
+  const double gap = length_of(walker, between(walker, junction, way.start));
+  if (!(gap > 0)) return true;
+  const double tolerance =
+      options.same_place * std::max({1.0, junction.x.norm(), std::abs(junction.lambda)});
+  std::vector<CurvePoint> points{way.point};
+  std::vector<Hit> hits;
+  double length = gap;
+  if (gap > tolerance) {
+    WayBack back = trace_back(walker, options, junction, way, gap);
+    const auto found = length_back(walker, junction, way, gap, tolerance, back);
+    if (!found && gap > told_apart) return false;
+    if (!found) back = {};
+    length = found.value_or(gap);
+    for (auto p = back.curve.points.rbegin(); p != back.curve.points.rend(); ++p)
+      if (p->s > 0 && p->s < length) points.push_back(turned(*p, length));
+    for (auto h = back.met.rbegin(); h != back.met.rend(); ++h) {
+      Hit hit = *h;
+      hit.point = turned(hit.point, length);
+      std::swap(hit.s_before, hit.s_after);
+      hit.s_before = length - hit.s_before;
+      hit.s_after = length - hit.s_after;
+      hits.push_back(std::move(hit));
+    }
+  }
+  begin_families_at(way.point, length, curve);
+  prepend(points, hits, length, curve);
+  return true;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,358 @@
+#include "springfold/continuation/diagram.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "continuation/branches/attach.hpp"
+#include "continuation/branches/junction_ways.hpp"
+#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/kinks/kink_passage.hpp"
+#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/entry_checks.hpp"
+#include "continuation/points/normalised.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Something that waits to be traced.
+struct Task {
+  int start = -1, junction = -1, way = -1;
+  CurvePoint from{};
+  int depth = 0;
+  int kink = -1;  ///< junction of an ordinary kink at a start, of which this is way number `way`
+};
+
+/// A junction that a branch meets, and its ways on the two sides of it.
+struct Met {
+  double s = 0;
+  int junction = -1, way_back = -1, way_on = -1;
+};
+
+class Tracer {
+ public:
+  Tracer(const Walker& walker, const std::vector<Event>& events, const DiagramOptions& options,
+         const StepObserver& observer)
+      : walker_{walker}, events_{events}, options_{options}, observer_{observer} {}
+
+  void add_start(const DiagramStart& start, int number);
+  void run();
+  Diagram take();
+
+ private:
+  int junction_at(const Hit& hit);
+  int add_junction(const Hit& hit);
+  int way_along(int junction, const Direction& direction, const Piece* piece);
+  void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
+  void queue_ways(int junction);
+  bool at_hit(const Hit& hit, bool ends = false);
+  bool ends_at_once(const Task& task, Curve& curve) const;
+  void follow(const Task& task);
+  /// The two curves that leave a start count as one branch.
+  bool too_many(int start = -1) const {
+    int count = 0, twins = 0;
+    for (const Branch& branch : diagram_.branches) {
+      const bool second = branch.start >= 0 && branch.start == start;
+      twins += second ? 1 : 0;
+      count += branch.start < 0 || first_of_pair(branch) ? 1 : 0;
+    }
+    return twins % 2 == 0 && count >= options_.maximum_branches;
+  }
+  bool first_of_pair(const Branch& branch) const {
+    int before = 0;
+    for (const Branch* other = diagram_.branches.data(); other != &branch; ++other)
+      before += other->start == branch.start ? 1 : 0;
+    return before % 2 == 0;
+  }
+  void doubt(DoubtKind kind, std::string what, const CurvePoint& where, int junction = -1) {
+    diagram_.doubts.push_back({kind, std::move(what), where, junction, current_});
+  }
+  Junction& at(int junction) { return diagram_.junctions[static_cast<std::size_t>(junction)]; }
+  void note_early_end();
+
+  const Walker& walker_;
+  const std::vector<Event>& events_;
+  const DiagramOptions& options_;
+  const StepObserver& observer_;
+  Diagram diagram_{};
+  std::deque<Task> queue_{};
+  int current_ = -1;        ///< branch that is being traced
+  std::vector<Met> met_{};  ///< junctions that it has met
+  int depth_ = 0;           ///< its depth
+};
+
+bool is_junction(const Hit& hit) {
+  return hit.kind == HitKind::branch_point || hit.kind == HitKind::touch ||
+         hit.kind == HitKind::branching_kink;
+}
+
+int Tracer::junction_at(const Hit& hit) {
+  const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
+  for (std::size_t i = 0; i < diagram_.junctions.size(); ++i) {
+    const Junction& junction = diagram_.junctions[i];
+    if (length_of(walker_, between(walker_, junction.point, hit.point)) <=
+        options_.same_place * scale)
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Finds the ways out of a special point. A touch may have no more than the curve itself.
+int Tracer::add_junction(const Hit& hit) {
+  Junction junction{
+      .kind = hit.kind, .point = hit.point, .multiplicity = hit.multiplicity, .depth = depth_};
+  find_ways(walker_, options_, hit, junction);
+  const auto number = static_cast<int>(diagram_.junctions.size());
+  if (!junction.complete)
+    doubt(DoubtKind::ways_missing, "branches may be missing: " + junction.why, junction.point,
+          number);
+  diagram_.junctions.push_back(std::move(junction));
+  return number;
+}
+
+/// Number of the way that leads most nearly into this direction, or -1.
+int Tracer::way_along(int junction, const Direction& direction, const Piece* piece) {
+  int best = -1;
+  double nearest = 0.98;
+  const std::vector<Way>& ways = at(junction).ways;
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    const double c = cosine(walker_, ways[w].point.tangent, direction) -
+                     (piece && ways[w].point.piece != *piece ? 1e-3 : 0.0);
+    if (c > nearest) {
+      nearest = c;
+      best = static_cast<int>(w);
+    }
+  }
+  return best;
+}
+
+void Tracer::queue_ways(int number) {
+  const Junction& junction = diagram_.junctions[static_cast<std::size_t>(number)];
+  for (std::size_t w = 0; w < junction.ways.size(); ++w)
+    if (junction.ways[w].branch < 0)
+      queue_.push_back(
+          {-1, number, static_cast<int>(w), junction.ways[w].start, junction.depth + 1});
+}
+
+/// The branch that is being traced meets a special point. May it go on?
+/// @param ends  it does not: a kink with several ways out
+bool Tracer::at_hit(const Hit& hit, bool ends) {
+  if (options_.outside && options_.outside(hit.point)) return false;
+  if (!is_junction(hit)) return true;
+  if (hit.kind == HitKind::branching_kink && !options_.through_kinks) return true;
+  int number = junction_at(hit);
+  const bool known = number >= 0;
+  if (!known) number = add_junction(hit);
+  const Direction along = direction_seen_from(walker_, at(number).point.x, hit.point);
+  Met met{hit.point.s, number, way_along(number, opposite(along), &hit.point.piece),
+          ends ? -1 : way_along(number, along, &hit.point.piece)};
+  if (met.way_back < 0 || (met.way_on < 0 && !ends))
+    doubt(DoubtKind::no_such_way,
+          "a branch passes a special point in a direction that is none of its ways", hit.point,
+          number);
+  std::vector<Way>& ways = at(number).ways;
+  const auto way = [&ways](int w) -> Way& { return ways[static_cast<std::size_t>(w)]; };
+  if (met.way_back >= 0 && way(met.way_back).branch < 0) way(met.way_back).branch = current_;
+  bool go_on = true;
+  if (met.way_on >= 0) {
+    go_on = way(met.way_on).branch < 0;
+    if (go_on) way(met.way_on).branch = current_;
+  }
+  met_.push_back(met);
+  if (!known) queue_ways(number);
+  return go_on;
+}
+
+/// Two ways out: an ordinary kink of one curve, or none at all.
+bool is_one_curve(const Rays& rays) {
+  return rays.complete && rays.rays.size() == 2 &&
+         std::none_of(rays.rays.begin(), rays.rays.end(), [](const Ray& r) { return r.start; });
+}
+
+/// An ordinary point of a curve, perhaps with a kink there: its two curves belong to the start.
+void Tracer::add_ordinary_start(const CurvePoint& point, const Rays& rays, int number) {
+  const bool is_kink = rays.rays.size() == 2 && rays.rays[0].resting.empty() &&
+                       rays.rays[0].piece != rays.rays[1].piece;
+  const int kink = is_kink ? static_cast<int>(diagram_.junctions.size()) : -1;
+  if (is_kink)
+    diagram_.junctions.push_back(
+        {.kind = HitKind::kink, .point = point, .depth = depth_, .start = number});
+  for (const Ray& ray : rays.rays) {
+    const CurvePoint leaving = point_on_ray(walker_, point, ray);
+    const int way = is_kink ? static_cast<int>(at(kink).ways.size()) : -1;
+    if (is_kink) at(kink).ways.push_back({leaving, leaving});
+    queue_.push_back({number, -1, way, leaving, 0, kink});
+  }
+}
+
+void Tracer::add_start(const DiagramStart& start, int number) {
+  CurvePoint point;
+  point.x = start.x;
+  point.lambda = start.lambda;
+  point.piece = start.piece;
+  depth_ = current_ = -1;  // branches of a junction here have depth 0
+  const std::vector<Index> active = active_switches(walker_, start.x, start.lambda);
+  if (active.size() > most_active)
+    return doubt(DoubtKind::ways_missing,
+                 "directions at the start may be missing: too many switches act there", point);
+  const int corank = active.empty() ? corank_of(walker_, point) : 0;
+  Hit hit{.kind = HitKind::branch_point, .point = point};
+  hit.multiplicity = std::max(corank, 1);
+  if (!active.empty()) {
+    const Rays rays = rays_at(walker_, start.x, start.lambda, start.piece, active);
+    if (is_one_curve(rays)) return add_ordinary_start(point, rays, number);
+    hit.kind = HitKind::branching_kink;
+    hit.switches = active;
+  } else if (corank <= 0) {
+    const Rays rays = rays_at(walker_, start.x, start.lambda, start.piece, active);
+    if (!rays.complete)
+      doubt(DoubtKind::ways_missing, "directions at the start may be missing: " + rays.why, point);
+    return add_ordinary_start(point, rays, number);
+  }
+  if (junction_at(hit) >= 0) return;
+  const int junction = add_junction(hit);
+  at(junction).start = number;
+  queue_ways(junction);
+}
+
+/// A curve that ends where it begins, if its way leads out of the range there.
+bool Tracer::ends_at_once(const Task& task, Curve& curve) const {
+  CurvePoint begin = task.from;
+  if (task.junction >= 0)
+    begin = diagram_.junctions[static_cast<std::size_t>(task.junction)]
+                .ways[static_cast<std::size_t>(task.way)]
+                .point;
+  begin.s = 0;
+  const std::string reason = options_.ends_at ? options_.ends_at(begin) : "";
+  if (!reason.empty()) curve = {{begin}, {}, StopReason::event, reason, {}};
+  return !reason.empty();
+}
+
+void Tracer::follow(const Task& task) {
+  if (task.junction >= 0) {
+    Way& way = diagram_.junctions[static_cast<std::size_t>(task.junction)]
+                   .ways[static_cast<std::size_t>(task.way)];
+    if (way.branch >= 0) return;
+    if (task.depth > options_.maximum_depth || too_many()) {
+      ++diagram_.not_followed;
+      return;
+    }
+    way.branch = static_cast<int>(diagram_.branches.size());
+  } else {
+    for (const Branch& branch : diagram_.branches) {
+      const bool twin = branch.start == task.start && branch.curve.stop != StopReason::closed;
+      if (!twin && passes_through(walker_.problem, branch.curve, task.from, options_.trace)) return;
+    }
+    if (too_many(task.start)) {
+      ++diagram_.not_followed;
+      return;
+    }
+  }
+  current_ = static_cast<int>(diagram_.branches.size());
+  if (task.kink >= 0) at(task.kink).ways[static_cast<std::size_t>(task.way)].branch = current_;
+  met_.clear();
+  depth_ = task.depth;
+  diagram_.branches.push_back(
+      {.start = task.start, .junction = task.junction, .depth = task.depth});
+  if (ends_at_once(task, diagram_.branches.back().curve)) return;
+  Ray ray{task.from.piece, task.from.tangent, {}, {}};
+  if (task.junction >= 0) {
+    const double gap = length_of(walker_, between(walker_, at(task.junction).point, task.from));
+    if (gap > 0) ray.start = task.from;
+    if (gap > 0) ray.start->s = gap;
+  }
+  Curve curve =
+      trace_in_own_units(walker_.problem, task.from.x, task.from.lambda, ray, events_,
+                         options_.trace, observer_, [this](const Hit& hit) { return at_hit(hit); });
+  // A kink with several ways out ends the trace by itself.
+  Branch& branch = diagram_.branches[static_cast<std::size_t>(current_)];
+  branch.curve = std::move(curve);
+  if (branch.curve.stop == StopReason::several_ways && options_.through_kinks &&
+      !branch.curve.hits.empty() && branch.curve.hits.back().kind == HitKind::branching_kink)
+    at_hit(branch.curve.hits.back(), true);
+  for (Hit& hit : branch.curve.hits)
+    for (const Met& met : met_)
+      if (met.s == hit.point.s && is_junction(hit)) {
+        hit.junction = met.junction;
+        hit.way_back = met.way_back;
+        hit.way_on = met.way_on;
+      }
+  if (branch.curve.stop == StopReason::event || branch.curve.stop == StopReason::joined ||
+      branch.curve.stop == StopReason::several_ways || branch.curve.stop == StopReason::no_way_out)
+    if (!branch.curve.hits.empty()) branch.curve.hits.back().stops = true;
+  note_early_end();
+  if (task.junction < 0) return;
+  const Junction& junction = at(task.junction);
+  const Way& way = junction.ways[static_cast<std::size_t>(task.way)];
+  if (!attach_to_junction(walker_, options_, junction.point, way, branch.curve))
+    doubt(DoubtKind::not_attached, "a branch could not be traced back to its branch point",
+          junction.point, task.junction);
+}
+
+/// A branch that ended where nothing asked it to is a doubt.
+void Tracer::note_early_end() {
+  const Curve& curve = diagram_.branches[static_cast<std::size_t>(current_)].curve;
+  const bool at_junction = !curve.hits.empty() && curve.hits.back().junction >= 0 &&
+                           curve.stop == StopReason::several_ways;
+  switch (curve.stop) {
+    case StopReason::event:
+    case StopReason::closed:
+    case StopReason::joined:
+    case StopReason::observer:
+      return;
+    case StopReason::several_ways:
+      if (at_junction || !options_.through_kinks) return;
+      break;
+    default:
+      break;
+  }
+  std::string text = "a branch stopped early: " + std::string(to_string(curve.stop));
+  if (!curve.stop_detail.empty()) text += ": " + curve.stop_detail;
+  doubt(DoubtKind::stopped_early, std::move(text), curve.points.back());
+}
+
+void Tracer::run() {
+  while (!queue_.empty()) {
+    const Task task = std::move(queue_.front());
+    queue_.pop_front();
+    follow(task);
+  }
+}
+
+Diagram Tracer::take() {
+  if (diagram_.not_followed > 0)
+    diagram_.doubts.push_back(
+        {DoubtKind::bounds, std::to_string(diagram_.not_followed) +
+                                " branches were not traced: bounds of depth or number reached"});
+  return std::move(diagram_);
+}
+
+}  // namespace
+
+Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& starts,
+                      const std::vector<Event>& events, const DiagramOptions& options,
+                      const StepObserver& observer) {
+  if (starts.empty()) return {};
+  for (const DiagramStart& start : starts)
+    check_entry(problem, start.x, start.lambda, start.piece, options.trace);
+  const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
+  if (!own.trivial()) {
+    std::vector<DiagramStart> inside = starts;
+    for (DiagramStart& start : inside) start.x = own.inside(start.x);
+    return own.outside(
+        trace_diagram(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
+  }
+  const Walker walker{problem, problem.metric(), options.trace};
+  Tracer tracer(walker, events, options, observer);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    tracer.add_start(starts[i], static_cast<int>(i));
+    tracer.run();
+  }
+  return tracer.take();
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,277 @@
+#include "springfold/continuation/exits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "continuation/branches/exit_rays.hpp"
+#include "continuation/linear/extended.hpp"
+#include "continuation/locating/equilibrated.hpp"
+#include "continuation/points/words.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+Direction direction_of(const ReducedEquation& e, const Vector& U) {
+  const Index n = U.size() - 1;
+  Direction d{U.head(n).cwiseQuotient(e.root.head(n)), U[n]};
+  const double length = std::sqrt(metric_product(e.walker->weights, d, d));
+  d.dx /= length;
+  d.dlambda /= length;
+  return d;
+}
+
+/// Pairs the rays at two radii by direction: order[i] is the partner of a's ray i.
+/// @returns nothing unless each has exactly one
+std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) {
+  if (a.rays.size() != b.rays.size()) return std::nullopt;
+  std::vector<std::size_t> order;
+  std::vector<bool> taken(b.rays.size(), false);
+  for (const RayPoint& ray : a.rays) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t nearest = 0;
+    for (std::size_t j = 0; j < b.rays.size(); ++j) {
+      const double distance = (ray.c / a.rho - b.rays[j].c / b.rho).norm();
+      if (distance < least) least = distance, nearest = j;
+    }
+    if (!(least < 0.15) || taken[nearest]) return std::nullopt;
+    taken[nearest] = true;
+    order.push_back(nearest);
+  }
+  return order;
+}
+
+/// Has each of these directions a ray of its own?
+bool covers(const RaySet& set, const std::vector<Vector>& directions) {
+  std::vector<bool> taken(set.rays.size(), false);
+  for (const Vector& d : directions) {
+    double least = 0.3;
+    std::size_t nearest = taken.size();
+    for (std::size_t j = 0; j < taken.size(); ++j) {
+      const double distance = (set.rays[j].c / set.rho - d).norm();
+      if (!taken[j] && distance < least) least = distance, nearest = j;
+    }
+    if (nearest == taken.size()) return false;
+    taken[nearest] = true;
+  }
+  return true;
+}
+
+bool balanced(const RaySet& set) {
+  int sum = 0;
+  for (const RayPoint& ray : set.rays) sum += ray.sign;
+  return sum == 0;
+}
+
+/// What one radius shows, the other may have missed.
+void complement(const ReducedEquation& e, const RaySet& from, RaySet& to) {
+  for (const RayPoint& ray : from.rays) add_ray(e, e.U0 + to.rho / from.rho * (ray.U - e.U0), to);
+}
+
+struct Limit {
+  Vector c{};
+  double accuracy = 0;
+  bool found = false;
+};
+
+/// Points of the ray at 4 rho, 2 rho, rho, rho / 2, ... as far as the branch can be followed.
+std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, double rho) {
+  std::vector<RayPoint> points{ray};
+  const auto follow = [&](double factor, int most) {
+    double r = rho;
+    for (RayPoint here = ray; most > 0; --most) {
+      auto next = ray_point(e, e.U0 + factor * (here.U - e.U0), factor * r);
+      if (!next || (next->c / (factor * r) - here.c / r).norm() > 0.2) return;
+      points.insert(factor > 1 ? points.begin() : points.end(), *next);
+      here = std::move(*next);
+      r *= factor;
+    }
+  };
+  follow(2, 2);
+  follow(0.5, 4);
+  return points;
+}
+
+/// c / rho on the branch for rho -> 0 (Neville's scheme), where change and rounding are least.
+Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
+  Limit best{.c = {}, .accuracy = std::numeric_limits<double>::infinity()};
+  std::vector<Vector> row;
+  for (const RayPoint& point : along(e, ray, rho)) {
+    std::vector<Vector> fresh{point.c.normalized()};
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      fresh.push_back(fresh[j] + (fresh[j] - row[j]) / (std::exp2(static_cast<double>(j + 1)) - 1));
+      const double doubt = (fresh[j + 1] - fresh[j]).norm() + 3 * point.noise;
+      if (doubt < best.accuracy) best = {fresh[j + 1].normalized(), doubt, true};
+    }
+    row = std::move(fresh);
+  }
+  if (!best.found) return best;
+  const auto exact = quadratic_direction(e, best.c, 1e-2);
+  if (exact && (*exact - best.c).norm() < 1e-4 + 10 * best.accuracy) best = {*exact, 1e-10, true};
+  return best;
+}
+
+/// The point of a ray as a point of its branch, like point_on_curve, but without the corrector's
+/// judgement: close to other branches rounding moves the point along the sphere.
+std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoint& ray) {
+  const Walker& walker = *e.walker;
+  const Index n = e.U0.size() - 1;
+  CurvePoint point;
+  point.s = (ray.U - e.U0).norm();
+  point.x = ray.U.head(n).cwiseQuotient(e.root.head(n));
+  point.lambda = ray.U[n];
+  point.piece = e.piece;
+  Vector F;
+  Linearisation at;
+  if (!walker.problem.residual(point.x, point.lambda, e.piece, F) ||
+      !(F.lpNorm<Eigen::Infinity>() <= walker.options.newton.residual_tolerance * e.scale) ||
+      !linearise(walker.problem, point.x, point.lambda, e.piece, at))
+    return std::nullopt;
+  const auto tangent = tangent_at(at, walker.weights, direction_of(e, ray.U - e.U0));
+  if (!tangent) return std::nullopt;
+  point.tangent = *tangent;
+  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
+  return point;
+}
+
+/// A point of the branch at the distance rho in the kernel, half as far as the last one: by Newton's
+/// method, and where that drowns in rounding by the expansion of second order, exact to rounding there.
+std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, const Vector& limit,
+                               double rho) {
+  if (auto ray = ray_point(e, e.U0 + 0.5 * (last.U - e.U0), rho)) return ray;
+  const Vector c = rho * limit;
+  RayPoint ray{.U = e.U0 + e.N * c, .c = c};
+  const Index m = e.k + 1;
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j)
+      ray.U += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  return ray;
+}
+
+/// Brings the start of a branch in until it is near enough.
+/// @returns false where that does not succeed
+bool bring_in(const ReducedEquation& e, const Limit& limit, RayPoint ray, double rho,
+              const Direction& tangent, const NearEnough& near_enough, CurvePoint& start) {
+  const double nearest = 1e-9 * e.scale;
+  while (!near_enough(start, tangent)) {
+    rho *= 0.5;
+    if (rho < nearest) return false;
+    const auto next = nearer(e, ray, limit.c, rho);
+    const auto point = next ? branch_point_of(e, *next) : std::nullopt;
+    if (!point) return false;
+    ray = *next;
+    start = *point;
+  }
+  return true;
+}
+
+/// Adds the branch of one ray, or a reason why not all is well.
+void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
+              const NearEnough& near_enough, Exits& result) {
+  const auto doubt = [&](std::string why) {
+    result.complete = false;
+    result.why = std::move(why);
+  };
+  auto start = branch_point_of(e, ray);
+  if (!start) return doubt("a branch near the point could not be corrected to the tolerance");
+  const Limit limit = limit_of(e, ray, rho);
+  if (!limit.found) return doubt("a branch near the point could not be followed into it");
+  if (limit.accuracy > 1e-3)
+    doubt("the tangent of a branch is known to " + rounded(limit.accuracy) + " only");
+  const double away =
+      (e.N * ray.c)
+          .normalized()
+          .dot(Vector(
+                   scaled_point({.x = start->tangent.dx, .lambda = start->tangent.dlambda}, e.root))
+                   .normalized());
+  if (away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
+  const Direction tangent = direction_of(e, e.N * limit.c);
+  if (near_enough && !bring_in(e, limit, ray, rho, tangent, near_enough, *start))
+    doubt("a branch switches too near to the point to be followed");
+  result.exits.push_back({tangent, limit.accuracy, std::move(*start)});
+}
+
+struct Search {
+  RaySet set{};
+  std::string doubt{};  ///< set: the radii do not agree
+};
+
+/// Smaller and smaller spheres until neighbouring ones show the same.
+Search search_inwards(const ReducedEquation& e, double rho, int radii) {
+  const int needed = e.k == 2 ? 2 : 3;
+  const double shrink = e.k == 2 ? 0.5 : 1.0 / 3;
+  const std::vector<Vector> sure = quadratic_rays(e);
+  RaySet last;
+  std::string doubt = "different radii show different branches";
+  for (int i = 0, agreeing = 0; i < radii; ++i, rho *= shrink) {
+    RaySet set = rays_on_sphere(e, rho, i == 0 ? 360 : 120);
+    if (i > 0) {
+      complement(e, last, set);
+      complement(e, set, last);
+    }
+    const bool same = agreeing > 0 && pairs(last, set).has_value();
+    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure);
+    agreeing = good ? (same ? agreeing + 1 : 1) : 0;
+    if (!set.doubt.empty()) doubt = set.doubt;
+    last = std::move(set);
+    if (agreeing == needed) return {std::move(last), {}};
+  }
+  return {std::move(last), doubt};
+}
+
+Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& doubt,
+               const NearEnough& near_enough) {
+  Exits result;
+  for (const RayPoint& ray : set.rays) add_exit(e, ray, set.rho, near_enough, result);
+  if (result.why.empty() && !doubt.empty()) {
+    result.complete = false;
+    result.why = doubt;
+  }
+  return result;
+}
+
+}  // namespace
+
+Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
+  return exits_at(walker, at, corank, {});
+}
+
+Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
+               const NearEnough& near_enough) {
+  if (corank < 0 || corank > 2 || corank > at.x.size())
+    return {.complete = false,
+            .why = "branches are not searched for at points of corank " + std::to_string(corank)};
+  if (walker.problem.structured() && at.x.size() > most_entries)
+    return {.complete = false,
+            .why = "branches are not searched for among more than " + std::to_string(most_entries) +
+                   " unknowns"};
+  const auto e = reduce(walker, at, corank);
+  if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
+  const double rho = std::min(2e-2 * e->scale, 0.1 / std::max(e->curvature, 1e-10));
+  Search search = search_inwards(*e, rho, 8);
+  // Branches that only terms of fifth order and higher tell apart drown in rounding further in.
+  if (!search.doubt.empty() && corank == 2) {
+    Search further_out = search_inwards(*e, 6 * rho, 5);
+    if (further_out.doubt.empty()) search = std::move(further_out);
+  }
+  return exits_of(*e, search.set, search.doubt, near_enough);
+}
+
+int corank_of(const Walker& walker, const CurvePoint& at) {
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return -1;
+  const Index n = own->J.rows();
+  if (n == 0) return 0;
+  const Vector values = divided_svd(own->J).values;
+  constexpr double gap = 30;
+  for (Index i = 0; i < n; ++i) {
+    const double above = i > 0 ? values[i - 1] : 1;
+    if (values[i] <= 1e-6 && values[i] * gap < above) return static_cast<int>(n - i);
+  }
+  return 0;
+}
+
+}  // namespace springfold::continuation

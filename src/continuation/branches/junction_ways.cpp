@@ -1,0 +1,86 @@
+#include "continuation/branches/junction_ways.hpp"
+
+#include <cmath>
+
+#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/kinks/kink_passage.hpp"
+#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/piece_ways.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Where to begin along a ray: where the engine says; a little further where lambda turns at the kink itself,
+/// because a trace that begins there would find a turn at its own start.
+CurvePoint start_on(const Walker& walker, const CurvePoint& leaving, const Ray& ray,
+                    const Surfaces& surfaces) {
+  constexpr double level = 1e-8, far_enough = 1e-3, too_near = 1e-9;
+  if (ray.start) return *ray.start;
+  if (std::abs(leaving.tangent.dlambda) > level) return leaving;
+  for (double distance = far_enough; distance > too_near; distance *= 0.5) {
+    auto point = point_at(walker, leaving, distance);
+    if (!point) continue;
+    point->s = distance;
+    if (before_next_surface(walker, leaving, surfaces, *point, ray.tangent)) return *point;
+  }
+  return leaving;
+}
+
+/// The ways out of a point on switching surfaces.
+void add_rays(const Walker& walker, const CurvePoint& point, const std::vector<Index>& active,
+              Junction& junction) {
+  Surfaces surfaces{.active = active};
+  if (!walker.problem.switch_gradients(point.x, point.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
+    return;
+  const Rays rays = rays_around(walker, point, active, located_rank);
+  junction.complete = rays.complete;
+  junction.why = rays.why;
+  for (const Ray& ray : rays.rays) {
+    const CurvePoint leaving = point_on_ray(walker, point, ray);
+    junction.ways.push_back({leaving, start_on(walker, leaving, ray, surfaces)});
+  }
+}
+
+/// Ways out of a singular point: of the reduced equation there, or only those along the curve.
+void add_exits(const Walker& walker, const DiagramOptions& options, const Hit& hit,
+               Junction& junction) {
+  const std::string reason = options.left_out ? options.left_out(hit.point) : "";
+  if (!reason.empty()) {
+    junction.complete = false;
+    junction.why = reason;
+    if (hit.point.tangent.dx.size() == 0) return;
+    CurvePoint back = hit.point;
+    back.tangent.dx *= -1;
+    back.tangent.dlambda *= -1;
+    junction.ways = {{hit.point, hit.point}, {back, back}};
+    return;
+  }
+  const int corank = hit.kind == HitKind::touch ? corank_of(walker, hit.point) : hit.multiplicity;
+  const auto near_enough = [&](const CurvePoint& start, const Direction& tangent) {
+    return before_next_surface(walker, hit.point, {}, start, tangent);
+  };
+  const Exits exits = exits_at(walker, hit.point, corank, near_enough);
+  junction.complete = exits.complete;
+  junction.why = exits.why;
+  for (const Exit& exit : exits.exits) {
+    CurvePoint point = hit.point;
+    point.tangent = exit.tangent;
+    point.negative.reset();
+    junction.ways.push_back({point, exit.start});
+  }
+}
+
+}  // namespace
+
+void find_ways(const Walker& walker, const DiagramOptions& options, const Hit& hit,
+               Junction& junction) {
+  const std::vector<Index> active = active_switches(walker, hit.point.x, hit.point.lambda);
+  const bool on_surfaces = !active.empty() && active.size() <= most_active;
+  if (hit.kind == HitKind::branching_kink || on_surfaces)
+    add_rays(walker, hit.point, active, junction);
+  else
+    add_exits(walker, options, hit, junction);
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,145 @@
+#include "continuation/following/narrow_places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "continuation/locating/determined.hpp"
+#include "continuation/points/arc.hpp"
+#include "continuation/points/numerics.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Steps shorter than this share of the longest are those of a narrow place.
+constexpr double short_step = 0.005;
+
+/// Branches that are so many times farther apart than rounding moves a point are told apart by every step.
+constexpr double well_apart = 1000;
+
+/// From how far off a narrow place is looked at: first so many times its length, at least so many of the longest steps; then
+/// from half as far, and so on: a smooth curve fits a model at last, one with a kink does not, unless the place fills it.
+constexpr double times_its_length = 5, longest_steps = 2, nearest_lengths = 1.5;
+
+/// A curve that has changed to another branch is off by about an eighth of what stands between them where it is looked at; one
+/// that has not is off by what an interpolation leaves.
+constexpr double changed = 0.02;
+
+struct Stretch {
+  std::size_t first = 0, last = 0;  ///< points
+};
+
+std::vector<Stretch> stretches_of_short_steps(const Walker& walker, const Curve& curve) {
+  const double limit = short_step * walker.options.step.maximum;
+  std::vector<Stretch> found;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    if (!(curve.points[i].s - curve.points[i - 1].s < limit)) continue;
+    const bool continues =
+        !found.empty() && curve.points[i - 1].s - curve.points[found.back().last].s < 5 * limit;
+    if (!continues) found.push_back({i - 1, i});
+    found.back().last = i;
+  }
+  return found;
+}
+
+std::optional<Separation> separation(const Walker& walker, const Curve& curve, std::size_t i) {
+  const CurvePoint &p = curve.points[i], &other = curve.points[i > 0 ? i - 1 : i + 1];
+  const WatchedStep arc(walker, p, std::abs(p.s - other.s));
+  return separation_at(arc, p);
+}
+
+bool is_hidden(const Walker& walker, const Curve& curve, const Stretch& stretch) {
+  for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
+    const auto s = separation(walker, curve, i);
+    if (!s || !(s->distance > well_apart * s->blur)) return true;
+  }
+  return false;
+}
+
+/// The stored point nearest to s.
+std::size_t nearest(const Curve& curve, double s) {
+  const auto after = std::lower_bound(curve.points.begin(), curve.points.end(), s,
+                                      [](const CurvePoint& p, double at) { return p.s < at; });
+  auto i = static_cast<std::size_t>(after - curve.points.begin());
+  if (i == curve.points.size() || (i > 0 && s - curve.points[i - 1].s < curve.points[i].s - s)) --i;
+  return i;
+}
+
+bool one_piece(const Curve& curve, std::size_t first, std::size_t last) {
+  const CurvePoint &a = curve.points[first], &b = curve.points[last];
+  return a.piece == b.piece &&
+         std::none_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& h) {
+           return !h.switches.empty() && h.point.s >= a.s && h.point.s <= b.s;
+         });
+}
+
+/// How far the model passes from a point of the curve.
+double misfit(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
+              const CurvePoint& p) {
+  const Direction from{p.x - origin.x, p.lambda - origin.lambda};
+  CurvePoint expected;
+  model.point(walker.weights, origin, metric_product(walker.weights, from, origin.tangent),
+              expected);
+  const Direction off{expected.x - p.x, expected.lambda - p.lambda};
+  return std::sqrt(metric_product(walker.weights, off, off));
+}
+
+/// Two points before the stretch and two behind it make a model; a point nearer to it on each side is compared.
+/// @param far  from how far off
+/// @returns nothing where the curve does not reach so far, or turns
+std::optional<bool> is_smooth_across(const Walker& walker, const Curve& curve,
+                                     const Stretch& stretch, double far) {
+  const double a = curve.points[stretch.first].s, b = curve.points[stretch.last].s;
+  if (a - far < curve.points.front().s || b + far > curve.points.back().s) return std::nullopt;
+  const std::array<std::size_t, 6> at{nearest(curve, a - far),       nearest(curve, a - 0.5 * far),
+                                      nearest(curve, a - far / 8),   nearest(curve, b + far / 8),
+                                      nearest(curve, b + 0.5 * far), nearest(curve, b + far)};
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (at[i] <= at[i - 1]) return std::nullopt;
+  if (!one_piece(curve, at.front(), at.back())) return std::nullopt;
+  const auto point = [&](std::size_t i) -> const CurvePoint& { return curve.points[at[i]]; };
+  const std::array<const CurvePoint*, 4> nodes{&point(0), &point(1), &point(4), &point(5)};
+  ArcModel model;
+  if (!model.go_through(walker.weights, point(1), nodes)) return std::nullopt;
+  for (const std::size_t i : {2, 3}) {
+    const auto s = separation(walker, curve, at[i]);
+    const double off = misfit(walker, model, point(1), point(i));
+    if (s && off > changed * s->distance && off > between_samples * s->blur) return false;
+  }
+  return true;
+}
+
+/// What cannot be looked at from anywhere is not judged.
+bool is_smooth_across(const Walker& walker, const Curve& curve, const Stretch& stretch) {
+  const double length = curve.points[stretch.last].s - curve.points[stretch.first].s;
+  double far = std::max(times_its_length * length, longest_steps * walker.options.step.maximum);
+  bool seen = false;
+  for (; far >= nearest_lengths * length; far *= 0.5) {
+    const auto smooth = is_smooth_across(walker, curve, stretch, far);
+    if (smooth && *smooth) return true;
+    seen = seen || smooth;
+  }
+  return !seen;
+}
+
+}  // namespace
+
+void check_narrow_places(const Walker& walker, Curve& curve) {
+  if (walker.problem.structured() || !walker.options.branch_points) return;
+  for (const Stretch& stretch : stretches_of_short_steps(walker, curve)) {
+    if (!is_hidden(walker, curve, stretch) || is_smooth_across(walker, curve, stretch)) continue;
+    const CurvePoint &a = curve.points[stretch.first], &b = curve.points[stretch.last];
+    Hit hit{.kind = HitKind::unresolved,
+            .name =
+                "unresolved: branches are so near to each other here that rounding may have led "
+                "the curve from one to the other",
+            .point = curve.points[(stretch.first + stretch.last) / 2],
+            .s_before = a.s,
+            .s_after = b.s};
+    const auto behind = std::find_if(curve.hits.begin(), curve.hits.end(),
+                                     [&](const Hit& h) { return h.point.s > hit.point.s; });
+    curve.hits.insert(behind, std::move(hit));
+  }
+}
+
+}  // namespace springfold::continuation

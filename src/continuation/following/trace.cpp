@@ -1,0 +1,367 @@
+#include "springfold/continuation/trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "continuation/following/many_points.hpp"
+#include "continuation/following/narrow_places.hpp"
+#include "continuation/kinks/kink_passage.hpp"
+#include "continuation/locating/cluster.hpp"
+#include "continuation/locating/events.hpp"
+#include "continuation/locating/unexplained.hpp"
+#include "continuation/locating/watched_step.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/entry_checks.hpp"
+#include "continuation/points/normalised.hpp"
+#include "continuation/points/numerics.hpp"
+#include "continuation/points/samples.hpp"
+#include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/evidence.hpp"
+#include "springfold/continuation/verification.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Share of the anchor's step: a cluster is not crossed from nearer to it.
+constexpr double near_cluster = 0.2;
+
+/// Where special points made a step too long first: from there a cluster of them is crossed.
+struct Anchor {
+  Progress before{};
+  std::size_t points = 0, hits = 0;
+  bool set = false, tried = false;
+  bool passing = false;  ///< branches pass each other there: nothing is crossed in one step
+};
+
+/// Crosses a cluster of special points in one step from `before.here`, looking for the caller's events only.
+bool cross_from(const Walker& walker, const std::vector<Event>& events, const Progress& before,
+                double ds, Progress& progress, Curve& curve) {
+  Walker plain = walker;
+  plain.options.limit_points = plain.options.branch_points = false;
+  const CurvePoint& from = before.here;
+  const StepResult step = try_step(walker, from, ds);
+  if (!step.point) return false;
+  const Evidence evidence = examine(walker, from, *step.point);
+  if (!evidence.doubt.empty() || !step.point->negative != !from.negative) return false;
+  if (start_again(walker, curve.points.front(), from, *step.point)) return false;
+  if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) return false;
+  auto cluster = cluster_on_step(walker, StepSamples(from, &*evidence.middle, *step.point));
+  if (!cluster) return false;
+  const StepEvents wanted = events_on_step(plain, from, *step.point, &*evidence.middle, events);
+  if (!wanted.hits.empty() || !wanted.doubt.empty()) return false;
+  std::erase_if(curve.points, [&](const CurvePoint& p) { return p.s > from.s; });
+  curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});
+  curve.hits.push_back(std::move(*cluster));
+  curve.points.push_back(*step.point);
+  progress = before;
+  progress.here = *step.point;
+  progress.ds = next_step_length(ds, step.measures, walker.options.step);
+  return true;
+}
+
+/// Crosses a cluster in one step from the anchor, or from a point between them that is not too near to it.
+bool cross_cluster(const Walker& walker, const std::vector<Event>& events, Anchor& anchor,
+                   Progress& progress, Curve& curve) {
+  anchor.tried = true;
+  if (anchor.passing || curve.hits.size() != anchor.hits || !anchor.before.left.empty())
+    return false;
+  const double reached = progress.here.s;
+  for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
+    Progress before = anchor.before;
+    before.here = curve.points[i - 1];
+    if (i > anchor.points && reached - before.here.s < near_cluster * anchor.before.ds) break;
+    for (const double share : {1.0, 0.6, 0.35})
+      if (cross_from(walker, events, before, share * anchor.before.ds, progress, curve))
+        return true;
+  }
+  return false;
+}
+
+/// What became of a step that was refused.
+struct Refusal {
+  std::string reason{};
+  bool special = false;  ///< because of special points on it
+  bool passing = false;  ///< because branches pass each other on it
+};
+
+/// Special points behind the place at which a curve closes were met at its start, one at this place now.
+void end_at(const CurvePoint& start, StepEvents& found) {
+  constexpr double same_place = 1e-7;
+  for (std::size_t i = found.hits.size(); i-- > 0;) {
+    if (found.hits[i].point.s <= start.s + same_place) continue;
+    found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
+    found.stops.erase(found.stops.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+/// Has the step before reported this touch already? Each lies in the stretch on which the other is lost in rounding.
+bool is_reported(const Curve& curve, const Hit& hit) {
+  if (hit.kind != HitKind::touch || curve.hits.empty()) return false;
+  const Hit& last = curve.hits.back();
+  return last.kind == HitKind::touch && last.s_before < hit.point.s && hit.point.s < last.s_after &&
+         hit.s_before < last.point.s && last.point.s < hit.s_after;
+}
+
+/// Keeps the special points of a step and, between any two, a point of the curve with the index there.
+/// @returns whether the curve ends at one of them
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+          Curve& curve) {
+  const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
+  for (std::size_t i = 0, next = 0; i < found.hits.size(); ++i) {
+    if (is_reported(curve, found.hits[i])) continue;
+    for (; next < between.size() && between[next].s < found.hits[i].point.s; ++next)
+      curve.points.push_back(between[next]);
+    const bool stops = found.stops[i];
+    curve.hits.push_back(found.hits[i]);
+    if (!stops && (!at_hit || at_hit(curve.hits.back()))) continue;
+    curve.stop = stops ? StopReason::event : StopReason::joined;
+    curve.stop_detail = curve.hits.back().name;
+    return true;
+  }
+  return false;
+}
+
+/// The last accepted step as a model of the curve: the next one must continue it, not just satisfy F.
+/// @returns nullptr where the curve begins, or begins again at a kink
+const ArcModel* model_behind(const Walker& walker, const Progress& progress, const Curve& curve) {
+  const CurvePoint &here = progress.here, &before = progress.before, &inside = progress.middle;
+  if (curve.points.size() < 2 || curve.points.back().s != here.s) return nullptr;
+  if (!(before.s < here.s) || before.piece != here.piece || before.x.size() != here.x.size())
+    return nullptr;
+  const bool known = inside.s > before.s && inside.s < here.s && inside.piece == here.piece;
+  const StepSamples samples(before, known ? &inside : nullptr, here);
+  ArcModel& arc = walker.memory->behind;
+  return arc.go_through(walker.weights, here, samples) ? &arc : nullptr;
+}
+
+/// Was the curve not where the model expected it? Then nothing says that it is the same one.
+bool is_surprise(const NewtonResult& newton, const Vector& x) {
+  return !newton.corrections.empty() && newton.corrections.front() > most_surprise * (1 + x.norm());
+}
+
+/// One step: predict, correct, look for switching surfaces and events, record.
+/// @param report  special points that cannot be told apart are reported on the shortest steps
+Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
+                bool report, Progress& progress, Curve& curve, Refusal& refused) {
+  std::string& refusal = refused.reason;
+  CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
+  StepMeasures measures;
+  const ArcModel* model = model_behind(walker, progress, curve);
+  if (model && (!try_step(walker, progress.here, progress.ds, model, next, measures, refusal) ||
+                is_surprise(walker.memory->newton, next.x)))
+    model = nullptr;
+  if (!model && !try_step(walker, progress.here, progress.ds, nullptr, next, measures, refusal))
+    return Outcome::shorten;
+  const CurvePoint* middle = nullptr;
+  if (walker.options.verify) {
+    examine(walker, model, progress.here, next, half_way, refusal);
+    if (!refusal.empty()) return Outcome::shorten;
+    middle = &half_way;
+  }
+  KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
+  if (kink.status == KinkSearch::Status::suspicious) {
+    refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
+                                               : std::string("a switching surface"));
+    return Outcome::shorten;
+  }
+  const auto start = start_again(walker, curve.points.front(), progress.here, next);
+  const bool meets_kink = kink.status == KinkSearch::Status::found;
+  const bool closed = start && !(meets_kink && kink.point.s < start->s);
+  CurvePoint& end = meets_kink ? kink.point : next;
+  if (closed) kink.status = KinkSearch::Status::none;
+  const bool cut = meets_kink && !closed;
+  StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
+  if (closed) end_at(*start, found);
+  if (!found.doubt.empty()) {
+    refusal = found.doubt;
+    refused.special = true;
+    refused.passing = found.passing;
+    const bool shortest = progress.ds <= unresolved_length && report && !found.passing;
+    if (!shortest && !found.flat) return Outcome::shorten;
+    add_unresolved(progress.here, end, found, curve);
+  }
+  if (keep(walker, StepSamples(progress.here, middle && middle->s < end.s ? middle : nullptr, end),
+           at_hit, found, curve))
+    return Outcome::stop;
+  if (cut) {
+    curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,
+                         "cut: " + names_of(walker.problem, kink.active)});
+    return pass_kink(walker, kink, progress, curve);
+  }
+  std::swap(progress.before, progress.here);
+  if (closed)
+    progress.here = *start;
+  else
+    std::swap(progress.here, next);
+  if (middle) std::swap(progress.middle, half_way);
+  progress.left.clear();
+  curve.points.push_back(progress.here);
+  account_over_gap(curve);
+  if (closed) {
+    curve.stop = StopReason::closed;
+    return Outcome::stop;
+  }
+  // Past something unresolved the next step gets away from it.
+  progress.ds = found.doubt.empty() || found.flat
+                    ? next_step_length(progress.ds, measures, walker.options.step)
+                    : std::min(100 * unresolved_length, walker.options.step.maximum);
+  return Outcome::go_on;
+}
+
+/// One step from a kept point, `times` as long as the anchor's, which must resolve everything on it.
+std::optional<Outcome> step_over_from(const Walker& walker, const std::vector<Event>& events,
+                                      const HitObserver& at_hit, const Anchor& anchor,
+                                      std::size_t points, double times, Progress& progress,
+                                      Curve& curve) {
+  Progress longer = anchor.before;
+  longer.here = curve.points[points - 1];
+  longer.ds *= times;
+  if (longer.ds > walker.options.step.maximum) return std::nullopt;
+  const double begin = longer.here.s;
+  Curve trial = curve;
+  trial.points.resize(points);
+  Refusal refused;
+  const Outcome outcome = advance(walker, events, at_hit, false, longer, trial, refused);
+  if (outcome == Outcome::shorten) return std::nullopt;
+  trial.log.push_back({begin, times * anchor.before.ds,
+                       "steps over special points that shorter steps do not resolve"});
+  curve = std::move(trial);
+  progress = std::move(longer);
+  return outcome;
+}
+
+/// On steps on which rounding hides the special points nothing can be told of them: longer ones are tried.
+std::optional<Outcome> step_over(const Walker& walker, const std::vector<Event>& events,
+                                 const HitObserver& at_hit, const Anchor& anchor,
+                                 Progress& progress, Curve& curve) {
+  if (anchor.tried || anchor.passing || curve.hits.size() != anchor.hits ||
+      !anchor.before.left.empty())
+    return std::nullopt;
+  const double reached = progress.here.s;
+  const std::size_t last = curve.points.size();
+  for (const auto& lengths : {std::array{4.0, 2.0, 1.0}, std::array{32.0, 16.0, 8.0}})
+    for (std::size_t i = anchor.points; i <= last; ++i) {
+      const double away = reached - curve.points[i - 1].s;
+      if (i > anchor.points && away < near_cluster * anchor.before.ds) break;
+      for (const double times : lengths)
+        if (const auto outcome =
+                step_over_from(walker, events, at_hit, anchor, i, times, progress, curve))
+          return outcome;
+    }
+  return std::nullopt;
+}
+
+/// Points among unresolved special points, reached on steps too short to tell, may lie on any branch.
+void forget_last_crawl(const Anchor& anchor, Curve& curve) {
+  constexpr double crawl = 100 * unresolved_length;
+  const auto length_of_last = [&] {
+    return curve.points.back().s - curve.points[curve.points.size() - 2].s;
+  };
+  while (anchor.set && curve.points.size() > std::max<std::size_t>(anchor.points, 1) &&
+         length_of_last() < crawl)
+    curve.points.pop_back();
+  for (Hit& hit : curve.hits)
+    if (hit.kind == HitKind::family) hit.s_after = std::min(hit.s_after, curve.points.back().s);
+}
+
+/// The main loop: steps until something ends the curve.
+void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
+            const HitObserver& at_hit, Progress& progress, Curve& curve) {
+  constexpr double level = 1e-8;
+  curve.stop = StopReason::max_points;
+  Anchor anchor;
+  while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
+    if (anchor.set && (curve.hits.size() != anchor.hits ||
+                       progress.here.s > anchor.before.here.s + anchor.before.ds))
+      anchor = {};
+    Refusal refused;
+    // Where lambda stands still, short steps are as good as long ones; elsewhere they would be led by rounding.
+    const bool report = std::abs(progress.here.tangent.dlambda) <= level;
+    Outcome outcome = advance(walker, events, at_hit, report, progress, curve, refused);
+    if (outcome == Outcome::stop) return;
+    if (outcome == Outcome::shorten) {
+      curve.log.push_back({progress.here.s, progress.ds, refused.reason});
+      if (refused.special && !anchor.set)
+        anchor = {progress, curve.points.size(), curve.hits.size(), true, false, false};
+      anchor.passing = anchor.passing || refused.passing;
+      progress.ds *= 0.5;
+      const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
+      const auto over =
+          last ? step_over(walker, events, at_hit, anchor, progress, curve) : std::nullopt;
+      if (over && *over == Outcome::stop) return;
+      if (over || (last && cross_cluster(walker, events, anchor, progress, curve)))
+        outcome = Outcome::go_on;
+      else if (progress.ds >= walker.options.step.minimum)
+        continue;
+    }
+    if (outcome == Outcome::shorten) {
+      curve.stop = StopReason::step_too_small;
+      curve.stop_detail = refused.reason;
+      forget_last_crawl(anchor, curve);
+      return;
+    }
+    if (observer && !observer(progress.here)) {
+      curve.stop = StopReason::observer;
+      return;
+    }
+  }
+  curve.stop_detail = why_so_many(walker, curve);
+}
+
+}  // namespace
+
+Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+               const TraceOptions& options) {
+  check_entry(problem, x, lambda, piece, options);
+  const Normalised own(problem, x, lambda, piece);
+  const Walker walker{own, own.metric(), options};
+  const Vector y = own.inside(x);
+  const std::vector<Index> active = active_switches(walker, y, lambda);
+  if (active.size() > 12)
+    return {.complete = false, .why = "too many switches act at the start point"};
+  Rays result = rays_at(walker, y, lambda, piece, active);
+  for (Ray& ray : result.rays) ray = own.outside(ray);
+  return result;
+}
+
+Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+            const std::vector<Event>& events, const TraceOptions& options,
+            const StepObserver& observer, const HitObserver& at_hit) {
+  check_entry(problem, x, lambda, start.piece, options);
+  check_ray(problem, start);
+  const Normalised own(problem, x, lambda, start.piece);
+  return own.outside(trace_in_own_units(own, own.inside(x), lambda, own.inside(start),
+                                        own.inside(events), options, own.inside(observer),
+                                        own.inside(at_hit)));
+}
+
+Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                         const std::vector<Event>& events, const TraceOptions& options,
+                         const StepObserver& observer, const HitObserver& at_hit) {
+  const Walker walker{problem, problem.metric(), options};
+  const CurvePoint first{.x = x, .lambda = lambda};
+  Progress progress;
+  progress.here = point_on_ray(walker, first, start);
+  progress.left = active_switches(walker, x, lambda);
+  progress.ds = options.step.initial;
+  Curve curve{.points = {progress.here}};
+  // The piece may be singular at the point itself, and the next surface as near as the way's first point.
+  if (start.start) {
+    progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
+    if (start.start->x != x || start.start->lambda != lambda) {
+      progress.here = *start.start;
+      progress.left.clear();
+      curve.points.push_back(progress.here);
+    }
+  }
+
+  follow(walker, events, observer, at_hit, progress, curve);
+  settle_families(curve);
+  check_narrow_places(walker, curve);
+  if (options.verify_arcs) curve.arcs = verified_arcs(problem, curve, options);
+  return curve;
+}
+
+}  // namespace springfold::continuation

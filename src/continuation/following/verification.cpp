@@ -1,0 +1,227 @@
+#include "springfold/continuation/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/following/tube_test.hpp"
+#include "continuation/locating/determined.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/normalised.hpp"
+#include "continuation/points/numerics.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Neighbouring steps that differ by more than this factor make no common model.
+constexpr double most_uneven = 16;
+
+/// A window is halved so many times at most.
+constexpr int most_halvings = 7;
+
+/// A branch that crosses under a small angle is left by at least an eighth of its distance: less is the model's own error.
+constexpr double own_branch = 0.1;
+
+/// Points of the curve on one smooth piece, in order; neighbours that are equal stand once.
+using Stretch = std::vector<CurvePoint>;
+
+/// The points of a curve, parted at kinks, up to the special point that ended it.
+class Stretches {
+ public:
+  explicit Stretches(const Walker& walker) : walker_{walker} {}
+
+  std::vector<Stretch> of(const Curve& curve) {
+    found_.clear();
+    begin(curve.points.front());
+    std::size_t h = 0;
+    const auto take_hits = [&](double until) {
+      for (; h < curve.hits.size() && curve.hits[h].point.s <= until; ++h) {
+        const Hit& hit = curve.hits[h];
+        const bool last = h + 1 == curve.hits.size() && hit.point.s > curve.points.back().s;
+        if (hit.switches.empty() && !last) continue;
+        add(hit.point);
+        begin(hit.leaving.empty() ? hit.point : hit.leaving.front());
+      }
+    };
+    for (std::size_t i = 1; i < curve.points.size(); ++i) {
+      take_hits(curve.points[i].s);
+      add(curve.points[i]);
+    }
+    take_hits(std::numeric_limits<double>::infinity());
+    std::erase_if(found_, [](const Stretch& s) { return s.size() < 2; });
+    return std::move(found_);
+  }
+
+ private:
+  void begin(const CurvePoint& point) { found_.push_back({point}); }
+
+  /// Seen from the point before: a closed curve may end at another copy of its start, whole periods away.
+  void add(const CurvePoint& point) {
+    Stretch& stretch = found_.back();
+    const CurvePoint& before = stretch.back();
+    if (!(point.s > before.s)) return;
+    if (point.piece != before.piece) return begin(point);
+    CurvePoint next = point;
+    next.x = before.x + between(walker_, before, point).dx;
+    next.tangent = direction_seen_from(walker_, before.x, point);
+    stretch.push_back(std::move(next));
+  }
+
+  const Walker& walker_;
+  std::vector<Stretch> found_{};
+};
+
+/// How far a model passes from a point.
+double misfit(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
+              const CurvePoint& p) {
+  const Direction from{p.x - origin.x, p.lambda - origin.lambda};
+  CurvePoint expected;
+  model.point(walker.weights, origin, metric_product(walker.weights, from, origin.tangent),
+              expected);
+  const Direction off{expected.x - p.x, expected.lambda - p.lambda};
+  return std::sqrt(metric_product(walker.weights, off, off));
+}
+
+/// One arc after the other, each cut into windows as the test needs them.
+class Verifier {
+ public:
+  Verifier(const Walker& walker, const Stretch& stretch, std::vector<Arc>& arcs)
+      : walker_{walker}, points_{stretch}, test_{walker, stretch.front().piece}, arcs_{arcs} {}
+
+  void verify(std::size_t k) {
+    arc_ = k;
+    passes_.reset();
+    const Direction chord{points_[k + 1].x - points_[k].x,
+                          points_[k + 1].lambda - points_[k].lambda};
+    way_ = metric_product(walker_.weights, chord, points_[k].tangent);
+    if (make_model(k))
+      window({0, way_}, 0);
+    else
+      record({0, way_}, ArcEvidence::sampled, 0);
+  }
+
+ private:
+  double length(std::size_t k) const { return points_[k + 1].s - points_[k].s; }
+
+  bool is_even(std::size_t a, std::size_t b) const {
+    const double ratio = length(a) / length(b);
+    return ratio <= most_uneven && ratio >= 1 / most_uneven;
+  }
+
+  /// Through the arc's ends and their neighbours; where those bend away, through the ends alone.
+  bool make_model(std::size_t k) {
+    std::vector<const CurvePoint*> nodes;
+    if (k > 0 && is_even(k - 1, k)) nodes.push_back(&points_[k - 1]);
+    nodes.insert(nodes.end(), {&points_[k], &points_[k + 1]});
+    if (k + 2 < points_.size() && is_even(k + 1, k)) nodes.push_back(&points_[k + 2]);
+    if (model_.go_through(walker_.weights, points_[k], nodes)) return true;
+    nodes = {&points_[k], &points_[k + 1]};
+    return model_.go_through(walker_.weights, points_[k], nodes);
+  }
+
+  void window(const Window& w, int halvings) {
+    if (const auto radius = test_.regular(model_, w))
+      return record(w, ArcEvidence::regular, *radius);
+    if (const auto radius = test_.crossing(model_, w); radius && on_its_own_branch())
+      return record(w, ArcEvidence::crossing, *radius);
+    if (halvings == most_halvings) return record(w, ArcEvidence::sampled, 0);
+    window({w.begin, w.middle()}, halvings + 1);
+    window({w.middle(), w.end}, halvings + 1);
+  }
+
+  void record(const Window& w, ArcEvidence evidence, double radius) {
+    const double s = points_[arc_].s, step = length(arc_);
+    const double from = s + step * (w.begin / way_);
+    const double to = w.end == way_ ? points_[arc_ + 1].s : s + step * (w.end / way_);
+    if (!arcs_.empty() && arcs_.back().evidence == evidence && arcs_.back().s_end == from &&
+        from > s) {
+      arcs_.back().s_end = to;
+      arcs_.back().radius = std::min(arcs_.back().radius, radius);
+    } else {
+      arcs_.push_back({from, to, evidence, radius});
+    }
+  }
+
+  /// Do the points behind the arc lead to its end, and those ahead to its begin, and to no branch that crosses?
+  bool on_its_own_branch() {
+    if (!passes_) passes_ = leads(arc_, -1) && leads(arc_ + 1, 1);
+    return *passes_;
+  }
+
+  /// @param side  -1: the points up to `from` lead to the next one; 1: those from it on lead to the one before
+  bool leads(std::size_t from, int side) {
+    constexpr std::size_t most = 3;
+    std::vector<const CurvePoint*> nodes;
+    for (auto i = static_cast<std::ptrdiff_t>(from);
+         i >= 0 && i < std::ssize(points_) && nodes.size() < most; i += side)
+      nodes.push_back(&points_[static_cast<std::size_t>(i)]);
+    if (nodes.size() < 2) return false;
+    if (side < 0) std::reverse(nodes.begin(), nodes.end());
+    const CurvePoint& to = points_[side < 0 ? from + 1 : from - 1];
+    ArcModel model;
+    if (!model.go_through(walker_.weights, points_[from], nodes)) return false;
+    const WatchedStep step(walker_, to, length(arc_));
+    const auto other = separation_at(step, to);
+    const double off = misfit(walker_, model, points_[from], to);
+    return other && (off <= own_branch * other->distance || off <= between_samples * other->blur);
+  }
+
+  const Walker& walker_;
+  const Stretch& points_;
+  TubeTest test_;
+  ArcModel model_{};
+  std::vector<Arc>& arcs_;
+  std::size_t arc_ = 0;
+  double way_ = 0;  ///< of the arc, along the tangent where it begins
+  std::optional<bool> passes_{};
+};
+
+}  // namespace
+
+std::string_view to_string(ArcEvidence evidence) {
+  switch (evidence) {
+    case ArcEvidence::sampled:
+      return "sampled";
+    case ArcEvidence::regular:
+      return "regular";
+    case ArcEvidence::crossing:
+      return "crossing";
+  }
+  return "unknown";
+}
+
+std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
+                               const TraceOptions& options) {
+  std::vector<Arc> arcs;
+  if (curve.points.empty()) return arcs;
+  const CurvePoint& start = curve.points.front();
+  const Normalised own(problem, start.x, start.lambda, start.piece);
+  const Walker walker{own, own.metric(), options};
+  Curve inside;
+  for (const CurvePoint& p : curve.points) inside.points.push_back(own.inside(p));
+  for (Hit hit : curve.hits) {
+    hit.point = own.inside(hit.point);
+    for (CurvePoint& p : hit.leaving) p = own.inside(p);
+    inside.hits.push_back(std::move(hit));
+  }
+  for (const Stretch& stretch : Stretches(walker).of(inside)) {
+    if (problem.structured()) {
+      arcs.push_back({stretch.front().s, stretch.back().s});
+      continue;
+    }
+    Verifier verifier(walker, stretch, arcs);
+    for (std::size_t k = 0; k + 1 < stretch.size(); ++k) verifier.verify(k);
+  }
+  return arcs;
+}
+
+ArcLengths lengths_of(const std::vector<Arc>& arcs) {
+  ArcLengths lengths;
+  for (const Arc& arc : arcs) {
+    lengths.all += arc.s_end - arc.s_begin;
+    if (arc.evidence != ArcEvidence::sampled) lengths.verified += arc.s_end - arc.s_begin;
+  }
+  return lengths;
+}
+
+}  // namespace springfold::continuation

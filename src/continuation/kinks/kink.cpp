@@ -1,0 +1,198 @@
+#include "springfold/continuation/kink.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/piece_ways.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+enum class Side { in, out, rests, unclear };
+
+/// On which side of a surface that is tangential here is a value of the switch?
+Side side_of(const Walker& walker, double value) {
+  const double zero = walker.options.simultaneous, clear = 10 * zero;
+  if (std::abs(value) > clear) return value > 0 ? Side::in : Side::out;
+  return std::abs(value) <= zero ? Side::rests : Side::unclear;
+}
+
+/// To which side of the surfaces `grazed`, tangential here, does the curve of a piece bend?
+/// rests: it stays within the surface.
+std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const PieceWay& way,
+                           const std::vector<Index>& grazed) {
+  std::vector<Side> sides(grazed.size(), Side::unclear);
+  const auto look = [&](const CurvePoint& point) {
+    Vector g;
+    if (!walker.problem.switches(point.x, point.lambda, g)) return;
+    for (std::size_t i = 0; i < grazed.size(); ++i)
+      if (sides[i] != Side::in && sides[i] != Side::out)
+        sides[i] = side_of(walker, at.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]]);
+  };
+  if (way.start) {
+    look(*way.start);
+    return sides;
+  }
+  CurvePoint start = at;
+  start.tangent = way.tangent;
+  for (const double ds : {1e-4, 1e-3, 1e-2})
+    if (const auto point = point_at(walker, start, ds)) look(*point);
+  return sides;
+}
+
+/// Collects rays; one that several pieces share because switches rest on it is kept once.
+class Collector {
+ public:
+  Collector(const Walker& walker, const Piece& preferred)
+      : walker_{walker}, preferred_{preferred} {}
+
+  Rays result{};
+
+  void doubt(std::string why) {
+    result.complete = false;
+    result.why = std::move(why);
+  }
+
+  /// True if this ray of this piece is known already from a piece beyond its resting switches. It is kept in the
+  /// piece that was asked for, if that is regular.
+  bool known(const Piece& piece, const Direction& d, double accuracy, bool regular) {
+    for (Ray& ray : result.rays) {
+      if (!differ_only(ray.piece, piece, ray.resting) ||
+          !same_direction(walker_.weights, ray.tangent, d, 10 * accuracy))
+        continue;
+      if (regular && !ray.resting.empty() && differ_only(piece, preferred_, others(ray.resting)))
+        ray.piece = piece;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
+    for (std::size_t j = 0; j < a.size(); ++j)
+      if (a[j] != b[j] &&
+          std::find(where.begin(), where.end(), static_cast<Index>(j)) == where.end())
+        return false;
+    return true;
+  }
+  std::vector<Index> others(const std::vector<Index>& resting) const {
+    std::vector<Index> rest;
+    for (Index j = 0; j < static_cast<Index>(preferred_.size()); ++j)
+      if (std::find(resting.begin(), resting.end(), j) == resting.end()) rest.push_back(j);
+    return rest;
+  }
+
+  const Walker& walker_;
+  const Piece& preferred_;
+};
+
+/// Keeps one direction of one piece if it leads into the piece.
+void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
+           const Surfaces& surfaces, Collector& collector) {
+  std::vector<Index> grazed, resting;
+  for (const Index j : surfaces.active) {
+    const double rate = at.piece[static_cast<std::size_t>(j)] *
+                        switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
+    if (rate < -way.accuracy) return;
+    if (rate <= way.accuracy) grazed.push_back(j);
+  }
+  if (collector.known(at.piece, way.tangent, way.accuracy, !way.start)) return;
+  if (!grazed.empty()) {
+    const std::vector<Side> sides = sides_of(walker, at, way, grazed);
+    if (std::find(sides.begin(), sides.end(), Side::out) != sides.end()) return;
+    for (std::size_t i = 0; i < grazed.size(); ++i) {
+      if (sides[i] == Side::rests) resting.push_back(grazed[i]);
+      if (sides[i] == Side::unclear)
+        return collector.doubt("the curve grazes a switching surface: " +
+                               walker.problem.switch_name(grazed[i]));
+    }
+  }
+  collector.result.rays.push_back({at.piece, way.tangent, std::move(resting), way.start});
+}
+
+Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {
+  for (std::size_t k = 0; k < active.size(); ++k)
+    piece[static_cast<std::size_t>(active[k])] = (pattern >> k) & 1u ? 1 : -1;
+  return piece;
+}
+
+/// By pieces, counted in binary with the first active switch as the lowest digit.
+void sort_by_piece(const std::vector<Index>& active, std::vector<Ray>& rays) {
+  const auto before = [&](const Ray& a, const Ray& b) {
+    for (std::size_t k = active.size(); k-- > 0;) {
+      const auto j = static_cast<std::size_t>(active[k]);
+      if (a.piece[j] != b.piece[j]) return a.piece[j] < b.piece[j];
+    }
+    return false;
+  };
+  std::stable_sort(rays.begin(), rays.end(), before);
+}
+
+}  // namespace
+
+double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
+  return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
+}
+
+bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
+                    double tolerance) {
+  const Direction d{a.dx - b.dx, a.dlambda - b.dlambda};
+  return metric_product(weights, d, d) <= tolerance * tolerance;
+}
+
+std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda) {
+  std::vector<Index> active;
+  Vector g;
+  if (!walker.problem.switches(x, lambda, g)) return active;
+  for (Index j = 0; j < g.size(); ++j)
+    if (std::abs(g[j]) <= walker.options.simultaneous) active.push_back(j);
+  return active;
+}
+
+Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
+                 double full_rank) {
+  assert(active.size() <= most_active);
+  Surfaces surfaces{.active = active};
+  if (!active.empty() &&
+      !walker.problem.switch_gradients(at.x, at.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
+    return {.complete = false, .why = "switching functions are not defined here"};
+  Collector collector(walker, at.piece);
+  std::vector<unsigned> singular;
+  CurvePoint ray = at;
+  const auto add = [&](const PieceWays& ways) {
+    if (!ways.why.empty()) collector.doubt(ways.why);
+    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, collector);
+  };
+  for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
+    ray.piece = piece_of(at.piece, active, pattern);
+    const PieceWays ways = regular_ways(walker, ray, full_rank, active.empty());
+    if (ways.singular) singular.push_back(pattern);
+    add(ways);
+  }
+  if (active.empty() && !singular.empty())
+    collector.doubt("more than one curve, or none, passes through this point");
+  if (!active.empty())
+    for (const unsigned pattern : singular) {
+      ray.piece = piece_of(at.piece, active, pattern);
+      std::vector<Direction> known;
+      for (const Ray& other : collector.result.rays) known.push_back(other.tangent);
+      add(singular_ways(walker, ray, surfaces, known));
+    }
+  sort_by_piece(active, collector.result.rays);
+  return std::move(collector.result);
+}
+
+Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
+             const std::vector<Index>& active) {
+  CurvePoint at;
+  at.x = x;
+  at.lambda = lambda;
+  at.piece = piece;
+  return rays_around(walker, at, active, active.empty() ? 1e-12 : 1e-9);
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,239 @@
+#include "continuation/kinks/kink_half_branches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/kinks/kink_passage.hpp"
+#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/linear/extended.hpp"
+#include "continuation/locating/singular.hpp"
+#include "springfold/continuation/locate.hpp"
+#include "springfold/core/inertia.hpp"
+#include "springfold/core/piecewise_form.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+constexpr std::size_t most_resting = 6;  // 2^6 pieces are watched on every step
+constexpr double one_point = 1e-8;  // arc length within which zeros of different pieces are one
+constexpr double located = 1e-7;    // ratio of singular values at a located branch point
+
+/// An eigenvalue of some piece is zero here.
+struct ZeroBeside {
+  Hit hit{};
+  bool own = false;      ///< in the step's own piece
+  bool crosses = false;  ///< of some piece it changes sign
+};
+
+bool singular_kind(HitKind kind) { return kind == HitKind::branch_point || kind == HitKind::touch; }
+
+void add_place(Hit hit, bool own, std::vector<ZeroBeside>& places) {
+  const bool crosses = hit.kind == HitKind::branch_point;
+  for (ZeroBeside& place : places)
+    if (std::abs(place.hit.point.s - hit.point.s) <= one_point) {
+      place.crosses = place.crosses || crosses;
+      return;
+    }
+  places.push_back({std::move(hit), own, crosses});
+}
+
+/// Those of the step's own piece are taken out of `found`.
+void take_own(StepEvents& found, std::vector<ZeroBeside>& places) {
+  StepEvents rest = found;
+  rest.hits.clear();
+  rest.stops.clear();
+  for (std::size_t i = 0; i < found.hits.size(); ++i) {
+    if (singular_kind(found.hits[i].kind)) {
+      add_place(std::move(found.hits[i]), true, places);
+    } else {
+      rest.hits.push_back(std::move(found.hits[i]));
+      rest.stops.push_back(found.stops[i]);
+    }
+  }
+  found = std::move(rest);
+}
+
+/// Directions of the resting switches, k x r, in the motions that the other equations admit; nothing where
+/// that cannot be told.
+std::optional<Matrix> admitted_directions(const Walker& walker, const CurvePoint& at,
+                                          const std::vector<Index>& resting) {
+  if (walker.problem.structured()) return std::nullopt;
+  Linearisation linear;
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear) ||
+      !walker.problem.switch_gradients(at.x, at.lambda, dg_dx, dg_dlambda))
+    return std::nullopt;
+  const auto k = static_cast<Index>(resting.size());
+  const Matrix E = dg_dx(resting, Eigen::all).transpose();
+  const auto X = solve_symmetric(linear.dF_dx, E);
+  if (!X) return std::nullopt;
+  const auto form = condensed_form(E.transpose() * *X, 0, Vector::Zero(k), -Vector::Ones(k));
+  return form ? std::optional<Matrix>(form->form.directions) : std::nullopt;
+}
+
+/// Is there room for the piece beside the curve? (Two opposite springs are never both stretched.)
+bool has_room(const std::optional<Matrix>& directions, const Piece& piece,
+              const std::vector<Index>& resting) {
+  if (!directions) return true;
+  Matrix sides = *directions;
+  for (std::size_t k = 0; k < resting.size(); ++k)
+    sides.row(static_cast<Index>(k)) *= piece[static_cast<std::size_t>(resting[k])];
+  return inside_cone(sides).has_value();
+}
+
+/// A piece that is singular at the begin of the step, where the curve leaves a junction, is looked at from a
+/// little further on: that zero belongs to the junction.
+/// @param own  the begin of the step in its own piece, with which the others share the curve
+void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
+                         std::vector<CurvePoint>& points) {
+  constexpr double share = 1e-2;  // of the step
+  CurvePoint& first = points.front();
+  Linearisation at;
+  if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
+  const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
+  const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
+  if (!(least_singular_values(E, 1)[0] <= located_rank * size)) return;
+  auto moved = point_at(walker, own, share * (points.back().s - first.s));
+  if (!moved) return;
+  moved->piece = first.piece;
+  moved->negative.reset();
+  first = std::move(*moved);
+}
+
+void find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+                 StepEvents& found, std::vector<ZeroBeside>& places) {
+  const Piece own = samples.front()->piece;
+  const auto directions = admitted_directions(walker, *samples.front(), resting);
+  for (unsigned pattern = 1; pattern < (1u << resting.size()); ++pattern) {
+    Piece piece = own;
+    for (std::size_t k = 0; k < resting.size(); ++k)
+      if ((pattern >> k) & 1u) {
+        auto& side = piece[static_cast<std::size_t>(resting[k])];
+        side = side > 0 ? -1 : 1;
+      }
+    if (!has_room(directions, piece, resting)) continue;
+    std::vector<CurvePoint> moved;
+    for (const CurvePoint* sample : samples) {
+      moved.push_back(*sample);
+      moved.back().piece = piece;
+      moved.back().negative.reset();
+    }
+    leave_zero_at_begin(walker, *samples.front(), moved);
+    std::vector<const CurvePoint*> pointers;
+    for (const CurvePoint& point : moved) pointers.push_back(&point);
+    SingularPoints singular = singular_points(walker, pointers);
+    if (!singular.doubt.empty()) {
+      found.doubt = "beside " + names_of(walker.problem, resting) + ": " + singular.doubt;
+      found.unexplained = singular.unexplained;
+    }
+    for (Hit& hit : singular.hits)
+      if (singular_kind(hit.kind)) {
+        hit.point.piece = own;
+        add_place(std::move(hit), false, places);
+      }
+  }
+}
+
+bool along_the_curve(const Walker& walker, const Ray& ray, const Direction& tangent) {
+  return std::abs(std::abs(metric_product(walker.weights, ray.tangent, tangent)) - 1) < 1e-9;
+}
+
+CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) {
+  CurvePoint start = point_on_ray(walker, at, ray);
+  if (ray.start) {
+    start.negative = ray.start->negative;
+    return start;
+  }
+  const auto beyond = point_at(walker, start, 1e-4);  // at the point itself an eigenvalue is zero
+  start.negative = beyond ? beyond->negative : std::nullopt;
+  return start;
+}
+
+/// Turns a place into what it is; false: nothing leaves here and nothing of this piece changes.
+bool explain(const Walker& walker, const std::vector<Index>& resting, ZeroBeside& place) {
+  Hit& hit = place.hit;
+  const std::string names = names_of(walker.problem, resting);
+  const Rays rays = rays_around(walker, hit.point, resting, located);
+  hit.switches = resting;
+  hit.leaving = {start_of(walker, hit.point, {hit.point.piece, hit.point.tangent})};
+  for (const Ray& ray : rays.rays)
+    if (!along_the_curve(walker, ray, hit.point.tangent))
+      hit.leaving.push_back(start_of(walker, hit.point, ray));
+  if (!rays.complete) {
+    hit.kind = HitKind::unresolved;
+    hit.name = "unresolved: branches beside " + names + ": " + rays.why;
+    return true;
+  }
+  if (hit.leaving.size() > 1) {
+    hit.kind = HitKind::branching_kink;
+    hit.name = "half-branch beside " + names;
+    return true;
+  }
+  if (!place.own) return false;
+  if (!place.crosses) return true;  // still a touch
+  hit.kind = HitKind::kink;
+  hit.name = "eigenvalue zero beside " + names + ", no branch leaves";
+  return true;
+}
+
+void sort_by_place(StepEvents& found) {
+  std::vector<std::size_t> order(found.hits.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return found.hits[a].point.s < found.hits[b].point.s;
+  });
+  StepEvents sorted = found;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.hits[i] = found.hits[order[i]];
+    sorted.stops[i] = found.stops[order[i]];
+  }
+  found = std::move(sorted);
+}
+
+/// Too many pieces: said once for the whole stretch.
+void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vector<Index>& resting,
+                    StepEvents& found, Curve& curve) {
+  for (Hit& hit : curve.hits)
+    if (hit.kind == HitKind::unresolved && hit.switches == resting && hit.s_after >= from.s) {
+      hit.s_after = to.s;
+      return;
+    }
+  Hit hit{.kind = HitKind::unresolved,
+          .name = "unresolved: " + std::to_string(resting.size()) +
+                  " switches rest at zero; branches beside them are not looked for",
+          .point = from,
+          .switches = resting,
+          .s_before = from.s,
+          .s_after = to.s};
+  found.hits.push_back(std::move(hit));
+  found.stops.push_back(false);
+  sort_by_place(found);
+}
+
+}  // namespace
+
+void add_half_branches(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+                       StepEvents& found, Curve& curve) {
+  if (!walker.problem.symmetric() || !walker.options.branch_points) return;
+  if (resting.size() > most_resting)
+    return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
+  std::vector<ZeroBeside> places;
+  take_own(found, places);
+  find_places(walker, samples, resting, found, places);
+  for (ZeroBeside& place : places) {
+    const double s = place.hit.point.s;
+    if (explain(walker, resting, place)) {
+      found.hits.push_back(std::move(place.hit));
+      found.stops.push_back(false);
+    } else {
+      curve.log.push_back({s, 0,
+                           "an eigenvalue is zero beside " + names_of(walker.problem, resting) +
+                               ", but its branch leads out of its piece"});
+    }
+  }
+  sort_by_place(found);
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,373 @@
+// Zeros of the switching functions on one step.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/linear/extended.hpp"
+#include "continuation/locating/zeros.hpp"
+#include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/branch_point.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+constexpr double rounding_of_points = 1e-12;  // in switching functions, of their size
+constexpr double flat = 1e-9;                 // rates below this run along a surface
+constexpr double resolution = 1e-9;           // of zeros on one step
+/// Of the accuracy to which kinks are placed: so far apart they are two.
+constexpr double between_places = 100;
+
+/// One switching function on one step, positive on the side of the step's piece.
+struct Watched {
+  const Walker& walker;
+  const CurvePoint& from;
+  double h = 0;
+  Index j = 0;
+  double side = 1;
+  double noise = 0;  ///< values below this are rounding of the corrected points
+
+  std::optional<double> value(double ds) const {
+    CurvePoint& point = walker.memory->trial;
+    return find_point_at(walker, from, ds, point) ? value(point) : std::nullopt;
+  }
+  std::optional<double> value(const CurvePoint& p) const {
+    Vector& g = walker.memory->g;
+    if (!walker.problem.switches(p.x, p.lambda, g)) return std::nullopt;
+    return side * g[j];
+  }
+};
+
+double rate_at(const Watched& f, const CurvePoint& p) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
+    return std::numeric_limits<double>::quiet_NaN();
+  const double along = metric_product(f.walker.weights, p.tangent, f.from.tangent);
+  // Step lengths are measured along from.tangent: rates by the arc are smaller by this.
+  return f.side * switch_rate(dg_dx, dg_dlambda, f.j, p.tangent) / along;
+}
+
+/// What was found of one switching function.
+struct Crossing {
+  bool clear = true;                 ///< false: could not be told
+  bool touches = false;              ///< touches zero before it crosses, or without
+  std::optional<Located> located{};  ///< its first crossing
+};
+
+/// A crossing at which the piece's own extended Jacobian loses rank (its branch point lies on the
+/// surface): no point can be corrected there, so the place is taken from the points around it and
+/// refined by the augmented system of the branch point.
+/// @pre f has opposite signs at a and b
+Crossing crossing_at_branch_point(const Watched& f, double a, double b) {
+  const double reach = 1e-4 * (b - a);
+  double place = 0.5 * (a + b);
+  while (b - a > reach) {
+    place = 0.5 * (a + b);
+    const auto value = f.value(place);
+    if (!value || *value == 0) break;
+    (*value > 0 ? a : b) = place;
+  }
+  const auto before = point_at(f.walker, f.from, place - reach);
+  const auto after = point_at(f.walker, f.from, place + reach);
+  if (!before || !after || !f.walker.problem.symmetric()) return {.clear = false};
+  CurvePoint near = *before;
+  near.x = 0.5 * (before->x + after->x);
+  near.lambda = 0.5 * (before->lambda + after->lambda);
+  near.tangent = {0.5 * (before->tangent.dx + after->tangent.dx),
+                  0.5 * (before->tangent.dlambda + after->tangent.dlambda)};
+  const double length = std::sqrt(metric_product(f.walker.weights, near.tangent, near.tangent));
+  near.tangent.dx /= length;
+  near.tangent.dlambda /= length;
+  auto point = refine_branch_point(f.walker, near);
+  const auto value = point ? f.value(*point) : std::nullopt;
+  if (!value || std::abs(*value) > f.walker.options.simultaneous) return {.clear = false};
+  const Direction moved{point->x - f.from.x, point->lambda - f.from.lambda};
+  const double at = metric_product(f.walker.weights, moved, f.from.tangent);
+  if (!(std::abs(at - place) <= 2 * reach)) return {.clear = false};
+  point->tangent = near.tangent;
+  point->piece = f.from.piece;
+  point->s = f.from.s + at;
+  point->negative.reset();
+  return {.located = Located{std::move(*point), place - reach, place + reach}};
+}
+
+Crossing crossing_in(const Watched& f, double a, double b) {
+  const auto value = [&f](const CurvePoint& p) {
+    return f.value(p).value_or(std::numeric_limits<double>::quiet_NaN());
+  };
+  Crossing result{.located = locate(f.walker, f.from, a, b, value)};
+  return result.located ? result : crossing_at_branch_point(f, a, b);
+}
+
+/// All zeros between step lengths a and b are looked for; the first crossing counts.
+Crossing first_of_all(const Watched& f, double a, double b) {
+  const auto value = [&f](double ds) { return f.value(ds); };
+  const ZeroSearch search = find_zeros(value, a, b, f.noise, resolution * f.h);
+  Crossing result{.clear = search.resolved};
+  double start = a;
+  for (const ZeroOf& zero : search.zeros) {
+    if (zero.touches) {
+      result.touches = true;
+      continue;
+    }
+    // Bracket it by values beyond rounding; it can lie very near to the next one.
+    for (const double reach : {1e-6 * f.h, 1e-3 * f.h, 0.1 * f.h}) {
+      const double low = std::max(start, zero.at - reach), high = std::min(b, zero.at + reach);
+      const auto f0 = f.value(low), f1 = f.value(high);
+      if (f0 && f1 && *f0 > 0 && *f1 < 0) {
+        Crossing crossing = crossing_in(f, low, high);
+        crossing.touches = result.touches;
+        return crossing;
+      }
+    }
+    result.located = {{}, zero.before, zero.after};
+    auto point = point_at(f.walker, f.from, zero.at);
+    if (!point || !(zero.at > 0)) return {.clear = false};
+    result.located->point = std::move(*point);
+    return result;
+  }
+  return result;
+}
+
+/// Cubic by values and slopes at both ends of an interval.
+struct Cubic {
+  double f0 = 0, d0 = 0, f1 = 0, d1 = 0, h = 1;
+
+  double quadratic() const { return (3 * (f1 - f0) / h - 2 * d0 - d1) / h; }
+  double cubic() const { return (d0 + d1 - 2 * (f1 - f0) / h) / (h * h); }
+  double operator()(double t) const { return f0 + t * (d0 + t * (quadratic() + t * cubic())); }
+  /// The ends and, in order between them, where the slope d0 + 2 a t + 3 b t^2 is zero.
+  std::vector<double> turns() const {
+    const double a = quadratic(), b = cubic(), discriminant = a * a - 3 * b * d0;
+    std::vector<double> at{0, h};
+    if (discriminant >= 0) {
+      const double q = -(a + std::copysign(std::sqrt(discriminant), a));
+      for (const double t : {b != 0 ? q / (3 * b) : -1.0, q != 0 ? d0 / q : -1.0})
+        if (t > 0 && t < h) at.push_back(t);
+    }
+    std::sort(at.begin(), at.end());
+    return at;
+  }
+  double least() const {
+    double low = f0;
+    for (const double t : turns()) low = std::min(low, t == h ? f1 : (*this)(t));
+    return low;
+  }
+  int zeros() const {
+    int count = 0;
+    bool positive = f0 >= 0;
+    for (const double t : turns()) {
+      const bool next = (t == 0 ? f0 : t == h ? f1 : (*this)(t)) >= 0;
+      count += next != positive;
+      positive = next;
+    }
+    return count;
+  }
+};
+
+/// Judges by ends and middle; looks closer only where that leaves a doubt.
+Crossing judge(const Watched& f, double a, const Cubic& cubic) {
+  const double change = std::max(
+      {std::abs(cubic.f1 - cubic.f0), cubic.h * std::abs(cubic.d0), cubic.h * std::abs(cubic.d1)});
+  if (cubic.f1 >= 0 && std::min(cubic.f0, cubic.f1) > 2 * change) return {};  // out of reach
+  const auto middle = f.value(a + 0.5 * cubic.h);
+  if (!middle) return {.clear = false};
+  const double share = 0.02 * change;
+  const bool fits = std::abs(*middle - cubic(0.5 * cubic.h)) <= share + f.noise;
+  const double least = cubic.least();
+  if (fits && cubic.f1 >= 0 && (least > share || least >= std::min(cubic.f0, cubic.f1))) return {};
+  if (fits && cubic.f1 < 0 && cubic.d0 <= 0 && cubic.d1 <= 0 && cubic.zeros() == 1) {
+    // Crossed steeply it is the only zero; nearly flat there may be two more beside it.
+    Crossing only = crossing_in(f, a, a + cubic.h);
+    if (only.clear && rate_at(f, only.located->point) < -share / cubic.h) return only;
+  }
+  return first_of_all(f, a, a + cubic.h);
+}
+
+/// A switch that is being left starts at zero, or within `slack` if it only acted together with
+/// others there: the step length at which it is clearly positive.
+std::optional<double> departure(const Watched& f, double slack) {
+  for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    const auto value = f.value(share * f.h);
+    if (!value || *value < -slack) return std::nullopt;
+    if (*value > f.noise) return share * f.h;
+  }
+  return std::nullopt;
+}
+
+constexpr double steep = 1e-4;
+
+/// The curve ends its step on a surface, or just before: take the surface into this step, or, where
+/// it is nearly tangential, let the step end elsewhere.
+Crossing at_the_end(const Watched& f, double f1, double d1) {
+  if (!(d1 < -steep)) return {.clear = false};
+  return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
+}
+
+/// @param cubic  values and rates at the ends of the step
+Crossing crossing_of(const Watched& f, Cubic cubic, bool leaves) {
+  double a = 0;
+  if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
+  const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
+  const bool near_end = cubic.f1 >= 0 && cubic.f1 <= within;
+  if (leaves || cubic.f0 <= f.noise) {
+    const auto start = departure(f, leaves ? f.walker.options.simultaneous : f.noise);
+    if (!start) return {.clear = false};
+    if (*start < f.h) {
+      const auto point = point_at(f.walker, f.from, *start);
+      if (!point) return {.clear = false};
+      a = *start;
+      cubic = {*f.value(*point), rate_at(f, *point), cubic.f1, cubic.d1, f.h - a};
+    } else if (!near_end) {
+      return {};
+    }
+  }
+  if (near_end) return at_the_end(f, cubic.f1, cubic.d1);
+  return judge(f, a, cubic);
+}
+
+/// Where a branch point of the piece lies on the surface, corrected points beside it are uncertain, and so is the
+/// kink: it is the branch point itself, if that is on the surface too.
+void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSearch& kink) {
+  CurvePoint& point = kink.point;
+  Linearisation at;
+  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return;
+  const ExtendedMatrix E = extended_matrix(at, walker.weights, point.tangent);
+  const Vector least = least_singular_values(E, 1);
+  const double size = magnitudes(E, irregular_columns(point.x.size() + 1, 1)).norm();
+  if (!(least.size() > 0 && least[0] <= perhaps_singular * size)) return;
+  const auto place = refine_branch_point(walker, point);
+  if (!place) return;
+  Vector g;
+  if (!walker.problem.switches(place->x, place->lambda, g)) return;
+  for (const Index j : active_switches(walker, point.x, point.lambda))
+    if (std::abs(g[j]) > walker.options.simultaneous) return;
+  const Direction moved{place->x - point.x, place->lambda - point.lambda};
+  const double off = std::sqrt(metric_product(walker.weights, moved, moved));
+  if (!(off <= perhaps_singular)) return;
+  point.x = place->x;
+  point.lambda = place->lambda;
+  point.s = std::max(from.s, point.s + metric_product(walker.weights, moved, point.tangent));
+  point.negative.reset();
+  kink.before = std::min(kink.before, point.s - from.s);
+  kink.after = std::max(kink.after, point.s - from.s);
+}
+
+bool read_switches(const Walker& walker, const CurvePoint& p, WorkingMemory::Switches& at) {
+  return walker.problem.switches(p.x, p.lambda, at.g) &&
+         walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
+}
+
+/// Size of what a switching function is made of: multipliers beside it do not count.
+double size_of(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+  return at.dg_dx.row(j).cwiseAbs().dot(p.x.cwiseAbs()) + std::abs(at.dg_dlambda[j] * p.lambda);
+}
+
+double rate_along(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+  return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
+}
+
+/// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
+/// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
+/// zero. What runs along its surface, or is led by rounding, acts here.
+bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+                       const WorkingMemory::Switches& before, const WorkingMemory::Switches& here,
+                       Index j) {
+  const double length = kink.s - from.s, change = here.g[j] - before.g[j];
+  const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
+  if (!(length > resolution) || !(std::min(std::abs(rate), std::abs(rate_before)) > flat))
+    return false;
+  constexpr double alike = 0.25;
+  const bool follows =
+      std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
+      rate * rate_before > 0;
+  return follows && std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous;
+}
+
+/// Switches that are zero at the kink, and not just near to zero there.
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink) {
+  std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
+  WorkingMemory::Switches before, here;
+  if (active.size() < 2 || !read_switches(walker, from, before) ||
+      !read_switches(walker, kink, here))
+    return active;
+  std::erase_if(active,
+                [&](Index j) { return is_zero_elsewhere(walker, from, kink, before, here, j); });
+  return active;
+}
+
+}  // namespace
+
+std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
+                                    const CurvePoint& to) {
+  std::vector<Index> resting;
+  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
+  if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
+      !walker.problem.switches(from.x, from.lambda, first.g) ||
+      !walker.problem.switches(to.x, to.lambda, last.g))
+    return resting;
+  std::vector<Index> candidates;
+  for (Index j = 0; j < first.g.size(); ++j)
+    if (std::max(std::abs(first.g[j]), std::abs(last.g[j])) <= walker.options.simultaneous)
+      candidates.push_back(j);
+  if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
+    return resting;
+  for (const Index j : candidates) {
+    if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) > flat)
+      continue;
+    bool stays = true;
+    for (const double share : {0.31, 0.62}) {
+      const auto point = point_at(walker, from, share * (to.s - from.s));
+      Vector g;
+      stays = stays && point && walker.problem.switches(point->x, point->lambda, g) &&
+              std::abs(g[j]) <= walker.options.simultaneous;
+    }
+    if (stays) resting.push_back(j);
+  }
+  return resting;
+}
+
+KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                      const std::vector<Index>& left) {
+  KinkSearch result;
+  const Index m = walker.problem.switch_count();
+  if (m == 0) return result;
+  const std::vector<Index> resting = resting_switches(walker, from, to);
+  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
+  if (!read_switches(walker, from, first) || !read_switches(walker, to, last))
+    return {.status = KinkSearch::Status::suspicious};
+  // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
+  const double along = metric_product(walker.weights, to.tangent, from.tangent);
+  const double h = to.s - from.s;
+  const auto among = [](const std::vector<Index>& list, Index j) {
+    return std::find(list.begin(), list.end(), j) != list.end();
+  };
+  for (Index j = 0; j < m; ++j) {
+    if (among(resting, j)) continue;
+    const double side = from.piece[static_cast<std::size_t>(j)];
+    const double noise =
+        rounding_of_points * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
+    const Watched watched{walker, from, h, j, side, noise};
+    const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
+                     side * rate_along(last, j, to) / along, h};
+    Crossing crossing = crossing_of(watched, ends, among(left, j));
+    if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
+    if (crossing.touches) result.touched.push_back(j);
+    if (!crossing.located ||
+        (result.status == KinkSearch::Status::found && crossing.located->point.s >= result.point.s))
+      continue;
+    result.status = KinkSearch::Status::found;
+    result.point = std::move(crossing.located->point);
+    result.before = crossing.located->before;
+    result.after = crossing.located->after;
+  }
+  if (result.status != KinkSearch::Status::found) return result;
+  settle_on_branch_point(walker, from, result);
+  result.active = acting_at(walker, from, result.point);
+  return result;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,208 @@
+#include "continuation/locating/branch_candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/locating/reduced_equation.hpp"
+#include "continuation/locating/sigma_touch.hpp"
+#include "continuation/points/coincide.hpp"
+#include "springfold/continuation/branch_point.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
+/// because rounding matters less, narrow ones where the curve is not smooth enough. How far they
+/// differ shows what can be told.
+bool turns_at(const WatchedStep& arc, double t) {
+  std::vector<double> distances;  // from t to the turn
+  for (const double share : {1.0, 0.3, 0.1}) {
+    const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
+    if (!curve) continue;
+    const Index n = curve->values.rows() - 1;
+    const double h = 0.1 * (curve->b - curve->a);
+    const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
+    distances.push_back(-curve->slope(t)[n] / change);
+  }
+  std::erase_if(distances, [](double d) { return !std::isfinite(d); });
+  if (distances.empty()) return false;
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
+  const double nearest = std::min(std::abs(*low), std::abs(*high));
+  return *low * *high <= 0 ? *high - *low <= blurred
+                           : nearest <= merged + std::min(*high - *low, 0.1 * blurred);
+}
+
+/// Removes what is left of the residual within the directions that dF sees well.
+void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
+  const auto& walker = arc.walker();
+  Vector F;
+  for (int i = 0; i < 2; ++i) {
+    const auto E = arc.matrix(point);
+    if (!E || !walker.problem.residual(point.x, point.lambda, point.piece, F)) return;
+    const Borders borders = borders_of(*E, corank);
+    const Index n = F.size();
+    Matrix right = Matrix::Zero(n + 1 + corank, 1);
+    right.topRows(n) = -F;
+    const auto step = solve_with(*E, borders, right);
+    if (!step || step->topRows(n + 1).norm() > 1e-6) return;
+    point.x += step->col(0).head(n);
+    point.lambda += (*step)(n, 0);
+  }
+}
+
+/// Are exactly m singular values of E small here, with a gap to the others?
+bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
+  constexpr double gap = 0.1;
+  const auto E = arc.matrix(point);
+  if (!E) return false;
+  if (m >= E->rows()) return true;
+  const Vector values = least_singular_values(*E, m + 1);
+  return values[m - 1] <= gap * values[m];
+}
+
+/// How far another place is from an interpolated one, along the interpolated curve and aside of it.
+struct Offset {
+  double at = 0;  ///< arc length of the other place
+  double along = 0, aside = 0;
+};
+
+Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePoint& interpolated,
+                 const CurvePoint& other) {
+  const Vector& weights = arc.walker().weights;
+  const Index n = other.x.size();
+  const Direction from_start{other.x - arc.from().x, other.lambda - arc.from().lambda};
+  Offset offset{.at = metric_product(weights, from_start, arc.from().tangent)};
+  offset.along = offset.at - place.at;
+  const Direction aside{other.x - interpolated.x - offset.along * place.along.head(n),
+                        other.lambda - interpolated.lambda - offset.along * place.along[n]};
+  offset.aside = std::sqrt(metric_product(weights, aside, aside));
+  return offset;
+}
+
+/// Takes over the exact place of a branch point, if it is this one: near the interpolated place, and on
+/// the interpolated curve. Otherwise the interpolated one stays, with what is known of its error.
+/// @returns false when the curves pass each other there, or the place is not known
+bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Candidate& found) {
+  const int corank = static_cast<int>(m);
+  const double reach = std::clamp(0.3 * place.free, together, 1e-3);
+  const auto exact = place_branch_point(arc.walker(), found.point, corank, 2 * reach);
+  found.off = place.doubt;
+  if (exact) {
+    const Offset offset = offset_of(arc, place, found.point, exact->point);
+    const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * merged;
+    if (near && exact->off > poor) return false;
+    if (near && exact->misfit <= merged) {
+      if (exact->left <= branches_apart) {
+        found.point = exact->point;
+        found.at = offset.at;
+        found.off = exact->off;
+        found.before = std::min(found.before, offset.at);
+        found.after = std::max(found.after, offset.at);
+        return true;
+      }
+      arc.note_passing();
+      return false;
+    }
+    found.off = std::max({found.off, exact->misfit, std::abs(offset.along), offset.aside});
+  }
+  if (!(place.doubt <= merged) || found.off > poor) return false;
+  // A branch point somewhat farther away says that rounding has shaped the interpolants.
+  constexpr double farther = 1e-3;
+  const auto other = place_branch_point(arc.walker(), found.point, corank, farther);
+  if (other && other->misfit <= merged && other->off <= poor) return false;
+  const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
+  const double beside = left();
+  polish(arc, found.point, m);
+  // At the very point the problem may not be defined.
+  return std::min(beside, left()) <= branches_apart;
+}
+
+/// Does Sigma leave a multiple branch point in a bend, because it vanishes once more nearby? At a point that
+/// stands alone it grows with the distance; where lambda turns, at least one of its modes does.
+bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
+  constexpr double nearer = 1.0 / 8, bent = 3;
+  const auto E = arc.matrix(found.point);
+  if (!E) return false;
+  const Borders borders = borders_of(*E, m);
+  const double far = 0.2 * arc.length();
+  for (const double side : {-1.0, 1.0}) {
+    const double at = found.at + side * far;
+    if (at < arc.low() || at > arc.high()) continue;
+    const auto beyond = arc.sigma(at, borders);
+    const auto near = arc.sigma(found.at + side * nearer * far, borders);
+    if (!beyond || !near) continue;
+    if (found.turns ? shrunk(*beyond, *near).maxCoeff() * bent < nearer
+                    : nearer * beyond->norm() > bent * near->norm())
+      return true;
+  }
+  return false;
+}
+
+/// Gives a branch point the exact direction of its branch, where second derivatives tell it.
+/// @returns lambda's rate there
+std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint& point) {
+  const auto e = reduce(arc.walker(), point, static_cast<int>(m));
+  if (!e) return std::nullopt;
+  const Index n = point.x.size();
+  Vector along(n + 1);
+  along << point.tangent.dx, point.tangent.dlambda;
+  const auto c = quadratic_direction(*e, e->N.transpose() * along.cwiseProduct(e->root), 0.05);
+  if (!c) return std::nullopt;
+  const Vector d = (e->N * *c).cwiseQuotient(e->root);
+  Direction tangent{d.head(n), d[n]};
+  const double length = length_of(arc.walker(), tangent);
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  if (metric_product(arc.walker().weights, tangent, point.tangent) < 0.99) return std::nullopt;
+  point.tangent = tangent;
+  return tangent.dlambda;
+}
+
+/// Does lambda turn at this branch point?
+bool branch_turns(const WatchedStep& arc, Index m, Candidate& found) {
+  constexpr double zero = 1e-7;
+  const auto rate = settle_tangent(arc, m, found.point);
+  if (!rate) return turns_at(arc, found.at);
+  if (std::abs(*rate) > zero) return false;
+  const auto before = arc.rate(found.at - blurred), after = arc.rate(found.at + blurred);
+  return before && after ? (*before < 0) != (*after < 0) : turns_at(arc, found.at);
+}
+
+}  // namespace
+
+std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
+  const auto [a, b] = window_around(t, length, arc.low(), arc.high());
+  return interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto& p = arc.point(ds);
+        if (!p) return std::nullopt;
+        Vector u(p->x.size() + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+}
+
+std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+  Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
+  result.point = arc.from();
+  const Index n = arc.from().x.size();
+  result.point.x = place.u.head(n);
+  result.point.lambda = place.u[n];
+  Direction& tangent = result.point.tangent;
+  tangent = {place.along.head(n), place.along[n]};
+  const double length = length_of(arc.walker(), tangent);
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
+  result.kind = touches ? HitKind::touch : HitKind::branch_point;
+  result.odd = m % 2 == 1 && !touches;
+  if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m))
+    return std::nullopt;
+  result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
+  if (m > 1 && has_company(arc, result, m)) return std::nullopt;
+  return result;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,206 @@
+#include "springfold/continuation/branch_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "continuation/linear/extended.hpp"
+#include "continuation/locating/reduced_equation.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// What J has in the kernels, entry (q, j) at q (k + 1) + j.
+Vector in_kernels(const ReducedEquation& e, const ScaledJacobian& J) {
+  const Matrix G = J.structured ? Matrix((e.L.transpose() * product(J, e.N)).transpose())
+                                : Matrix((e.L.transpose() * J.dense * e.N).transpose());
+  return G.reshaped();
+}
+
+/// Its derivative along N: k (k + 1) x (k + 1).
+Matrix rate_in_kernels(const ReducedEquation& e) {
+  const Index m = e.k + 1;
+  Matrix rate(e.k * m, m);
+  for (Index q = 0; q < e.k; ++q)
+    rate.middleRows(q * m, m) = e.quadratic[static_cast<std::size_t>(q)];
+  return rate;
+}
+
+/// Second derivatives below this are rounding of J over the length of their differences.
+double least_rate(const ReducedEquation& e, double largest) {
+  const auto J = jacobian_at(*e.walker, e.U0, e.root, e.piece);
+  return J ? 1e-10 * size_of(*J) + 1e-9 * largest : HUGE_VAL;
+}
+
+/// One step from U with the kernels of e: first what F asks for across them, then along them from there.
+std::optional<Vector> step_from(const ReducedEquation& e, const Svd& rate, const Vector& U) {
+  Vector F;
+  if (!residual_at(e, U, F)) return std::nullopt;
+  Vector right = Vector::Zero(F.size() + e.k + 1);
+  right.head(F.size()) = -F;
+  const Vector across = Vector(e.bordered.solve(right)).head(U.size());
+  if (!across.allFinite()) return std::nullopt;
+  const auto J = jacobian_at(*e.walker, U + across, e.root, e.piece);
+  if (!J) return std::nullopt;
+  Vector step = across + e.N * rate.solve(-in_kernels(e, *J));
+  if (!step.allFinite()) return std::nullopt;
+  return step;
+}
+
+/// Fixed directions in which rounding is sampled.
+Vector aside(Index size, int k) {
+  Vector d(size);
+  for (Index i = 0; i < size; ++i) d[i] = std::cos(2.1 * k + 1.3 * static_cast<double>(i));
+  return d;
+}
+
+/// Places that steps from around U lead to: their scatter is what rounding makes of a place, their mean is
+/// more exact than any of them.
+struct Places {
+  Vector mean{};
+  double scatter = HUGE_VAL;  ///< largest distance from the mean
+};
+
+Places places_around(const ReducedEquation& e, const Svd& rate, const Vector& U, int number) {
+  std::vector<Vector> ends;
+  Places places{.mean = Vector::Zero(U.size())};
+  for (int k = 0; k < number; ++k) {
+    const Vector start = U + 1e-11 * e.scale * aside(U.size(), k).normalized();
+    const auto step = step_from(e, rate, start);
+    if (!step) return places;
+    ends.push_back(start + *step - U);
+    places.mean += ends.back() / number;
+  }
+  places.scatter = 0;
+  for (const Vector& end : ends)
+    places.scatter = std::max(places.scatter, (end - places.mean).norm());
+  places.mean += U;
+  return places;
+}
+
+/// Error of the place by rounding that is the same everywhere, so that no scatter shows it: a unit in the
+/// last place of every entry of J, independent of each other.
+double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double least_rate) {
+  const Matrix rows = J.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
+                                   : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
+  const Matrix squares = e.L.cwiseAbs2().transpose() * rows;
+  return std::numeric_limits<double>::epsilon() * std::sqrt(squares.sum()) / least_rate;
+}
+
+/// Puts U, which is exact up to rounding, where many steps agree.
+/// @returns the estimated error
+double settle(const ReducedEquation& e, const Svd& rate, Vector& U) {
+  const Places few = places_around(e, rate, U, 4);
+  if (!(few.scatter > 1e-12 * e.scale) || !std::isfinite(few.scatter)) return few.scatter;
+  constexpr int many = 32;
+  const Places more = places_around(e, rate, U, many);
+  if (!std::isfinite(more.scatter)) return few.scatter;
+  U = more.mean;
+  return 2 * more.scatter / std::sqrt(many);
+}
+
+/// L^T F at U against its rounding, which is sampled around U: to first order L^T F is constant there.
+double left_at(const ReducedEquation& e, const Vector& U) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const Vector sizes = U.cwiseAbs().cwiseMax(1e-3);
+  const auto J = jacobian_at(*e.walker, U, e.root, e.piece);
+  Vector F;
+  if (!J || !residual_at(e, U, F)) return HUGE_VAL;
+  const Vector here = e.L.transpose() * F;
+  double noise = epsilon * (e.L.cwiseAbs().transpose() * magnitudes(*J, sizes)).norm();
+  // Curves this near to each other meet, for all that can be said of a place.
+  for (const Matrix& Q : e.quadratic)
+    noise = std::max(noise, Q.norm() * std::pow(1e-10 * e.scale, 2));
+  for (int k = 0; k < 8; ++k) {
+    if (!residual_at(e, U + 1e-12 * aside(U.size(), k).cwiseProduct(sizes), F)) return HUGE_VAL;
+    noise = std::max(noise, (e.L.transpose() * F - here).norm());
+  }
+  return here.norm() / std::max(1e-300, noise);
+}
+
+}  // namespace
+
+std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point) {
+  Linearisation at;
+  if (!linearise_densely(walker.problem, point.x, point.lambda, point.piece, at))
+    return std::nullopt;
+  return symmetric_eigenvalues(at.dF_dx);
+}
+
+double least_eigenvalue(const Walker& walker, const CurvePoint& point) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!walker.problem.structured()) {
+    const auto spectrum = spectrum_at(walker, point);
+    return spectrum && spectrum->size() > 0 ? spectrum->cwiseAbs().minCoeff() : infinity;
+  }
+  Linearisation at;
+  if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return infinity;
+  const Index n = point.x.size();
+  const FrontalBorders none{Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)};
+  Matrix v = irregular_columns(n, 1);
+  double largest = 0;  // of the inverse matrix
+  for (int step = 0; step < 12; ++step) {
+    if (!at.structured->solve(none, v, false)) return 0;
+    const double before = largest;
+    largest = v.norm();
+    v /= largest;
+    if (std::abs(largest - before) < 1e-2 * largest) break;
+  }
+  return 1 / largest;
+}
+
+std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurvePoint& near,
+                                              int corank, double reach) {
+  BranchPlace place{.point = near};
+  const Index n = near.x.size();
+  const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
+  Vector U = U_near;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 14; ++iteration) {
+    place.point.x = U.head(n).cwiseQuotient(root.head(n));
+    place.point.lambda = U[n];
+    const auto e = reduce(walker, place.point, corank);
+    if (!e) return std::nullopt;
+    const Svd rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
+    const Vector& values = rate.values;
+    if (!(values[corank] > least_rate(*e, values[0]))) return std::nullopt;
+    const auto step = step_from(*e, rate, U);
+    if (!step) return std::nullopt;
+    const double moved = step->norm();
+    // What the kernels of a place nearby make of the step is of second order in the distance from it.
+    if (moved <= 1e-11 * e->scale || (moved <= 1e-5 * e->scale && moved > 0.3 * before)) {
+      U += *step;
+      for (int polish = 0; polish < 2; ++polish)
+        if (const auto last = step_from(*e, rate, U)) U += *last;
+      place.off = settle(*e, rate, U);
+      if (!((U - U_near).norm() <= reach)) return std::nullopt;
+      place.point.x = U.head(n).cwiseQuotient(root.head(n));
+      place.point.lambda = U[n];
+      const auto J = jacobian_at(walker, U, root, near.piece);
+      if (!J) return std::nullopt;
+      place.misfit = in_kernels(*e, *J).norm() / values[corank];
+      place.off = std::max(place.off, constant_error(*e, *J, values[corank]));
+      place.left = left_at(*e, U);
+      return place;
+    }
+    U += *step;
+    if (!((U - U_near).norm() <= 2 * reach)) return std::nullopt;
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+double left_of_residual(const Walker& walker, const CurvePoint& point, int corank) {
+  const auto e = reduce(walker, point, corank);
+  return e ? left_at(*e, e->U0) : HUGE_VAL;
+}
+
+std::optional<CurvePoint> refine_branch_point(const Walker& walker, const CurvePoint& near) {
+  const auto place = place_branch_point(walker, near, 1);
+  if (!place || !(place->left <= branches_apart)) return std::nullopt;
+  return place->point;
+}
+
+}  // namespace springfold::continuation

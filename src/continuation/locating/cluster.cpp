@@ -1,0 +1,126 @@
+#include "continuation/locating/cluster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "continuation/locating/watched_step.hpp"
+#include "continuation/points/chebyshev.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+using Roots = std::vector<std::complex<double>>;
+
+/// All zeros of the interpolating polynomial, as places on [-1, 1] and beside it.
+Roots roots_of(const Interpolant& p) {
+  constexpr Index n = Interpolant::samples;
+  Matrix powers(n, n);
+  Vector values(n);
+  for (Index i = 0; i < n; ++i) {
+    const double t = 2 * (p.at[static_cast<std::size_t>(i)] - p.a) / (p.b - p.a) - 1;
+    for (Index k = 0; k < n; ++k) powers(i, k) = std::pow(t, static_cast<double>(k));
+    values[i] = p.values(0, i);
+  }
+  Vector c = Lu(powers).solve(values);
+  // Coefficients that rounding alone may have made would have zeros far away.
+  Index degree = n - 1;
+  while (degree > 0 && std::abs(c[degree]) <= 1e-11 * c.cwiseAbs().maxCoeff()) --degree;
+  if (degree == 0) return {};
+  Matrix companion = Matrix::Zero(degree, degree);
+  companion.bottomLeftCorner(degree - 1, degree - 1).setIdentity();
+  companion.col(degree - 1) = -c.head(degree) / c[degree];
+  const Eigen::VectorXcd roots = eigenvalues(companion);
+  return {roots.begin(), roots.end()};
+}
+
+/// A function on the step, interpolated; nothing where that is not accurate.
+std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b) {
+  const auto vector = [&](double t) -> std::optional<Vector> {
+    const auto value = f(t);
+    return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
+  };
+  auto p = interpolate(vector, a, b);
+  if (!p) return std::nullopt;
+  // A check that falls among the special points may be spoilt by rounding; most must not be.
+  const double scale = p->values.cwiseAbs().maxCoeff();
+  int good = 0;
+  for (const double share : {0.04, 0.21, 0.37, 0.63, 0.79, 0.96}) {
+    const double t = a + share * (b - a);
+    const auto value = f(t);
+    const double error = value ? std::abs(*value - p->first(t)) : 0;
+    if (!(error <= 1e-2 * scale)) return std::nullopt;
+    if (value && error <= 1e-5 * scale) ++good;
+  }
+  if (good < 4) return std::nullopt;
+  return p;
+}
+
+/// Zeros of lambda's rate and of det Sigma; nothing if one of them is not smooth on the step.
+std::optional<Roots> all_roots(const WatchedStep& arc, Samples samples) {
+  std::vector<ExtendedMatrix> E;
+  for (const CurvePoint* p : samples) {
+    auto matrix = arc.matrix(*p);
+    if (!matrix) return std::nullopt;
+    E.push_back(std::move(*matrix));
+  }
+  const std::size_t middle = E.size() / 2;
+  const Borders borders = borders_of(E[middle], reach_of(E, middle).order);
+  const auto determinant = [&](double ds) -> std::optional<double> {
+    const auto Sigma = arc.sigma(ds, borders);
+    return Sigma ? std::optional<double>(Sigma->determinant()) : std::nullopt;
+  };
+  const auto rate = [&](double ds) { return arc.rate(ds); };
+  constexpr double upright = 1e-8;  // a family at one lambda is no cluster
+  if (std::none_of(samples.begin(), samples.end(),
+                   [](const CurvePoint* p) { return std::abs(p->tangent.dlambda) > upright; }))
+    return std::nullopt;
+  Roots all;
+  for (const SampledFunction& f : {SampledFunction(determinant), SampledFunction(rate)}) {
+    const auto p = accurate(f, arc.low(), arc.high());
+    if (!p) return std::nullopt;
+    const Roots roots = roots_of(*p);
+    all.insert(all.end(), roots.begin(), roots.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
+  // Shares of half the step: how wide a cluster may be, and how far from the step's ends.
+  constexpr double wide = 0.35, clear = 0.35;
+  const CurvePoint &from = *samples.front(), &to = *samples.back();
+  const WatchedStep arc(walker, samples);
+  const auto roots = all_roots(arc, samples);
+  if (!roots) return std::nullopt;
+  Roots near;
+  for (const auto& root : *roots)
+    if (std::abs(root.real()) <= 1 && std::abs(root.imag()) <= clear) near.push_back(root);
+  if (near.empty()) return std::nullopt;
+  double centre = 0;
+  for (const auto& root : near) centre += root.real() / static_cast<double>(near.size());
+  double radius = 0.01;
+  for (const auto& root : near) radius = std::max(radius, std::abs(root - centre));
+  if (radius > wide || std::abs(centre) > 1 - clear) return std::nullopt;
+
+  const double half = 0.5 * (arc.high() - arc.low());
+  const double place = arc.low() + half * (1 + centre);
+  radius *= 1.5;
+  Hit hit{.kind = HitKind::unresolved,
+          .name = "unresolved: special points too close together to be told apart"};
+  hit.multiplicity = static_cast<int>(near.size());
+  hit.s_before = from.s + std::max(0.0, place - radius * half);
+  hit.s_after = from.s + std::min(arc.length(), place + radius * half);
+  const auto& point = arc.point(place);
+  hit.point = point ? *point : arc.point(place + radius * half).value_or(to);
+  hit.point.negative.reset();
+  hit.s_before = std::min(hit.s_before, hit.point.s);
+  hit.s_after = std::max(hit.s_after, hit.point.s);
+  if (from.negative && to.negative && std::abs(*to.negative - *from.negative) > hit.multiplicity)
+    return std::nullopt;
+  return hit;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,127 @@
+#include "continuation/locating/events.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "continuation/locating/singular.hpp"
+#include "continuation/locating/zeros.hpp"
+#include "continuation/points/chebyshev.hpp"
+#include "continuation/points/coincide.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+struct Found {
+  Hit hit{};
+  bool stops = false;
+};
+
+/// The curve's point from its points around it, where none can be computed: at a branch point.
+std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePoint& from,
+                                             const CurvePoint& to, double ds) {
+  const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
+  const Index n = from.x.size();
+  const auto curve = interpolate(
+      [&](double t) -> std::optional<Vector> {
+        const auto p = point_between(walker, from, to, t);
+        if (!p) return std::nullopt;
+        Vector u(n + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+  if (!curve) return std::nullopt;
+  const Vector u = (*curve)(ds), rate = curve->slope(ds);
+  CurvePoint point = from;
+  point.x = u.head(n);
+  point.lambda = u[n];
+  point.tangent = {rate.head(n), rate[n]};
+  const double length = length_of(walker, point.tangent);
+  point.tangent.dx /= length;
+  point.tangent.dlambda /= length;
+  point.negative.reset();
+  point.s = from.s + ds;
+  return point;
+}
+
+/// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
+/// the step before; zeros without change of sign do not count.
+bool add_user_event(const Walker& walker, Samples samples, const Event& event,
+                    std::vector<Found>& found) {
+  const CurvePoint &from = *samples.front(), &to = *samples.back();
+  const double h = to.s - from.s;
+  std::array<double, 3> storage{};
+  assert(samples.size() <= storage.size());
+  const std::span values(storage.data(), samples.size());
+  double scale = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    values[i] = event.value(*samples[i]);
+    scale = std::max(scale, std::abs(values[i]));
+  }
+  // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
+  constexpr double rounding = 1e-14, resolution = 1e-9;
+  for (double* end : {&values.front(), &values.back()})
+    if (std::abs(*end) <= rounding * scale) *end = 0;
+  if (!within_reach(values)) return true;
+  // At the ends the very values that the neighbouring steps see: a sign must not change in between.
+  const auto value = [&](double ds) -> std::optional<double> {
+    if (ds == 0) return values.front();
+    if (ds == h) return values.back();
+    const auto point = point_between(walker, from, to, ds);
+    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
+  };
+  const ZeroSearch search = find_zeros(value, 0, h, rounding * scale, resolution * h);
+  const auto add = [&](CurvePoint point, double before, double after) {
+    Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
+    hit.point = std::move(point);
+    hit.s_before = from.s + before;
+    hit.s_after = from.s + after;
+    found.push_back({std::move(hit), event.action == EventAction::stop});
+  };
+  const double begin = from.s > 0 ? 0 : 1e-13 * h;  // a start that is on the event does not meet it
+  bool at_end = false;
+  for (const ZeroOf& zero : search.zeros) {
+    if (zero.touches || !(zero.at > begin)) continue;
+    auto point = point_between(walker, from, to, zero.at);
+    if (!point) point = interpolated_point(walker, from, to, zero.at);
+    if (!point) return false;
+    at_end = at_end || zero.at == h;
+    add(std::move(*point), zero.before, zero.after);
+  }
+  // Zero exactly at the end: a crossing if the sign beyond is another one.
+  const auto beyond = values.back() == 0 && values.front() != 0 ? value(1.01 * h) : std::nullopt;
+  if (beyond && !at_end && (*beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
+  return search.resolved;
+}
+
+}  // namespace
+
+StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                          const CurvePoint* middle, const std::vector<Event>& events) {
+  const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
+
+  StepEvents result;
+  SingularPoints singular = singular_points(walker, samples);
+  result.doubt = singular.doubt;
+  result.unexplained = singular.unexplained;
+  result.passing = singular.passing;
+  result.flat = singular.flat;
+  std::vector<Found> found;
+  for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
+  for (const Event& event : events)
+    if (!add_user_event(walker, samples, event, found))
+      result.doubt = "event \"" + event.name + "\" could not be located";
+
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });
+  for (Found& f : found) {
+    result.hits.push_back(std::move(f.hit));
+    result.stops.push_back(f.stops);
+  }
+  return result;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,301 @@
+#include "continuation/locating/reduced_equation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/linear/extended.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Kernels of J as singular vectors, or, without its entries, by inverse iteration with the matrix that
+/// they border.
+bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
+  const Index k = e.k;
+  if (!J.structured) {
+    const auto take = [&e, k](const Svd& svd) {
+      e.N = svd.V.rightCols(k + 1);
+      e.L = svd.U.rightCols(k);
+    };
+    take(divided_svd(J.dense, SingularVectors::full, SingularVectors::full));
+    // Divide and conquer may lose the vectors of values that agree to the last digits, as symmetric structures have them.
+    constexpr double lost = 1e-7;
+    const double largest = J.dense.norm();
+    if (!((J.dense * e.N).norm() < lost * largest) ||
+        !((e.L.transpose() * J.dense).norm() < lost * largest))
+      take(jacobi_svd(J.dense, SingularVectors::full, SingularVectors::full));
+    return true;
+  }
+  const Index n = J.dF_dlambda.size();
+  constexpr int most = 16;
+  constexpr double settled = 1e-12;
+  e.N = irregular_columns(n + 1, k + 1);
+  e.L = irregular_columns(n, k);
+  Matrix right = Matrix::Zero(n + k + 1, k + 1), left = Matrix::Zero(n + k + 1, k);
+  right.bottomRows(k + 1).setIdentity();
+  left.bottomRows(k).setIdentity();
+  KernelSystem bordered;
+  for (int step = 0; step < most; ++step) {
+    bordered.compute(J, e.N, e.L);
+    const Matrix V = bordered.solve(right), W = bordered.solve(left, true);
+    if (!V.allFinite() || !W.allFinite()) return false;
+    const Matrix N = orthonormal(V.topRows(n + 1)), L = orthonormal(W.topRows(n));
+    const double moved =
+        (N - e.N * (e.N.transpose() * N)).norm() + (L - e.L * (e.L.transpose() * L)).norm();
+    e.N = N;
+    e.L = L;
+    if (moved < settled) break;
+  }
+  return true;
+}
+
+/// Turns the basis so that lambda moves along its last column only.
+bool turn_kernel(Matrix& N) {
+  const Vector r = N.bottomRows(1).transpose();
+  if (!(r.norm() > 1e-4)) return false;
+  const Matrix Q = orthonormal_basis(r);
+  Matrix turned(N.rows(), N.cols());
+  turned << N * Q.rightCols(N.cols() - 1), N * (r / r.norm());
+  N = turned;
+  return true;
+}
+
+/// D^2F[N_i, .] N by central differences of the exact derivatives, of sixth order in h; n x k + 1.
+std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, double h) {
+  constexpr double factors[] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+  Matrix sum = Matrix::Zero(e.L.rows(), e.k + 1);
+  for (int j = 1; j <= 3; ++j) {
+    const auto plus = jacobian_at(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
+    const auto minus = jacobian_at(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
+    if (!plus || !minus) return std::nullopt;
+    if (plus->structured)
+      sum += factors[j - 1] / h * (product(*plus, e.N) - product(*minus, e.N));
+    else
+      sum += factors[j - 1] / h * ((plus->dense - minus->dense) * e.N);
+  }
+  return sum;
+}
+
+bool expand(ReducedEquation& e, double h) {
+  const Index n = e.L.rows(), m = e.k + 1;
+  e.quadratic.assign(static_cast<std::size_t>(e.k), Matrix::Zero(m, m));
+  e.bend.clear();
+  e.curvature = 0;
+  for (Index i = 0; i < m; ++i) {
+    const auto D = second_derivative(e, i, h);
+    if (!D) return false;
+    for (Index q = 0; q < e.k; ++q)
+      e.quadratic[static_cast<std::size_t>(q)].row(i) = e.L.col(q).transpose() * *D;
+    Matrix right = Matrix::Zero(n + m, m);
+    right.topRows(n) = -0.5 * *D;
+    const Matrix W = e.bordered.solve(right).topRows(n + 1);
+    if (!W.allFinite()) return false;
+    for (Index j = 0; j < m; ++j) e.bend.emplace_back(W.col(j));
+    e.curvature = std::max(e.curvature, W.colwise().norm().maxCoeff());
+  }
+  for (Matrix& Q : e.quadratic) Q = (0.5 * (Q + Q.transpose())).eval();
+  return true;
+}
+
+}  // namespace
+
+Vector metric_roots(const Vector& weights) {
+  const double least = 1e-3 * std::max(weights.size() > 0 ? weights.maxCoeff() : 0.0, 1e-3);
+  Vector root(weights.size() + 1);
+  root << weights.unaryExpr([least](double w) { return std::sqrt(w > 0 ? w : least); }), 1.0;
+  return root;
+}
+
+Vector scaled_point(const CurvePoint& at, const Vector& root) {
+  Vector U(at.x.size() + 1);
+  U << at.x, at.lambda;
+  return U.cwiseProduct(root);
+}
+
+std::optional<ScaledJacobian> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
+                                          const Piece& piece) {
+  if (!walker.problem.structured()) {
+    auto dense = scaled_jacobian(walker, U, root, piece);
+    if (!dense) return std::nullopt;
+    return ScaledJacobian{.dense = std::move(*dense)};
+  }
+  const Index n = U.size() - 1;
+  Linearisation at;
+  if (!linearise(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
+    return std::nullopt;
+  return ScaledJacobian{.structured = std::make_shared<StructuredMatrix>(
+                            scaled(*at.structured, Vector::Ones(n), root.head(n).cwiseInverse())),
+                        .dF_dlambda = at.dF_dlambda};
+}
+
+Matrix product(const ScaledJacobian& J, const Matrix& X) {
+  if (!J.structured) return J.dense * X;
+  const Index n = J.dF_dlambda.size();
+  Matrix Y = J.dF_dlambda * X.bottomRows(1);
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += product(*J.structured, X.col(c).head(n));
+  return Y;
+}
+
+Matrix magnitudes(const ScaledJacobian& J, const Matrix& X) {
+  if (!J.structured) return J.dense.cwiseAbs() * X.cwiseAbs();
+  const Index n = J.dF_dlambda.size();
+  Matrix Y = J.dF_dlambda.cwiseAbs() * X.bottomRows(1).cwiseAbs();
+  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += magnitudes(*J.structured, X.col(c).head(n));
+  return Y;
+}
+
+double size_of(const ScaledJacobian& J) {
+  if (!J.structured) return J.dense.norm();
+  const Index n = J.dF_dlambda.size();
+  return std::sqrt(static_cast<double>(n + 1)) * product(J, irregular_columns(n + 1, 1)).norm();
+}
+
+void KernelSystem::compute(const ScaledJacobian& J, const Matrix& N, const Matrix& L) {
+  const Index n = L.rows(), k = L.cols();
+  structured_ = J.structured;
+  if (!structured_) {
+    Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
+    M.topLeftCorner(n, n + 1) = J.dense;
+    M.topRightCorner(n, k) = L;
+    M.bottomLeftCorner(k + 1, n + 1) = N.transpose();
+    lu_.compute(M);
+    return;
+  }
+  //  | dF/dx  dF/dlambda  L |
+  //  | N_x^T  N_l^T       0 |
+  borders_ = {Matrix(n, k + 1), N.topRows(n), Matrix::Zero(k + 1, k + 1)};
+  borders_.B << J.dF_dlambda, L;
+  borders_.D.col(0) = N.bottomRows(1).transpose();
+}
+
+Matrix KernelSystem::solve(const Matrix& right, bool transposed) const {
+  if (!structured_) return transposed ? lu_.solve_transposed(right) : lu_.solve(right);
+  Matrix X = right;
+  if (!structured_->solve(borders_, X, transposed))
+    X.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return X;
+}
+
+std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
+                                      const Piece& piece) {
+  const Index n = U.size() - 1;
+  Linearisation at;
+  if (!linearise_densely(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
+    return std::nullopt;
+  Matrix J(n, n + 1);
+  J << at.dF_dx * root.head(n).cwiseInverse().asDiagonal(), at.dF_dlambda;
+  return J;
+}
+
+bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
+  const Index n = U.size() - 1;
+  return e.walker->problem.residual(U.head(n).cwiseQuotient(e.root.head(n)), U[n], e.piece, F) &&
+         F.allFinite();
+}
+
+std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank) {
+  ReducedEquation e{.walker = &walker, .piece = at.piece, .root = metric_roots(walker.weights)};
+  e.U0 = scaled_point(at, e.root);
+  e.k = corank;
+  e.scale = std::max(1.0, e.U0.lpNorm<Eigen::Infinity>());
+  const auto J = jacobian_at(walker, e.U0, e.root, e.piece);
+  if (!J || !find_kernels(*J, e)) return std::nullopt;
+  e.follows = turn_kernel(e.N);
+  e.bordered.compute(*J, e.N, e.L);
+  for (double h = 1e-3 * e.scale; h > 1e-6; h /= 10)
+    if (expand(e, h) && h * e.curvature < 0.1) return e;
+  return std::nullopt;
+}
+
+std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector& c) {
+  const Index n = e.L.rows(), m = e.k + 1;
+  const double rho = c.norm(), enough = std::max(1e-9 * rho * rho, 2e-16 * e.scale);
+  const Vector U1 = e.U0 + e.N * c;
+  Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  KernelSystem own;
+  const KernelSystem* system = &e.bordered;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    if (!residual_at(e, U1 + w, F)) return std::nullopt;
+    right.head(n) = -F;
+    const Vector step = system->solve(right);
+    w += step.head(n + 1);
+    const double moved = step.head(n + 1).norm();
+    if (!(w.norm() < rho)) return std::nullopt;
+    if (moved <= enough || (moved < 1e-12 * e.scale && moved > 0.5 * before))
+      return ReducedValue{U1 + w, -step.tail(e.k)};
+    if (moved > 0.2 * before) {
+      const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
+      if (!J) return std::nullopt;
+      own.compute(*J, e.N, e.L);
+      system = &own;
+    }
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start, double rho) {
+  const Index n = e.L.rows();
+  RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
+  Matrix A(n + 1, n + 1);
+  Vector F, right(n + 1);
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 16; ++iteration) {
+    const double length = ray.c.norm();
+    const auto J = scaled_jacobian(*e.walker, ray.U, e.root, e.piece);
+    if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
+    A << *J, (e.N * (ray.c / length)).transpose();
+    right << -F, rho - length;
+    const Lu lu(A);
+    Vector step = lu.solve(right);
+    if (!step.allFinite()) return std::nullopt;
+    const double moved = step.norm();
+    if (moved > 0.4 * rho) step *= 0.4 * rho / moved;
+    ray.U += step;
+    ray.c = e.N.transpose() * (ray.U - e.U0);
+    if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < 0.3 * rho) return std::nullopt;
+    const bool small =
+        F.lpNorm<Eigen::Infinity>() <= e.walker->options.newton.residual_tolerance * e.scale;
+    if (moved <= 1e-11 * rho || (small && moved < 3e-5 * rho && moved > 0.3 * before)) {
+      ray.noise = 1e-16 * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
+      ray.sign = lu.sign();
+      return ray;
+    }
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start,
+                                          double reach) {
+  const Index m = e.k + 1;
+  Vector c = start.normalized();
+  double size = 0;
+  for (const Matrix& Q : e.quadratic) size = std::max(size, Q.norm());
+  if (!(size > 0) && e.k > 0) return std::nullopt;
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    Matrix A(m, m);
+    Vector right(m);
+    for (Index q = 0; q < e.k; ++q) {
+      const Vector Qc = e.quadratic[static_cast<std::size_t>(q)] * c / size;
+      A.row(q) = Qc.transpose();
+      right[q] = -0.5 * c.dot(Qc);
+    }
+    A.row(e.k) = c.transpose();
+    right[e.k] = 0;
+    const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
+    if (!(svd.values[m - 1] > 1e-3)) return std::nullopt;
+    const Vector step = svd.solve(right);
+    c = (c + step).normalized();
+    if (!((c - start.normalized()).norm() < reach)) return std::nullopt;
+    if (step.norm() < 1e-14 || (iteration > 5 && step.norm() < 1e-12)) return c;
+  }
+  return std::nullopt;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,286 @@
+#include "continuation/locating/singular.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "continuation/linear/small_lu.hpp"
+#include "continuation/locating/determined.hpp"
+#include "continuation/locating/flat_turns.hpp"
+#include "continuation/locating/watched_step.hpp"
+#include "continuation/points/words.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Are the rates at the samples, and on average between them, so much alike that the polynomial of may_turn() stays
+/// close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as much from
+/// a constant as they do (its Lebesgue constant).
+/// @param u      places of the samples, shares of the step
+/// @param rates  at the samples, then integrals up to all but the first
+bool is_even(const Eigen::Ref<const Vector>& u, const Eigen::Ref<const Vector>& rates) {
+  constexpr double alike = 0.04;
+  const Index m = u.size();
+  const double first = rates[0];
+  if (m > 2 && !(u[1] > 0.3 && u[1] < 0.7)) return false;
+  for (Index i = 1; i < m; ++i) {
+    const double mean = rates[m + i - 1] / u[i];
+    if (!(std::abs(rates[i] - first) <= alike * std::abs(first)) ||
+        !(std::abs(mean - first) <= alike * std::abs(first)))
+      return false;
+  }
+  return true;
+}
+
+/// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
+/// that has the samples' rates and leads from one sample's lambda to the next.
+bool may_turn(const WatchedStep& arc, Samples samples) {
+  const CurvePoint& from = *samples.front();
+  const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
+  constexpr int most = 5;
+  assert(n <= most);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> A(n, n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> right(n);
+  for (Index i = 0; i < m; ++i) {
+    const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
+    const double u = (p.s - from.s) / arc.length();
+    double power = 1;
+    for (Index k = 0; k < n; ++k) {
+      A(i, k) = power;
+      power *= u;
+      if (i > 0) A(m + i - 1, k) = power / static_cast<double>(k + 1);
+    }
+    right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
+    if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
+  }
+  if (is_even(A.col(1).head(m), right)) return false;
+  SmallLu(A).solve(right.data());
+  const auto& c = right;
+  constexpr int parts = 24;
+  constexpr double far = 0.3;  // from zero, compared with the largest rate
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int i = 0; i <= parts; ++i) {
+    double rate = 0;
+    for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
+    low = std::min(low, rate);
+    high = std::max(high, rate);
+  }
+  return !(low > far * high && high > 0) && !(high < far * low && low < 0);
+}
+
+/// Are these two turns so badly placed that they may be in the other order, or one?
+bool too_close(const ZeroOf& one, const ZeroOf& next) {
+  return next.at - one.at < 30 * (next.off + one.off);
+}
+
+/// Rounding of lambda's rate on the step.
+double noise_of_rate(const WatchedStep& arc, Samples samples) {
+  double scale = 0;
+  for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
+  const auto E = arc.matrix(*samples[samples.size() / 2]);
+  return std::max(rounding * scale, E ? rate_noise(*E) : scale);
+}
+
+/// Are all turns well placed and apart, and each of them no more than one turn or one touch?
+bool stand_alone(const std::vector<ZeroOf>& turns) {
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (turns[i].several || turns[i].off > 0.1 * poor ||
+        (i > 0 && too_close(turns[i - 1], turns[i])))
+      return false;
+  return true;
+}
+
+/// Zeros of lambda's rate. What they are must depend on the curve, not on the step: where the rate is lost in its
+/// rounding at an end of the step, they are looked for on a wider one.
+WatchedZeros turns_on(const WatchedStep& arc, Samples samples) {
+  constexpr double perhaps_lost = 1e-8;
+  const double first = std::abs(samples.front()->tangent.dlambda),
+               last = std::abs(samples.back()->tangent.dlambda);
+  if (!arc.walker().options.limit_points) return {};
+  if (std::min(first, last) > perhaps_lost && !may_turn(arc, samples)) return {};
+  const double noise = noise_of_rate(arc, samples);
+  const bool clear = std::min(first, last) > clear_of_rounding * noise;
+  if (clear && !may_turn(arc, samples)) return {};
+  ZeroSearch found{.resolved = false};
+  if (std::max(first, last) > noise)
+    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution,
+                       NoiseIs::bound);
+  if (clear && found.resolved && stand_alone(found.zeros)) return {found.zeros, true};
+  if (auto turns = turns_on_widened(arc.walker(), arc.from(), *samples.back(), arc.high(), noise))
+    return {std::move(*turns), true};
+  const bool flat = std::max(first, last) <= clear_of_rounding * noise;
+  return {.zeros = found.zeros, .resolved = found.resolved && !flat, .flat = flat};
+}
+
+/// Turns of lambda that rounding places worse than `poor`, though not far apart: one cluster with
+/// their number.
+Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) {
+  Candidate cluster{.at = turns.front().at,
+                    .before = turns.front().before,
+                    .after = turns.back().after,
+                    .point = point,
+                    .kind = HitKind::unresolved,
+                    .multiplicity = 0};
+  for (const ZeroOf& turn : turns) {
+    cluster.multiplicity += turn.several ? 3 : turn.touches ? 2 : 1;
+    cluster.odd = cluster.odd != !turn.touches;
+  }
+  return cluster;
+}
+
+/// A turn of lambda that stands alone.
+bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& point,
+              std::vector<Candidate>& found) {
+  bool regular = true;
+  if (turn.off > worst_place || !examine_turn(arc, turn, regular, found)) return false;
+  if (regular)
+    found.push_back({.at = turn.at,
+                     .before = turn.before,
+                     .after = turn.after,
+                     .point = point,
+                     .kind = turn.touches ? HitKind::touch : HitKind::limit_point,
+                     .multiplicity = turn.touches ? 2 : 1,
+                     .odd = !turn.touches});
+  return true;
+}
+
+bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
+                      std::vector<Candidate>& found) {
+  for (std::size_t i = 0; i < turns.size();) {
+    const ZeroOf& turn = turns[i];
+    const auto& point = arc.point(turn.at);
+    if (!point) return false;
+    std::size_t last = i;
+    while (last + 1 < turns.size() && too_close(turns[last], turns[last + 1])) ++last;
+    if (last > i || turn.several) {
+      const std::vector<ZeroOf> group(turns.begin() + static_cast<std::ptrdiff_t>(i),
+                                      turns.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+      found.push_back(cluster_of(group, *point));
+    } else if (!add_turn(arc, turn, *point, found)) {
+      return false;
+    }
+    i = last + 1;
+  }
+  return true;
+}
+
+/// Number of negative eigenvalues on the arc, counted away from special points.
+std::optional<Index> negative_at(const WatchedStep& arc, double ds) {
+  const auto& p = arc.point(ds);
+  return p ? p->negative : std::nullopt;
+}
+
+/// What special points explain together, where the count between them cannot be told.
+struct Explained {
+  int most = 0;      ///< eigenvalues that may change sign
+  bool odd = false;  ///< an odd number of them does
+};
+
+/// Between any two neighbouring special points the count of negative eigenvalues must not change, and
+/// at each one only as much as it explains.
+std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& found,
+                       const CurvePoint& to) {
+  std::optional<Index> before = arc.from().negative;
+  Explained since{};
+  const auto fits = [&](std::optional<Index> here) {
+    const auto change = before && here ? static_cast<int>(std::abs(*here - *before)) : 0;
+    const bool explained =
+        !before || !here || (change <= since.most && (change % 2 == 1) == since.odd);
+    if (here) {
+      before = here;
+      since = {};
+    }
+    return explained;
+  };
+  for (std::size_t i = 0; i <= found.size(); ++i) {
+    const bool last = i == found.size();
+    const double left = i > 0 ? found[i - 1].at : 0, right = last ? arc.length() : found[i].at;
+    bool explained = true;
+    if (!found.empty())
+      for (const double share : {0.004, 0.05, 0.3, 0.7, 0.95, 0.996})
+        explained = explained && fits(negative_at(arc, left + share * (right - left)));
+    if (!explained || (last && !fits(to.negative)))
+      return "number of negative eigenvalues and special points do not fit together";
+    if (last) break;
+    if (found[i].kind != HitKind::touch) since.most += found[i].multiplicity + 1;
+    since.odd = since.odd != found[i].odd;
+  }
+  return {};
+}
+
+Hit hit_of(const WatchedStep& arc, Candidate candidate) {
+  const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
+                     : candidate.kind == HitKind::branch_point ? "branch point"
+                     : candidate.kind == HitKind::touch
+                         ? "touch"
+                         : "unresolved: lambda turns several times too close together to tell";
+  Hit hit{.kind = candidate.kind, .name = name};
+  hit.point = std::move(candidate.point);
+  hit.point.negative.reset();
+  hit.point.s = arc.from().s + candidate.at;
+  hit.multiplicity = candidate.multiplicity;
+  hit.s_before = std::min(arc.from().s + candidate.before, hit.point.s);
+  hit.s_after = std::max(arc.from().s + candidate.after, hit.point.s);
+  return hit;
+}
+
+/// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
+std::optional<Hit> inexact_place(const Hit& hit, double off) {
+  constexpr double exact = 1e-10;
+  const double scale =
+      std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
+  if (hit.kind != HitKind::branch_point || off <= exact * scale) return std::nullopt;
+  Hit doubt = hit;
+  doubt.kind = HitKind::inexact;
+  doubt.name = "rounding lets the branch point be placed to " + rounded(off) + " only";
+  doubt.multiplicity = 0;
+  return doubt;
+}
+
+}  // namespace
+
+SingularPoints singular_points(const Walker& walker, Samples samples) {
+  SingularPoints result;
+  const CurvePoint& to = *samples.back();
+  const WatchedStep arc(walker, samples);
+  WatchedZeros turns = turns_on(arc, samples);
+  const WatchedZeros singular = singularities_on(arc, samples);
+  if (!turns.resolved || !singular.resolved) {
+    result.flat = turns.flat && singular.resolved && singular.zeros.empty();
+    result.doubt = result.flat ? "lambda stands still to rounding, it may turn here several times"
+                               : "special points too close together";
+    return result;
+  }
+  std::vector<Candidate> found;
+  if (!add_branch_points(arc, singular, turns.zeros, found) ||
+      !add_limit_points(arc, turns.zeros, found)) {
+    result.doubt = "special point not resolved";
+    result.passing = arc.passing();
+    result.unexplained = static_cast<int>(std::max<std::size_t>(1, singular.zeros.size()));
+    return result;
+  }
+  std::erase_if(found, [](const Candidate& c) { return !(c.at > 1e-9); });  // the start itself
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
+  if (!found.empty() && found.back().at > (1 - beyond) * arc.length()) {
+    result.doubt = "step ends at a special point";
+    return result;
+  }
+  if (singular.examined && !is_determined(arc, to)) {
+    result.doubt = "rounding does not determine the point at the end of the step";
+    return result;
+  }
+  if (walker.options.limit_points && walker.options.branch_points)
+    result.doubt = accounting(arc, found, to);
+  if (!result.doubt.empty()) return result;
+  for (Candidate& candidate : found) {
+    const double off = candidate.off;
+    result.hits.push_back(hit_of(arc, std::move(candidate)));
+    if (auto doubt = inexact_place(result.hits.back(), off)) result.hits.push_back(*doubt);
+  }
+  return result;
+}
+
+}  // namespace springfold::continuation

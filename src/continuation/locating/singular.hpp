@@ -1,0 +1,28 @@
+// Limit points, branch points and touches on one step. Private to the engine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "continuation/points/samples.hpp"
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+struct SingularPoints {
+  std::vector<Hit> hits{};
+  std::string doubt{};  ///< set: the zeros of tangent and eigenvalues do not fit together
+  int unexplained = 0;
+  bool passing = false;  ///< with a doubt: branches pass each other closely and do not meet
+  bool flat =
+      false;  ///< with a doubt: lambda stands still to rounding, and shorter steps do not help
+};
+
+/// Finds every zero of the tangent's lambda-component and of the eigenvalues of dF/dx between the
+/// samples of one step and puts them together: an eigenvalue and the tangent vanish at a limit
+/// point, an eigenvalue alone at a branch point, the tangent with an eigenvalue that does not change
+/// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
+/// @param samples  the step's ends and points between them, in order; all on one piece
+SingularPoints singular_points(const Walker& walker, Samples samples);
+
+}  // namespace springfold::continuation

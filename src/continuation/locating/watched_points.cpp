@@ -1,0 +1,119 @@
+// The points of a step that is watched, between its ends.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "continuation/locating/determined.hpp"
+#include "continuation/locating/watched_step.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/numerics.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+Direction difference(const CurvePoint& a, const CurvePoint& b) {
+  return {a.x - b.x, a.lambda - b.lambda};
+}
+
+Direction difference(const Direction& a, const Direction& b) {
+  return {a.dx - b.dx, a.dlambda - b.dlambda};
+}
+
+double size_of(const CurvePoint& p) {
+  return std::max(p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda));
+}
+
+}  // namespace
+
+WatchedStep::WatchedStep(const Walker& walker, Samples samples)
+    : walker_{walker}, from_{*samples.front()}, length_{samples.back()->s - samples.front()->s} {
+  assert(samples.size() <= samples_.size());
+  for (const CurvePoint* p : samples) samples_[sample_count_++] = p;
+}
+
+std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
+  std::optional<CurvePoint> point(std::in_place);
+  model_.point(walker_.weights, from_, ds, *point);
+  StepMeasures measures;
+  std::string refusal;
+  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  return point;
+}
+
+/// The samples' polynomial is compared with corrected points between them; these become nodes as well, and others are
+/// compared with what they all define.
+void WatchedStep::settle_model() const {
+  settled_ = true;
+  if (sample_count_ < 2) return;
+  std::vector<CurvePoint> nodes;
+  for (std::size_t i = 0; i < sample_count_; ++i) nodes.push_back(*samples_[i]);
+  const auto go_through = [&] {
+    std::array<const CurvePoint*, ArcModel::most_nodes> list{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) list[i] = &nodes[i];
+    return model_.go_through(walker_.weights, from_, Samples(list).first(nodes.size()));
+  };
+  if (!go_through()) return;
+  if (nodes.size() < 3) {
+    if (auto middle = corrected(0.5 * length_)) nodes.insert(nodes.begin() + 1, *middle);
+    if (!go_through()) return;
+  }
+  for (std::size_t i = nodes.size(); i-- > 1;) {
+    const double ds = 0.5 * (nodes[i - 1].s + nodes[i].s) - from_.s;
+    if (auto point = corrected(ds))
+      nodes.insert(nodes.begin() + static_cast<std::ptrdiff_t>(i), std::move(*point));
+  }
+  if (!go_through()) return;
+  const double scale = size_of(from_);
+  CurvePoint expected;
+  int compared = 0;
+  for (const double share : {0.07, 0.4, 0.6, 0.93}) {
+    const auto point = corrected(share * length_);
+    if (!point) continue;
+    model_.point(walker_.weights, from_, share * length_, expected);
+    error_.place = std::max(error_.place, length_of(walker_, difference(*point, expected)));
+    error_.direction = std::max(error_.direction,
+                                length_of(walker_, difference(point->tangent, expected.tangent)));
+    ++compared;
+  }
+  exact_ = compared > 2 && is_exact(error_.place, scale) &&
+           is_exact(error_.direction * length_, scale * between_samples);
+}
+
+std::optional<CurvePoint> WatchedStep::find(double ds) const {
+  if (!settled_) settle_model();
+  if (model_.empty()) return point_at(walker_, from_, ds);
+  auto point = corrected(ds);
+  if (!exact_) return point ? point : point_at(walker_, from_, ds);
+  CurvePoint expected;
+  model_.point(walker_.weights, from_, ds, expected);
+  const double place = std::max(error_.place, exact_model * std::max(1.0, size_of(expected)));
+  const double direction = std::max(error_.direction, between_samples * place / length_);
+  const bool aside = !point ||
+                     length_of(walker_, difference(*point, expected)) > between_samples * place ||
+                     length_of(walker_, difference(point->tangent, expected.tangent)) >
+                         between_samples * direction;
+  return aside ? expected : point;
+}
+
+std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
+                                            const std::vector<Hit>& hits) {
+  std::vector<CurvePoint> points;
+  if (hits.size() < 2) return points;
+  const CurvePoint& from = *samples.front();
+  const WatchedStep step(walker, samples);
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
+    for (const double share : {0.5, 0.3, 0.7}) {
+      const double s = left + share * (right - left);
+      if (!(s > left && s < right)) break;
+      const auto& point = step.point(s - from.s);
+      if (!point || (walker.problem.symmetric() && !point->negative)) continue;
+      if (!is_determined(step, *point)) continue;
+      points.push_back(*point);
+      break;
+    }
+  }
+  return points;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,296 @@
+#include "continuation/locating/watched_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/locating/branch_candidate.hpp"
+#include "continuation/locating/sigma_touch.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// What is left of Sigma near a place where all of it should vanish, as an error of the place: the
+/// largest t with Sigma v = t Sigma' v. Zero where Sigma cannot be told from zero.
+double left_of(const Vector& entries, const Vector& slopes, Index m, double nothing) {
+  const auto Sigma = entries.reshaped(m, m), slope = slopes.reshaped(m, m);
+  if (Sigma.norm() <= nothing) return 0;
+  const double left = Lu(slope).solve(Sigma).norm();
+  return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
+}
+
+/// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
+std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, double length,
+                                           Index m) {
+  const auto curve = curve_near(arc, t, length);
+  if (!curve) return {};
+  const Index n = arc.from().x.size();
+  CurvePoint centre = arc.from();
+  centre.x = (*curve)(t).head(n);
+  centre.lambda = (*curve)(t)[n];
+  const auto E = arc.matrix(centre);
+  if (!E) return {};
+  const Borders borders = borders_of(*E, m);
+  const auto Sigma = interpolate(
+      [&](double ds) -> std::optional<Vector> {
+        const auto entries = arc.sigma(ds, borders);
+        return entries ? std::optional<Vector>(entries->reshaped()) : std::nullopt;
+      },
+      curve->a, curve->b);
+  if (!Sigma) return {};
+  double error = 0;
+  for (const double share : {0.31, 0.78}) {
+    const double t_between = curve->a + share * (curve->b - curve->a);
+    const auto entries = arc.sigma(t_between, borders);
+    if (!entries) return {};
+    error = std::max(error, (entries->reshaped() - (*Sigma)(t_between)).norm());
+  }
+  // Entries below this are zero: rounding, and the error of the interpolant.
+  const double nothing =
+      8 * sigma_noise(*E, borders) + 1e-12 * Sigma->values.cwiseAbs().maxCoeff() + 3 * error;
+  std::vector<Singularity> found;
+  for (const double start : {t, curve->a, curve->b}) {
+    double place = start;
+    // All entries are multiples of t - t* near the place.
+    for (int i = 0; i < 40; ++i) {
+      const Vector s = (*Sigma)(place), d = Sigma->slope(place);
+      const double step = -d.dot(s) / d.squaredNorm();
+      if (!std::isfinite(step)) break;
+      place = std::clamp(place + step, curve->a, curve->b);
+      if (std::abs(step) < 1e-15) break;
+    }
+    const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
+                        error / Sigma->slope(place).norm();
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
+      return std::abs(other.at - place) < 2 * merged;
+    });
+    if (left <= merged && !known)
+      found.push_back({place, (*curve)(place), curve->slope(place), left});
+  }
+  return found;
+}
+
+/// The best ones of a wide window, on which rounding matters less, and narrower ones; none that
+/// belongs to other zeros of the determinant.
+std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double free, Index m) {
+  const auto worst = [](const std::vector<Singularity>& list) {
+    double doubt = 0;
+    for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
+    return doubt;
+  };
+  std::vector<Singularity> best;
+  for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    auto found = multiple_zeros_on(arc, t, share * (arc.high() - arc.low()), m);
+    std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > 0.6 * free; });
+    if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
+    if (!best.empty() && worst(best) < 1e-12) break;
+  }
+  return best;
+}
+
+/// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
+/// place, otherwise a simple one, where the zero is.
+std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vector<ZeroOf>& zeros,
+                                        Index most, double free) {
+  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
+  const auto crossings =
+      std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  std::vector<Candidate> result;
+  const auto add = [&](const Singularity& place, Index m, bool touches) {
+    Singularity alone = place;
+    alone.free = free;
+    if (auto candidate = candidate_at(arc, alone, zeros, m, touches))
+      result.push_back(std::move(*candidate));
+  };
+  for (Index m = most; m > 1; --m) {
+    const auto places = multiple_zeros(arc, middle, free, m);
+    for (const Singularity& place : places) add(place, m, false);
+    // Some of the eigenvalues may only touch zero: the determinant knows.
+    if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
+    if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
+    // The entries are too small against their rounding; the place itself may be well-conditioned.
+    if (crossings == 1 && zeros.size() == 1 && m == 2 &&
+        vanishing_modes(arc, most, zeros.front()) < 2)
+      continue;
+    if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+      add({middle, (*curve)(middle), curve->slope(middle), unknown}, m, false);
+    if (result.size() == 1) {
+      result.front().odd = crossings % 2 == 1;
+      return result;
+    }
+  }
+  if (zeros.size() > 1) return {};
+  const bool touches = zeros.front().touches;
+  // Of several modes one must be seen to vanish alone.
+  if (touches && most > 1 && vanishing_modes(arc, most, zeros.front()) != 1) return {};
+  const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
+  if (places.size() == 1)
+    add(places.front(), 1, false);
+  else if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+    add({middle, (*curve)(middle), curve->slope(middle), touches ? 0 : zeros.front().off}, 1,
+        touches);
+  return result;
+}
+
+/// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
+std::vector<double> singular_distances(const WatchedStep& arc, double t) {
+  const double d = 0.02 * arc.length();
+  std::vector<ExtendedMatrix> E;
+  for (const double ds : {t, t - d, t + d}) {
+    const auto& p = arc.point(ds);
+    auto matrix = p ? arc.matrix(*p) : std::nullopt;
+    if (!matrix) return {};
+    E.push_back(std::move(*matrix));
+  }
+  std::vector<double> distances = relative_motion(E[0], E[1], E[2]);
+  for (double& distance : distances) distance = 2 * d / distance;
+  return distances;
+}
+
+/// A corrected point is off by the rounding of F over the smallest singular value, and that changes an entry
+/// of Sigma in proportion to the rate of E: this is the product of the entry and its change, the same at
+/// every distance from a singular point.
+double blur_of_entries(const WatchedStep& arc, const ExtendedMatrix& E, const Borders& borders,
+                       double reach) {
+  const Index n = arc.from().x.size();
+  Vector sizes(n + 1);
+  sizes << arc.from().x.cwiseAbs().cwiseMax(1e-3), std::abs(arc.from().lambda);
+  const double rounding_of_F =
+      std::numeric_limits<double>::epsilon() *
+      (borders.B.topRows(n).cwiseAbs().transpose() * magnitudes(E, sizes).topRows(n)).norm();
+  return reach / arc.length() * rounding_of_F;
+}
+
+/// Distance from zeros[first..last] to the nearest other one.
+double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::size_t last,
+                   double length) {
+  double free = length;
+  if (first > 0) free = std::min(free, zeros[first].at - zeros[first - 1].at);
+  if (last + 1 < zeros.size()) free = std::min(free, zeros[last + 1].at - zeros[last].at);
+  return free;
+}
+
+}  // namespace
+
+WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
+  if (!arc.walker().options.branch_points) return {};
+  if (surely_regular(arc.walker(), arc.from().tangent, samples)) return {};
+  std::vector<ExtendedMatrix> E;
+  for (const CurvePoint* p : samples) {
+    auto matrix = arc.matrix(*p);
+    if (!matrix) return {.resolved = false};
+    E.push_back(std::move(*matrix));
+  }
+  const std::size_t middle = E.size() / 2;
+  const Reach reach = reach_of(E, middle);
+  WatchedZeros result{.order = reach.order, .examined = true};
+  const Borders borders = borders_of(E[middle], result.order);
+  double scale = 0;
+  const auto determinant = [&](double ds) -> std::optional<double> {
+    const auto Sigma = arc.sigma(ds, borders);
+    if (!Sigma) return std::nullopt;
+    const double value = Sigma->determinant();
+    scale = std::max(scale, std::abs(value));
+    return value;
+  };
+  for (const double t : {0.0, 0.5, 1.0})
+    if (!determinant(t * arc.length())) return {.resolved = false};
+  // det Sigma is a product of m factors, each with the noise of an entry.
+  const auto m = static_cast<double>(result.order);
+  const double entry = sigma_noise(E[middle], borders);
+  const double noise = std::max(
+      rounding * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
+  const double blur = result.order > 1 ? m * std::pow(scale, 1 - 2 / m) *
+                                             blur_of_entries(arc, E[middle], borders, reach.size)
+                                       : 0.0;
+  if (scale <= std::max(noise, blur)) return {.resolved = false};
+  const ZeroSearch found =
+      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution, NoiseIs::doubt);
+  result.zeros = found.zeros;
+  result.resolved = found.resolved;
+  if (result.order == 1) return result;
+  std::erase_if(result.zeros, [&](const ZeroOf& zero) {
+    return zero.touches && !sigma_may_vanish(arc, borders, zero);
+  });
+  return result;
+}
+
+bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+                       std::vector<ZeroOf>& turns, std::vector<Candidate>& found) {
+  const auto& zeros = singular.zeros;
+  const auto add = [&](const std::vector<ZeroOf>& group, double free) {
+    auto candidates = branch_points_at(arc, group, singular.order, free);
+    if (candidates.empty()) return false;
+    for (Candidate& candidate : candidates) {
+      // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
+      bool turned = false;
+      std::erase_if(turns, [&](const ZeroOf& turn) {
+        const double distance = std::abs(turn.at - candidate.at);
+        const bool here =
+            distance <= merged + 50 * turn.off || (candidate.turns && distance <= blurred);
+        turned = turned != (here && !turn.touches);
+        return here;
+      });
+      candidate.odd = candidate.odd != (turned || candidate.turns);
+      const bool twice = std::any_of(found.begin(), found.end(), [&](const Candidate& other) {
+        return std::abs(other.at - candidate.at) <
+               std::max(0.1 * merged, 10 * (other.off + candidate.off));
+      });
+      if (twice) return false;
+      found.push_back(std::move(candidate));
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < zeros.size();) {
+    std::size_t last = i;
+    while (last + 1 < zeros.size() && zeros[last + 1].at - zeros[last].at < together) ++last;
+    const double free = free_length(zeros, i, last, arc.length());
+    const std::vector<ZeroOf> group(zeros.begin() + static_cast<std::ptrdiff_t>(i),
+                                    zeros.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    bool explained = add(group, free);
+    if (!explained && last > i) {  // close, but not one point
+      explained = true;
+      for (std::size_t k = i; k <= last; ++k)
+        explained = add({zeros[k]}, free_length(zeros, k, k, arc.length())) && explained;
+    }
+    if (!explained) return false;
+    i = last + 1;
+  }
+  return true;
+}
+
+bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+                  std::vector<Candidate>& found) {
+  constexpr double too_near = 1e-6, far_enough = 1000;
+  regular = true;
+  const std::vector<double> distances = singular_distances(arc, turn.at);
+  if (turn.off > poor && !(distances.empty() || distances.front() > far_enough * turn.off))
+    return false;
+  if (distances.empty() || distances.front() > blurred || !arc.walker().options.branch_points)
+    return true;
+  const auto known = [&](const Candidate& c) {
+    return c.kind == HitKind::branch_point && std::abs(c.at - turn.at) <= 2 * blurred;
+  };
+  if (std::any_of(found.begin(), found.end(), known)) return true;
+  const auto curve = curve_near(arc, turn.at, 0.2 * arc.length());
+  if (!curve) return false;
+  // Only the exact place can tell: a fold of curves that pass each other closely lies on its curve, too.
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), unknown};
+  const auto near = std::count_if(distances.begin(), distances.end(), [&](double d) {
+    return d <= 10 * std::max(distances.front(), too_near);
+  });
+  for (Index m = std::min<Index>(near, 6); m > 0; --m) {
+    auto candidate = candidate_at(arc, place, {turn}, m, false);
+    if (!candidate) continue;
+    candidate->odd = candidate->odd != candidate->turns;
+    found.push_back(std::move(*candidate));
+    regular = false;
+    return true;
+  }
+  return distances.front() > too_near;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,127 @@
+// A step on which special points are looked for, and what is found on it. Private to the engine.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "continuation/locating/bordered_test.hpp"
+#include "continuation/locating/zeros.hpp"
+#include "continuation/points/arc.hpp"
+#include "continuation/points/samples.hpp"
+#include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+
+inline constexpr double together = 1e-5;  // arc length within which zeros are examined as one point
+inline constexpr double resolution = 1e-7;  // of features of one function
+inline constexpr double rounding = 1e-11;   // of a function against its size
+inline constexpr double merged = 1e-7;      // zeros that are closer are one multiple zero
+inline constexpr double blurred = 2e-4;     // around a branch point corrected points are less exact
+// A limit point that rounding lets be placed no better than this is not resolved: beside a singular E, and
+// anywhere.
+inline constexpr double poor = 1e-6, worst_place = 1e-4;
+inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
+
+/// One step, its points (each computed once), and what is watched on it. Points are predicted by the model that its samples
+/// define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding decides about the
+/// point, beside a branch point: there the model is the better curve.
+class WatchedStep {
+ public:
+  WatchedStep(const Walker& walker, Samples samples);
+
+  WatchedStep(const Walker& walker, const CurvePoint& from, double length)
+      : walker_{walker}, from_{from}, length_{length} {}
+
+  const Walker& walker() const { return walker_; }
+  const CurvePoint& from() const { return from_; }
+  double length() const { return length_; }
+  double low() const { return -beyond * length_; }
+  double high() const { return (1 + beyond) * length_; }
+  /// Was it seen that branches pass each other on the step, and do not meet?
+  bool passing() const { return passing_; }
+  void note_passing() const { passing_ = true; }
+
+  const std::optional<CurvePoint>& point(double ds) const {
+    auto found = points_.find(ds);
+    if (found == points_.end()) found = points_.emplace(ds, find(ds)).first;
+    return found->second;
+  }
+  std::optional<double> rate(double ds) const {
+    const auto& p = point(ds);
+    return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
+  }
+  std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
+    const Place* place = place_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
+    if (!place) return std::nullopt;
+    return extended_matrix(place->at, walker_.weights, from_.tangent);
+  }
+  std::optional<Matrix> sigma(double ds, const Borders& borders) const {
+    const auto& p = point(ds);
+    const auto E = p ? matrix(*p) : std::nullopt;
+    return E ? sigma_of(*E, borders) : std::nullopt;
+  }
+
+ private:
+  const Walker& walker_;
+  const CurvePoint& from_;
+  double length_;
+  std::optional<CurvePoint> find(double ds) const;
+  std::optional<CurvePoint> corrected(double ds) const;
+  void settle_model() const;
+
+  /// How far corrected points are from the model, and their tangents from its own.
+  struct ModelError {
+    double place = 0, direction = 0;
+  };
+  /// Of the step's ends and what is known between them; they outlive it. Most steps never ask for the model.
+  std::array<const CurvePoint*, ArcModel::most_nodes> samples_{};
+  std::size_t sample_count_ = 0;
+  mutable ArcModel model_{};
+  mutable ModelError error_{};
+  mutable bool settled_ = false, exact_ = false;
+  mutable std::map<double, std::optional<CurvePoint>> points_{};
+  mutable bool passing_ = false;
+};
+
+/// One point of the curve between any two neighbouring special points of a step, with the number of negative eigenvalues
+/// there; none where they lie so close together that rounding decides on which branch it lies.
+std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
+                                            const std::vector<Hit>& hits);
+
+/// A special point on the arc before its label is final.
+struct Candidate {
+  double at = 0, before = 0, after = 0;
+  CurvePoint point{};
+  HitKind kind = HitKind::limit_point;
+  int multiplicity = 1;
+  bool odd = false;    ///< an odd number of eigenvalues change sign here
+  bool turns = false;  ///< branch points: lambda turns back here as well
+  double off = 0;      ///< estimated error of a branch point's place
+};
+
+struct WatchedZeros {
+  std::vector<ZeroOf> zeros{};
+  bool resolved = true;
+  Index order = 1;
+  bool examined = false;  ///< the samples did not show that there are none
+  bool flat = false;      ///< the function is lost in its rounding, here and beside the step
+};
+
+/// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
+WatchedZeros singularities_on(const WatchedStep& arc, Samples samples);
+
+/// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
+/// @returns false when a zero could not be told to be a branch point
+bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+                       std::vector<ZeroOf>& turns, std::vector<Candidate>& found);
+
+/// At a limit point E is regular. Is it so at this turn of lambda? If not, and det Sigma did not show the
+/// branch point at which the branch turns, it is added to `found`.
+/// @param regular  whether the turn is a limit point
+/// @returns false when a branch point is too near to tell
+bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+                  std::vector<Candidate>& found);
+
+}  // namespace springfold::continuation

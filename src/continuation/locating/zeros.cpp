@@ -1,0 +1,305 @@
+#include "continuation/locating/zeros.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <utility>
+
+#include "continuation/points/chebyshev.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Zero of g between a and b, where it has opposite signs.
+template <class Function>
+double bisect(Function g, double a, double b) {
+  const double ga = g(a), gb = g(b);
+  if (ga == 0 || gb == 0) return ga == 0 ? a : b;
+  if (!((ga < 0 && gb > 0) || (ga > 0 && gb < 0))) return 0.5 * (a + b);  // not a number
+  std::uintmax_t most = 100;
+  const auto close = [=](double l, double r) {
+    return std::abs(r - l) <= 1e-15 * std::max(std::abs(l), std::abs(r));
+  };
+  const auto [low, high] = boost::math::tools::toms748_solve(g, a, b, ga, gb, close, most);
+  return 0.5 * (low + high);
+}
+
+constexpr int grid = 200;
+
+/// Where the interpolant crosses zero, or has an extremum that reaches the level.
+std::vector<double> features_of(const Interpolant& p, double level) {
+  std::vector<double> places;
+  const auto t = [&](int i) { return i == grid ? p.b : p.a + (p.b - p.a) * i / grid; };
+  double before = p.first(t(0)), here = p.first(t(1));
+  if ((before < 0) != (here < 0)) places.push_back(t(0));
+  for (int i = 1; i < grid; ++i) {
+    const double next = p.first(t(i + 1));
+    const bool crosses = (here < 0) != (next < 0);
+    const bool turns = std::abs(here) <= std::abs(before) && std::abs(here) <= std::abs(next) &&
+                       (before < 0) == (next < 0);
+    // A parabola that touches zero half-way between two points is an eighth of its second difference
+    // off at them.
+    const double reach = std::max(level, 0.25 * std::abs(before - 2 * here + next));
+    if (crosses || (turns && std::abs(here) <= reach)) places.push_back(t(i));
+    before = here;
+    here = next;
+  }
+  // A turn between an end and its neighbour does not show on the grid.
+  if (places.empty() || places.front() > t(1))
+    if (std::abs(p.first(t(0))) <= level) places.insert(places.begin(), t(0));
+  if (places.empty() || places.back() < t(grid - 1))
+    if (std::abs(p.first(t(grid))) <= level) places.push_back(t(grid));
+  return places;
+}
+
+/// The interval's ends and the polynomial's extrema between them.
+std::vector<double> extrema_of(const Interpolant& p, double a, double b, double spacing) {
+  const int pieces = std::max(24, static_cast<int>((b - a) / spacing));
+  const auto slope = [&](double t) { return p.first_slope(t); };
+  std::vector<double> knots{a};
+  for (int i = 0; i < pieces; ++i) {
+    const double l = a + (b - a) * i / pieces, r = a + (b - a) * (i + 1) / pieces;
+    if ((slope(l) < 0) != (slope(r) < 0)) knots.push_back(bisect(slope, l, r));
+  }
+  knots.push_back(b);
+  return knots;
+}
+
+class Search {
+ public:
+  Search(const SampledFunction& f, double a, double b, double noise, double resolution,
+         NoiseIs noise_is)
+      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{resolution}, noise_is_{noise_is} {}
+
+  ZeroSearch result{};
+
+  void examine(double a, double b, int depth) { examine(fit_on(a, b), a, b, depth); }
+
+ private:
+  /// Zeros are located to this arc length where the function is smooth enough; where rounding
+  /// prevents it, to the second one.
+  static constexpr double location = 1e-11, poor_location = 1e-6;
+  /// A parabola that touches zero between two points of the grid is less than this off at them.
+  static constexpr double touching = 1e-4;
+  /// Values this many times the noise have a sign beyond doubt.
+  static constexpr double clear = 10;
+  /// A function that needs more is noise.
+  static constexpr int most_intervals = 200;
+
+  struct Fit {
+    std::optional<Interpolant> polynomial{};
+    double error = 0;              ///< largest one at two points between the samples
+    mutable double measured = -1;  ///< noise from more of them; negative: not yet known
+  };
+
+  void examine(const Fit& fit, double a, double b, int depth) {
+    if (!result.resolved) return;  // nothing that follows would be believed
+    if (!fit.polynomial || ++examined_ > most_intervals) return give_up();
+    const Interpolant& p = *fit.polynomial;
+    if (!p.values.allFinite() || !std::isfinite(fit.error)) return give_up();
+    const double scale = p.values.cwiseAbs().maxCoeff(), least = p.values.cwiseAbs().minCoeff();
+    // Zero all along: a family, not a point; or a point too flat to be resolved.
+    if (scale <= noise_) return depth > 0 ? give_up() : void();
+    const bool last = b - a < resolution_ || depth > 24;
+    if (!last && fit.error > std::max(1e-4 * scale, noise_)) {
+      if (least < 0.5 * scale) split(a, b, depth);
+      return;
+    }
+    const std::vector<double> places = features_of(p, level_of(fit.error, scale));
+    const bool accurate = fit.error * (b - a) <= location * scale || fit.error <= noise_;
+    const auto one_feature = [&](double left, double right) {
+      return accurate ? lost_between(fit, left, right) : right - left < 0.15 * (b - a);
+    };
+    for (std::size_t i = 0; i < places.size();) {
+      std::size_t end = i;
+      while (end + 1 < places.size() && one_feature(places[end], places[end + 1])) ++end;
+      if (!look(fit, places[i], places[end], last, depth)) return split(a, b, depth);
+      i = end + 1;
+    }
+  }
+
+  /// Features between two places: located on the polynomial, or examined on a smaller interval.
+  /// @returns false when they fill the interval
+  bool look(const Fit& fit, double first, double end, bool last, int depth) {
+    const Interpolant& p = *fit.polynomial;
+    const double length = p.b - p.a, scale = p.values.cwiseAbs().maxCoeff();
+    const bool accurate = fit.error * length <= location * scale || fit.error <= noise_;
+    if (accurate && locate(fit, first, end, false)) return true;
+    const double from = std::max(p.a, first - 0.07 * length),
+                 to = std::min(p.b, end + 0.07 * length);
+    if (last) {
+      if (first != end || fit.error > 1e-5 * scale || !locate(fit, first, end, true)) give_up();
+      return true;
+    }
+    if (to - from > 0.6 * length) return false;
+    const Fit closer = fit_on(from, to);
+    const bool better = closer.polynomial && closer.error < 0.3 * fit.error;
+    if (!better && first == end && fit.error * length <= poor_location * scale)
+      locate(fit, first, end, true);
+    else
+      examine(closer, from, to, depth + 1);
+    return true;
+  }
+
+  void give_up() { result.resolved = false; }
+
+  Fit fit_on(double a, double b) const {
+    const auto one = [&](double t) -> std::optional<Vector> {
+      const auto value = f_(t);
+      return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
+    };
+    // A sample that falls on a singular point cannot be computed; beside it, it can.
+    for (const double nudge : {0.0, 0.017, 0.041}) {
+      const double shift = nudge * (b - a);
+      Fit fit{interpolate(one, std::max(low_, a - shift), std::min(high_, b + shift))};
+      if (!fit.polynomial) continue;
+      bool complete = true;
+      for (const double share : {0.31, 0.78}) {
+        const double t = a + share * (b - a);
+        const auto value = f_(t);
+        complete = complete && value;
+        if (value) fit.error = std::max(fit.error, std::abs(*value - fit.polynomial->first(t)));
+      }
+      if (complete) return fit;
+    }
+    return {};
+  }
+
+  void split(double a, double b, int depth) {
+    // Uneven, so that a feature in the middle does not fall on the seam, and where the function is not lost in
+    // its noise.
+    double middle = a + 0.4871 * (b - a), largest = 0;
+    for (const double share : {0.4871, 0.5613, 0.4127, 0.6371, 0.3389}) {
+      const auto value = f_(a + share * (b - a));
+      if (!value || std::abs(*value) <= largest) continue;
+      largest = std::abs(*value);
+      middle = a + share * (b - a);
+      if (largest > clear * noise_) break;
+    }
+    examine(a, middle, depth + 1);
+    examine(middle, b, depth + 1);
+  }
+
+  double level_of(double error, double scale) const {
+    return std::max({4 * error, touching * scale, 2 * noise_});
+  }
+
+  /// Is this value of the polynomial, at this place, lost in noise?
+  bool is_lost(const Fit& fit, double t, double value) const {
+    return std::abs(value) <= std::max(noise_, 30 * fit.error) &&
+           std::abs(value) <= measured_noise(fit, t);
+  }
+
+  /// The noise that was given is a bound. Where the polynomial is as good as that, more samples between its own, some
+  /// of them beside the place in question, show what noise there is.
+  double measured_noise(const Fit& fit, double t) const {
+    constexpr double sure = 4, digits = 1e-15;
+    if (fit.measured >= 0) return fit.measured;
+    const Interpolant& p = *fit.polynomial;
+    double worst = fit.error;
+    const auto look_at = [&](double place) {
+      const auto value = place > p.a && place < p.b ? f_(place) : p.first(place);
+      worst = value ? std::max(worst, std::abs(*value - p.first(place))) : noise_;
+    };
+    const bool as_good = fit.error <= noise_ && noise_is_ != NoiseIs::threshold;
+    if (as_good) {
+      for (const double share : {0.07, 0.17, 0.39, 0.46, 0.57, 0.66, 0.86, 0.94})
+        look_at(p.a + share * (p.b - p.a));
+      for (const double cells : {-2.3, -0.7, 0.8, 2.1}) look_at(t + cells * (p.b - p.a) / grid);
+    }
+    const double bound = std::max(noise_, 30 * fit.error);
+    fit.measured = as_good
+                       ? std::clamp(sure * worst,
+                                    std::min(bound, digits * p.values.cwiseAbs().maxCoeff()), bound)
+                       : bound;
+    return fit.measured;
+  }
+
+  bool may_touch(const Fit& fit, double t, double value) const {
+    return noise_is_ == NoiseIs::doubt ? std::abs(value) <= std::max(noise_, 30 * fit.error)
+                                       : is_lost(fit, t, value);
+  }
+
+  /// Is the polynomial lost in its noise all the way from one place to another?
+  bool lost_between(const Fit& fit, double left, double right) const {
+    const double cell = (fit.polynomial->b - fit.polynomial->a) / grid;
+    for (double t = left + 0.5 * cell; t < right; t += 0.5 * cell)
+      if (!is_lost(fit, t, fit.polynomial->first(t))) return false;
+    return true;
+  }
+
+  /// Everything that the polynomial does near two places, between which it is lost in its noise: it
+  /// is cut at its extrema, so that each piece crosses zero at most once; extrema that reach zero are
+  /// touches, or with a change of sign around them a crossing of higher order.
+  /// @param best  it will not become more accurate
+  /// @returns false when the polynomial is not accurate enough to tell a touch from others
+  bool locate(const Fit& fit, double first, double end, bool best) {
+    const Interpolant& p = *fit.polynomial;
+    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
+    const auto value = [&](double t) { return p.first(t); };
+    const double scale = p.values.cwiseAbs().maxCoeff();
+    const bool accurate = best || error <= std::max(noise_, 1e-9 * scale);
+    double low = std::max(p.a, first - cell), high = std::min(p.b, end + cell);
+    while (low > p.a && is_lost(fit, low, value(low))) low = std::max(p.a, low - cell);
+    while (high < p.b && is_lost(fit, high, value(high))) high = std::min(p.b, high + cell);
+    const std::vector<double> knots = extrema_of(p, low, high, cell / 12);
+    double before = knots.front();
+    bool touched = false;
+    double touch = 0;
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      const double here = knots[i], v = value(here);
+      const bool extremum = i + 1 < knots.size();
+      if (extremum && may_touch(fit, here, v)) {
+        if (!accurate) return false;
+        if (!touched) touch = here;
+        touched = true;
+        continue;
+      }
+      if ((value(before) < 0) != (v < 0))
+        add(zero_of(fit, touched ? touch : bisect(value, before, here), before, here, touched));
+      else if (touched)
+        add({.at = touch, .before = before, .after = here, .touches = true});
+      before = here;
+      touched = false;
+    }
+    return true;
+  }
+
+  static ZeroOf zero_of(const Fit& fit, double at, double before, double after, bool several) {
+    const double slope = std::abs(fit.polynomial->first_slope(at));
+    const double off = slope > 0 ? fit.error / slope : fit.polynomial->b - fit.polynomial->a;
+    return {.at = at, .before = before, .after = after, .off = off, .several = several};
+  }
+
+  /// Neighbouring cells may see the same zero.
+  void add(const ZeroOf& zero) {
+    for (const ZeroOf& other : result.zeros)
+      if (std::abs(other.at - zero.at) <= 10 * location) return;
+    result.zeros.push_back(zero);
+  }
+
+  const SampledFunction& f_;
+  double low_, high_, noise_, resolution_;
+  NoiseIs noise_is_;
+  int examined_ = 0;
+};
+
+}  // namespace
+
+bool within_reach(std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if ((*low < 0) != (*high < 0) || *low == 0 || *high == 0) return true;
+  return std::min(std::abs(*low), std::abs(*high)) < *high - *low;
+}
+
+ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double resolution,
+                      NoiseIs noise_is) {
+  Search search(f, a, b, noise, resolution, noise_is);
+  search.examine(a, b, 0);
+  auto& zeros = search.result.zeros;
+  std::sort(zeros.begin(), zeros.end(), [](const auto& l, const auto& r) { return l.at < r.at; });
+  return search.result;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,257 @@
+#include "continuation/parameters/augmented.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/core/decompositions.hpp"
+#include "springfold/core/differences.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Differences along directions move the largest entry by this much at their nearest points.
+constexpr double directional_step = 0x1p-8;
+
+/// The rotation that brings the columns of `left` nearest to those of `right`.
+Matrix aligned(const Matrix& left, const Matrix& right) {
+  const Svd svd =
+      jacobi_svd(left.transpose() * right, SingularVectors::full, SingularVectors::full);
+  return left * (svd.U * svd.V.transpose());
+}
+
+}  // namespace
+
+bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
+                BaseTerms& terms) {
+  const auto problem = family.at(mu);
+  if (!problem) return false;
+  const Index n = x.size();
+  Matrix dF_dx;
+  Vector dF_dlambda;
+  if (!problem->equations(x, lambda, piece, terms.F, dF_dx, dF_dlambda)) return false;
+  terms.J.resize(n, n + 1);
+  terms.J.leftCols(n) = dF_dx;
+  terms.J.col(n) = dF_dlambda;
+  return terms.F.allFinite() && terms.J.allFinite();
+}
+
+Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
+  const Index n = B.rows(), k = B.cols();
+  Matrix M = Matrix::Zero(n + k, n + k);
+  M.topLeftCorner(n, n) = base.J.leftCols(n);
+  M.topRightCorner(n, k) = B;
+  M.bottomLeftCorner(k, n) = C.transpose();
+  return M;
+}
+
+double BorderedPlace::largest() const {
+  return std::max(V.colwise().norm().maxCoeff(), W.colwise().norm().maxCoeff());
+}
+
+std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
+                                            double mu, const Piece& piece, const Matrix& B,
+                                            const Matrix& C) {
+  BorderedPlace p;
+  if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
+  const Index n = x.size(), k = B.cols();
+  Matrix right = Matrix::Zero(n + k, k);
+  right.bottomRows(k).setIdentity();
+  const Lu lu(bordered_matrix(p.base, B, C));
+  const Matrix forward = lu.solve(right), back = lu.solve_transposed(right);
+  if (!forward.allFinite() || !back.allFinite()) return std::nullopt;
+  p.V = forward.topRows(n);
+  p.G = forward.bottomRows(k);
+  p.W = back.topRows(n);
+  return p;
+}
+
+std::optional<NullVectors> null_vectors(const Family& family, const CriticalStart& at, int k) {
+  BaseTerms base;
+  if (!base_terms(family, at.x, at.lambda, at.mu, at.piece, base)) return std::nullopt;
+  const Index n = at.x.size();
+  const Matrix A = base.J.leftCols(n);
+  NullVectors null{Matrix(n, k), Matrix(n, k)};
+  if (family.at(at.mu)->symmetric()) {
+    const SymmetricEigen eigen = symmetric_eigen(A);
+    std::vector<Index> order(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(eigen.values[a]) < std::abs(eigen.values[b]);
+    });
+    for (int i = 0; i < k; ++i)
+      null.right.col(i) = eigen.vectors.col(order[static_cast<std::size_t>(i)]);
+    null.left = null.right;
+    return null;
+  }
+  const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
+  null.right = svd.V.rightCols(k);
+  null.left = aligned(svd.U.rightCols(k), null.right);
+  return null;
+}
+
+std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
+                                   const Piece& piece, const Vector& w, const Vector& V) {
+  const Index n = x.size();
+  const double largest = V.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0)) return Vector::Zero(n + 1);
+  return six_point_derivative(
+      [&](double t) -> std::optional<Vector> {
+        BaseTerms base;
+        if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
+          return std::nullopt;
+        return Vector(base.J.transpose() * w);
+      },
+      0, directional_step / largest);
+}
+
+Augmented::Augmented(const Family& family, const CriticalStart& start, NullVectors borders)
+    : family_{family}, start_{start}, borders_{std::move(borders)}, n_{start.x.size()} {
+  k_ = start.kind == CriticalKind::branch_point ? start.corank : 0;
+  weights_ = Vector::Ones(size());
+  periods_ = Vector::Zero(size());
+  if (const auto problem = family_.at(start.mu)) {
+    weights_.head(n_) = problem->metric();
+    periods_.head(n_) = problem->periods();
+    covers_ = problem->double_covers();
+  }
+}
+
+bool Augmented::is_bordered() const {
+  return start_.kind == CriticalKind::limit_point || start_.kind == CriticalKind::branch_point;
+}
+
+Vector Augmented::metric() const { return weights_; }
+Vector Augmented::periods() const { return periods_; }
+
+double Augmented::unfolding(const Vector& X) const {
+  return k_ == 0 ? 0 : X.tail(k_).lpNorm<Eigen::Infinity>();
+}
+
+Vector Augmented::start_unknowns() const {
+  Vector X = Vector::Zero(size());
+  X.head(n_) = start_.x;
+  X[n_] = start_.lambda;
+  return X;
+}
+
+std::optional<BorderedPlace> Augmented::place(const Vector& X, double mu) const {
+  return bordered_place(family_, state(X), lambda(X), mu, start_.piece, borders_.left,
+                        borders_.right);
+}
+
+std::optional<double> Augmented::surface(const Vector& x, double lambda, double mu) const {
+  if (start_.value) return start_.value(x, lambda, mu);
+  const auto problem = family_.at(mu);
+  Vector g;
+  if (!problem || !problem->switches(x, lambda, g)) return std::nullopt;
+  return g[start_.switching];
+}
+
+/// Exact for switches; differences for a function of the caller.
+std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda, double mu) const {
+  Vector gradient(n_ + 1);
+  if (!start_.value) {
+    const auto problem = family_.at(mu);
+    Matrix dg_dx;
+    Vector dg_dlambda;
+    if (!problem || !problem->switch_gradients(x, lambda, dg_dx, dg_dlambda)) return std::nullopt;
+    gradient.head(n_) = dg_dx.row(start_.switching).transpose();
+    gradient[n_] = dg_dlambda[start_.switching];
+    return gradient;
+  }
+  for (Index i = 0; i <= n_; ++i) {
+    const auto rate = six_point_derivative(
+        [&](double t) -> std::optional<Vector> {
+          Vector at = x;
+          if (i < n_) at[i] += t;
+          const auto value = start_.value(at, i < n_ ? lambda : lambda + t, mu);
+          if (!value) return std::nullopt;
+          return Vector::Constant(1, *value);
+        },
+        0, directional_step);
+    if (!rate) return std::nullopt;
+    gradient[i] = (*rate)[0];
+  }
+  return gradient;
+}
+
+std::optional<double> Augmented::test(const Vector& X, double mu, BaseTerms& base) const {
+  if (is_bordered()) {
+    auto p = place(X, mu);
+    if (!p) return std::nullopt;
+    base = std::move(p->base);
+    return p->G.trace();
+  }
+  if (!base_terms(family_, state(X), lambda(X), mu, start_.piece, base)) return std::nullopt;
+  return surface(state(X), lambda(X), mu);
+}
+
+bool Augmented::residual(const Vector& X, double mu, Vector& F) const {
+  BaseTerms base;
+  const auto last = test(X, mu, base);
+  if (!last || !std::isfinite(*last)) return false;
+  F.resize(size());
+  F.head(n_) = base.F;
+  if (k_ > 0) {
+    F.head(n_) += borders_.left * X.tail(k_);
+    F.segment(n_, k_) = borders_.right.transpose() * (state(X) - start_.x);
+  }
+  F[n_ + k_] = *last;
+  return true;
+}
+
+bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  const Vector x = state(X);
+  const double l = lambda(X);
+  BaseTerms base;
+  Vector last = Vector::Zero(n_ + 1);  // derivative of the last equation by (x, lambda)
+  Matrix V, W;
+  if (is_bordered()) {
+    auto p = place(X, mu);
+    if (!p) return false;
+    base = std::move(p->base);
+    V = std::move(p->V);
+    W = std::move(p->W);
+    for (Index i = 0; i < V.cols(); ++i) {
+      Vector along = Vector::Zero(n_ + 1);
+      along.head(n_) = V.col(i);
+      const auto part = second_along(family_, x, l, mu, start_.piece, W.col(i), along);
+      if (!part) return false;
+      last -= *part;
+    }
+  } else {
+    const auto gradient = surface_gradient(x, l, mu);
+    if (!gradient || !base_terms(family_, x, l, mu, start_.piece, base)) return false;
+    last = *gradient;
+  }
+  dF_dX = Matrix::Zero(size(), size());
+  dF_dX.topLeftCorner(n_, n_ + 1) = base.J;
+  if (k_ > 0) {
+    dF_dX.topRightCorner(n_, k_) = borders_.left;
+    dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
+  }
+  dF_dX.bottomLeftCorner(1, n_ + 1) = last.transpose();
+  const auto by_mu = six_point_derivative(
+      [&](double m) -> std::optional<Vector> {
+        BaseTerms there;
+        if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
+        Vector values(n_ + 1);
+        values.head(n_) = there.F;
+        if (is_bordered()) {
+          values[n_] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
+          return values;
+        }
+        const auto g = surface(x, l, m);
+        if (!g) return std::nullopt;
+        values[n_] = *g;
+        return values;
+      },
+      mu, family_.step);
+  if (!by_mu) return false;
+  dF_dmu = Vector::Zero(size());
+  dF_dmu.head(n_) = by_mu->head(n_);
+  dF_dmu[n_ + k_] = (*by_mu)[n_];
+  return dF_dX.allFinite() && dF_dmu.allFinite();
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,165 @@
+#include "continuation/parameters/degeneracy.hpp"
+
+#include <cmath>
+
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+/// Singular values below this, relative to the largest one, vanish at a located point.
+constexpr double vanishing = 1e-6;
+/// Rates below this are zero to rounding: a rate that is zero all along has no zeros to be found.
+constexpr double still = 1e-11;
+
+double unless_still(double rate) { return std::abs(rate) < still ? still : rate; }
+
+/// Quadratic form of D^2F, contracted with w, on the vectors a and b of (x, lambda).
+double form(const Augmented& s, const CurvePoint& p, const Vector& w, const Vector& a,
+            const Vector& b) {
+  const auto along =
+      second_along(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, w, a);
+  return along ? along->dot(b) : nowhere;
+}
+
+/// Where mu turns back on a curve of limit points either the fold is cubic (cusp), or dF/dlambda
+/// lies in the range of dF/dx: [dF/dx dF/dlambda] has a kernel of two dimensions, and the sign of
+/// the quadratic form there tells whether branches cross or a closed one shrinks to a point.
+Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
+  const auto place = s.place(p.x, p.lambda);
+  if (!place) return Degeneracy::cusp;
+  const Vector w = place->W.col(0).normalized();
+  const Index n = s.n();
+  const Vector by_lambda = place->base.J.col(n);
+  Vector along = Vector::Zero(n + 1);
+  along.head(n) = place->V.col(0).normalized();
+  const double bending = std::abs(form(s, p, w, along, along));
+  if (!(std::abs(w.dot(by_lambda)) < bending)) return Degeneracy::cusp;
+  const Matrix V = jacobi_svd(place->base.J, SingularVectors::none, SingularVectors::full).V;
+  const Vector a = V.col(n), b = V.col(n - 1);
+  const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
+  return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
+}
+
+/// The determinant's sign with the size of the smallest singular value: continuous, and zero
+/// where one more eigenvalue of dF/dx vanishes.
+double signed_least(const Matrix& M) {
+  const Vector values = jacobi_svd(M).values;
+  return Lu(M).sign() * values[values.size() - 1];
+}
+
+/// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on
+/// the branch itself.
+Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
+  BaseTerms base;
+  const Index lost = s.borders().left.cols() + 1;
+  if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base) ||
+      s.n() < lost)
+    return Degeneracy::corank_two;
+  const Vector values = jacobi_svd(base.J).values;
+  return values[s.n() - lost] > vanishing * values[0] ? Degeneracy::hilltop
+                                                      : Degeneracy::corank_two;
+}
+
+/// Rates of lambda and of the surface along the curve of one side, dlambda dh / |t|^2: zero where
+/// one of them turns back; whichever way the curve is walked.
+double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
+  const Vector x = s.state(p.x);
+  const double lambda = s.lambda(p.x);
+  BaseTerms base;
+  if (!base_terms(s.family(), x, lambda, p.lambda, side, base)) return nowhere;
+  const auto h = s.surface_gradient(x, lambda, p.lambda);
+  if (!h) return nowhere;
+  const Vector t = jacobi_svd(base.J, SingularVectors::none, SingularVectors::full).V.col(s.n());
+  return unless_still(t[s.n()] * h->dot(t) / std::max(1e-300, h->norm()));
+}
+
+void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
+  const auto problem = system.family().at(system.start().mu);
+  if (!problem) return;
+  const bool on_surface = system.start().kind == CriticalKind::surface;
+  for (Index j = 0; j < problem->switch_count(); ++j) {
+    if (on_surface && j == system.start().switching) continue;
+    watches.push_back({on_surface ? Degeneracy::two_switches : Degeneracy::fold_meets_activation,
+                       problem->switch_name(j),
+                       [&system, j](const CurvePoint& p) {
+                         const auto at = system.family().at(p.lambda);
+                         Vector g;
+                         if (!at || !at->switches(system.state(p.x), system.lambda(p.x), g))
+                           return nowhere;
+                         return g[j];
+                       },
+                       EventAction::stop,
+                       {}});
+  }
+}
+
+void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
+  watches.push_back({Degeneracy::corank_two, "",
+                     [&system](const CurvePoint& p) {
+                       BaseTerms base;
+                       return base_terms(system.family(), system.state(p.x), system.lambda(p.x),
+                                         p.lambda, system.start().piece, base)
+                                  ? signed_least(bordered_matrix(base, system.borders().left,
+                                                                 system.borders().right))
+                                  : nowhere;
+                     },
+                     EventAction::record,
+                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
+}
+
+void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
+  const auto add = [&](Degeneracy kind, const Piece& side) {
+    watches.push_back({kind,
+                       "",
+                       [&system, side](const CurvePoint& p) { return reversal(system, p, side); },
+                       EventAction::record,
+                       {}});
+  };
+  add(Degeneracy::fold_meets_activation, system.start().piece);
+  add(Degeneracy::corner_loses_reversal, system.start().behind);
+}
+
+}  // namespace
+
+std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events) {
+  std::vector<Watch> watches;
+  const CriticalKind kind = system.start().kind;
+  const Degeneracy turn = kind == CriticalKind::limit_point    ? Degeneracy::cusp
+                          : kind == CriticalKind::branch_point ? Degeneracy::branch_points_merge
+                          : kind == CriticalKind::surface      ? Degeneracy::touches_surface
+                                                               : Degeneracy::turn;
+  std::function<Degeneracy(const CurvePoint&)> refine;
+  if (kind == CriticalKind::limit_point)
+    refine = [&system](const CurvePoint& p) { return turn_of_fold(system, p); };
+  watches.push_back({turn, "", [](const CurvePoint& p) { return unless_still(p.tangent.dlambda); },
+                     EventAction::record, refine});
+  const Index n = system.n();
+  watches.push_back({Degeneracy::extremum,
+                     "",
+                     [n](const CurvePoint& p) { return unless_still(p.tangent.dx[n]); },
+                     EventAction::record,
+                     {}});
+  if (kind == CriticalKind::limit_point || kind == CriticalKind::branch_point)
+    watch_bordered(system, watches);
+  if (kind == CriticalKind::surface) watch_corner(system, watches);
+  watch_surfaces(system, watches);
+  for (const CriticalEvent& event : events)
+    watches.push_back({Degeneracy::user,
+                       event.name,
+                       [&event, n](const CurvePoint& p) {
+                         return event.value({.s = p.s,
+                                             .x = p.x.head(n),
+                                             .lambda = p.x[n],
+                                             .mu = p.lambda,
+                                             .dx = p.tangent.dx.head(n),
+                                             .dlambda = p.tangent.dx[n],
+                                             .dmu = p.tangent.dlambda});
+                       },
+                       event.action,
+                       {}});
+  return watches;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,23 @@
+// What is looked for along a critical curve. Private to the engine.
+#pragma once
+
+#include <vector>
+
+#include "continuation/parameters/augmented.hpp"
+
+namespace springfold::continuation {
+
+/// A zero of `value` on the augmented curve, and what it stands for.
+struct Watch {
+  Degeneracy kind = Degeneracy::user;
+  std::string name{};
+  std::function<double(const CurvePoint&)> value{};
+  EventAction action = EventAction::record;
+  std::function<Degeneracy(const CurvePoint&)>
+      refine{};  ///< tells kinds apart at the located point
+};
+
+/// The watches of this kind of critical point, then the caller's events. They refer to `system`.
+std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events);
+
+}  // namespace springfold::continuation

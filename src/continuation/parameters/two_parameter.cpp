@@ -1,0 +1,295 @@
+#include "springfold/continuation/two_parameter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/parameters/augmented.hpp"
+#include "continuation/parameters/degeneracy.hpp"
+#include "springfold/continuation/trace.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Borders are renewed when a null vector is this much longer than its projection on them.
+constexpr double poor_borders = 2.5;
+/// Unfolding coefficients above this: the parameter does not keep the branch [-].
+constexpr double kept_within = 1e-8;
+/// Points of a curve nearer than this, in arc length, are the same.
+constexpr double same_place = 1e-6;
+
+CriticalPoint critical_point(const CurvePoint& p, Index n) {
+  return {.s = p.s,
+          .x = p.x.head(n),
+          .lambda = p.x[n],
+          .mu = p.lambda,
+          .dx = p.tangent.dx.head(n),
+          .dlambda = p.tangent.dx[n],
+          .dmu = p.tangent.dlambda};
+}
+
+/// Newton's method for X at a fixed mu.
+std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
+  constexpr int most = 12;
+  double before = HUGE_VAL;
+  for (int i = 0; i < most; ++i) {
+    Vector F, by_mu;
+    Matrix J;
+    if (!system.residual(X, mu, F) || !system.derivatives(X, mu, J, by_mu)) return std::nullopt;
+    const Vector step = -Lu(J).solve(F);
+    if (!step.allFinite() || step.norm() > 1) return std::nullopt;
+    X += step;
+    const double moved = step.norm();
+    // Rounding is reached when the steps are small and no longer shrink.
+    if (moved <= 1e-14 * (1 + X.norm()) || (moved < 1e-9 && moved > 0.1 * before)) return X;
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<Augmented> system_at(const Family& family, const CriticalStart& start) {
+  NullVectors borders;
+  const bool bordered =
+      start.kind == CriticalKind::limit_point || start.kind == CriticalKind::branch_point;
+  if (bordered) {
+    auto found =
+        null_vectors(family, start, start.kind == CriticalKind::branch_point ? start.corank : 1);
+    if (!found) return std::nullopt;
+    borders = std::move(*found);
+  }
+  return Augmented(family, start, std::move(borders));
+}
+
+/// Orthonormal columns nearest to the given ones.
+Matrix polar(const Matrix& columns) {
+  const Svd svd = jacobi_svd(columns, SingularVectors::thin, SingularVectors::thin);
+  return svd.U * svd.V.transpose();
+}
+
+class Follower {
+ public:
+  Follower(const Family& family, CriticalStart start, const std::vector<CriticalEvent>& events,
+           const TraceOptions& options, const std::function<bool(const CriticalPoint&)>& observer)
+      : family_{family},
+        start_{std::move(start)},
+        events_{events},
+        options_{options},
+        observer_{observer} {
+    options_.limit_points = false;  // turns of mu are events here: they are told apart
+    options_.branch_points = false;
+  }
+
+  CriticalCurve follow(bool growing) {
+    auto system = system_at(family_, start_);
+    if (!system) return refused("the equations are not defined at the special point");
+    const auto X = solve_at(*system, system->start_unknowns(), start_.mu);
+    if (!X) return refused("the special point could not be located with the second parameter");
+    if (system->unfolding(*X) > kept_within) return not_kept();
+    Vector at = *X;
+    double mu = start_.mu;
+    std::optional<Direction> along;
+    while (true) {
+      const auto ray = way_out(*system, at, mu, along, growing);
+      if (!ray) return std::move(curve_);
+      const bool renew = leg(*system, at, mu, *ray);
+      if (!renew) break;
+      const CurvePoint end = last_;
+      along = end.tangent;
+      at = end.x;
+      mu = end.lambda;
+      const auto place = system->place(at, mu);
+      if (!place) break;
+      start_.x = at.head(system->n());
+      system.emplace(family_, start_, NullVectors{polar(place->W), polar(place->V)});
+    }
+    tidy();
+    return std::move(curve_);
+  }
+
+ private:
+  CriticalCurve refused(std::string why) {
+    curve_.stop = StopReason::bad_start;
+    curve_.stop_detail = std::move(why);
+    return std::move(curve_);
+  }
+  CriticalCurve not_kept() {
+    curve_.kept = false;
+    return refused(
+        "the second parameter does not keep the branch: there is no curve of branch points");
+  }
+
+  std::optional<Ray> way_out(const Augmented& system, const Vector& X, double mu,
+                             const std::optional<Direction>& along, bool growing) {
+    const auto rays = rays_from(system, X, mu, {}, options_).rays;
+    const Ray* best = nullptr;
+    double largest = -HUGE_VAL;
+    for (const Ray& ray : rays) {
+      const double forward = along ? metric_product(system.metric(), *along, ray.tangent)
+                                   : (growing ? ray.tangent.dlambda : -ray.tangent.dlambda);
+      if (forward > largest) best = &ray;
+      largest = std::max(largest, forward);
+    }
+    if (best != nullptr) return *best;
+    curve_.stop_detail = "no curve leaves the special point";
+    return std::nullopt;
+  }
+
+  /// One stretch with fixed borders. @returns whether another one follows
+  bool leg(const Augmented& system, const Vector& X, double mu, const Ray& ray) {
+    const std::vector<Watch> watches = watches_of(system, events_);
+    std::vector<Event> events;
+    for (std::size_t i = 0; i < watches.size(); ++i)
+      events.push_back({std::to_string(i), watches[i].value, watches[i].action});
+    const Index n = system.n();
+    bool renew = false, lost = false;
+    const auto observe = [&](const CurvePoint& point) {
+      ++accepted_;
+      if (observer_) {
+        CriticalPoint now = critical_point(point, n);
+        now.s += length_;
+        if (!observer_(now)) return false;
+      }
+      lost = system.unfolding(point.x) > kept_within;
+      if (lost || accepted_ >= options_.maximum_points) return false;
+      if (system.borders().left.cols() == 0) return true;
+      const auto place = system.place(point.x, point.lambda);
+      renew = !place || place->largest() > poor_borders;
+      return !renew;
+    };
+    const Curve curve = trace(system, X, mu, ray, events, options_, observe);
+    add(curve, watches, n);
+    if (lost) {
+      curve_.kept = false;
+      curve_.stop_detail = "the second parameter does not keep the branch";
+    } else if (accepted_ >= options_.maximum_points) {
+      curve_.stop = StopReason::max_points;
+      curve_.stop_detail = std::string{to_string(StopReason::max_points)};
+    }
+    last_ = curve.points.back();
+    return renew && curve.stop == StopReason::observer;
+  }
+
+  void add(const Curve& curve, const std::vector<Watch>& watches, Index n) {
+    for (std::size_t i = curve_.points.empty() ? 0 : 1; i < curve.points.size(); ++i) {
+      curve_.points.push_back(critical_point(curve.points[i], n));
+      curve_.points.back().s += length_;
+    }
+    for (const Hit& hit : curve.hits) {
+      if (hit.kind != HitKind::user) continue;
+      const Watch& watch = watches[static_cast<std::size_t>(std::stoul(hit.name))];
+      CriticalHit found{
+          .kind = watch.kind, .name = watch.name, .point = critical_point(hit.point, n)};
+      if (watch.refine) found.kind = watch.refine(hit.point);
+      found.point.s += length_;
+      curve_.hits.push_back(std::move(found));
+    }
+    curve_.stop = curve.stop;
+    curve_.stop_detail = curve.stop_detail;
+    if (curve.stop == StopReason::event && !curve_.hits.empty()) {
+      const CriticalHit& last = curve_.hits.back();
+      curve_.stop_detail =
+          last.kind == Degeneracy::user ? last.name : std::string{to_string(last.kind)};
+    }
+    if (!curve.points.empty()) length_ += curve.points.back().s;
+  }
+
+  /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own.
+  void tidy() {
+    const auto is_more = [](Degeneracy kind) {
+      return kind == Degeneracy::cusp || kind == Degeneracy::isola_centre ||
+             kind == Degeneracy::crossing || kind == Degeneracy::branch_points_merge ||
+             kind == Degeneracy::touches_surface || kind == Degeneracy::turn ||
+             kind == Degeneracy::hilltop;
+    };
+    const std::vector<CriticalHit> all = curve_.hits;
+    std::erase_if(curve_.hits, [&](const CriticalHit& hit) {
+      const bool secondary = hit.kind == Degeneracy::extremum ||
+                             hit.kind == Degeneracy::fold_meets_activation ||
+                             hit.kind == Degeneracy::corner_loses_reversal;
+      return secondary && std::any_of(all.begin(), all.end(), [&](const CriticalHit& other) {
+               return is_more(other.kind) && std::abs(other.point.s - hit.point.s) <= same_place;
+             });
+    });
+  }
+
+  const Family& family_;
+  CriticalStart start_;
+  const std::vector<CriticalEvent>& events_;
+  TraceOptions options_;
+  const std::function<bool(const CriticalPoint&)>& observer_;
+  CriticalCurve curve_{};
+  CurvePoint last_{};
+  double length_ = 0;
+  int accepted_ = 1;
+};
+
+}  // namespace
+
+CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,
+                              const std::vector<CriticalEvent>& events, const TraceOptions& options,
+                              const std::function<bool(const CriticalPoint&)>& observer) {
+  return Follower(family, start, events, options, observer).follow(growing);
+}
+
+std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start) {
+  const auto system = system_at(family, start);
+  if (!system) return std::nullopt;
+  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
+  if (!X || system->unfolding(*X) > kept_within) return std::nullopt;
+  return CriticalPoint{.x = system->state(*X), .lambda = system->lambda(*X), .mu = start.mu};
+}
+
+std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start) {
+  const auto system = system_at(family, start);
+  if (!system) return std::nullopt;
+  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
+  if (!X) return std::nullopt;
+  Matrix J;
+  Vector by_mu;
+  if (!system->derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
+  const FullPivotLu lu(J);
+  if (!lu.is_invertible()) return std::nullopt;
+  const Vector rate = -lu.solve(by_mu);
+  const double size = std::max(1.0, rate.lpNorm<Eigen::Infinity>());
+  if (!rate.allFinite() || system->unfolding(rate) > kept_within * size) return std::nullopt;
+  return CriticalPoint{.x = system->state(*X),
+                       .lambda = system->lambda(*X),
+                       .mu = start.mu,
+                       .dx = system->state(rate),
+                       .dlambda = system->lambda(rate),
+                       .dmu = 1};
+}
+
+std::string_view to_string(Degeneracy kind) {
+  switch (kind) {
+    case Degeneracy::cusp:
+      return "cusp";
+    case Degeneracy::isola_centre:
+      return "isola centre";
+    case Degeneracy::crossing:
+      return "crossing of branches";
+    case Degeneracy::hilltop:
+      return "hilltop";
+    case Degeneracy::branch_points_merge:
+      return "a pair of branch points is born";
+    case Degeneracy::corank_two:
+      return "another mode vanishes at the same load";
+    case Degeneracy::fold_meets_activation:
+      return "fold meets activation";
+    case Degeneracy::corner_loses_reversal:
+      return "corner loses its reversal";
+    case Degeneracy::touches_surface:
+      return "the path touches the activation";
+    case Degeneracy::two_switches:
+      return "two activations at once";
+    case Degeneracy::turn:
+      return "the parameter turns back";
+    case Degeneracy::extremum:
+      return "extremum of lambda";
+    case Degeneracy::user:
+      return "marked value";
+  }
+  return "";
+}
+
+}  // namespace springfold::continuation

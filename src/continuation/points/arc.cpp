@@ -1,0 +1,89 @@
+#include "continuation/points/arc.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "springfold/continuation/newton.hpp"
+
+namespace springfold::continuation {
+
+bool ArcModel::go_through(const Vector& weights, const CurvePoint& origin, Samples nodes) {
+  assert(nodes.size() <= most_nodes);
+  knots_ = 0;
+  const Index n = origin.x.size();
+  const auto order = static_cast<Index>(2 * nodes.size());
+  if (c_.rows() != n + 1 || c_.cols() != order) c_.resize(n + 1, order);
+  rate_.resize(n + 1);
+  for (Index i = 0; i < order; i += 2) {
+    const CurvePoint& p = *nodes[static_cast<std::size_t>(i / 2)];
+    const double along =
+        (weights.array() * p.tangent.dx.array() * origin.tangent.dx.array()).sum() +
+        p.tangent.dlambda * origin.tangent.dlambda;
+    const double t =
+        (weights.array() * (p.x - origin.x).array() * origin.tangent.dx.array()).sum() +
+        (p.lambda - origin.lambda) * origin.tangent.dlambda;
+    const auto k = static_cast<std::size_t>(i);
+    if (!(along > 0) || !std::isfinite(t) || (i > 0 && !(t > at_[k - 1]))) return false;
+    at_[k] = at_[k + 1] = t;
+    for (const Index c : {i, i + 1}) {
+      c_.col(c).head(n) = p.x;
+      c_(n, c) = p.lambda;
+    }
+  }
+  const auto column = [](std::size_t i) { return static_cast<Index>(i); };
+  for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k)
+    for (std::size_t i = static_cast<std::size_t>(order) - 1; i >= k; --i) {
+      const double width = at_[i] - at_[i - k];
+      if (width > 0) {
+        c_.col(column(i)) = (c_.col(column(i)) - c_.col(column(i - 1))) / width;
+        continue;
+      }
+      const CurvePoint& p = *nodes[i / 2];
+      const double along =
+          (weights.array() * p.tangent.dx.array() * origin.tangent.dx.array()).sum() +
+          p.tangent.dlambda * origin.tangent.dlambda;
+      c_.col(column(i)).head(n) = p.tangent.dx / along;
+      c_(n, column(i)) = p.tangent.dlambda / along;
+    }
+  knots_ = static_cast<std::size_t>(order);
+  return true;
+}
+
+void ArcModel::evaluate(double t, Vector& u, Vector& rate) const {
+  u = c_.col(c_.cols() - 1);
+  rate.setZero(u.size());
+  for (Index i = c_.cols() - 2; i >= 0; --i) {
+    const double away = t - at_[static_cast<std::size_t>(i)];
+    rate = u + away * rate;
+    u = c_.col(i) + away * u;
+  }
+}
+
+double ArcModel::rate_of_lambda(double t) const {
+  const Index n = c_.rows() - 1;
+  double value = c_(n, c_.cols() - 1), rate = 0;
+  for (Index i = c_.cols() - 2; i >= 0; --i) {
+    const double away = t - at_[static_cast<std::size_t>(i)];
+    rate = value + away * rate;
+    value = c_(n, i) + away * value;
+  }
+  return rate;
+}
+
+void ArcModel::point(const Vector& weights, const CurvePoint& origin, double t,
+                     CurvePoint& point) const {
+  evaluate(t, u_, rate_);
+  const Index n = u_.size() - 1;
+  point.x = u_.head(n);
+  point.lambda = u_[n];
+  point.tangent.dx = rate_.head(n);
+  point.tangent.dlambda = rate_[n];
+  const double length = std::sqrt(metric_product(weights, point.tangent, point.tangent));
+  point.tangent.dx /= length;
+  point.tangent.dlambda /= length;
+  point.s = origin.s + t;
+  point.piece = origin.piece;
+  point.negative.reset();
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,44 @@
+// A model of the curve between some of its points. Private to the engine.
+#pragma once
+
+#include <array>
+
+#include "continuation/points/samples.hpp"
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+
+/// The polynomial through points of the curve and their tangents, in Newton's form with double knots. On one smooth piece the
+/// curve is a function u(t) = (x, lambda)(t) of the way t = tau_0 . (u - u_0) along the tangent at one of its points, the
+/// origin, with the rate du/dt = tau / (tau . tau_0). Nothing of F enters: the model passes smoothly through simple branch
+/// points, and goes on beyond its ends as the curve did before.
+class ArcModel {
+ public:
+  static constexpr std::size_t most_nodes = 5;
+
+  /// Takes the place of what the arc was before; its storage is used again.
+  /// @param nodes  in order along the curve, on one piece, not more than `most_nodes`
+  /// @returns false, and is empty, where they do not lie evenly ahead along the tangent at `origin`
+  bool go_through(const Vector& weights, const CurvePoint& origin, Samples nodes);
+
+  bool empty() const { return knots_ == 0; }
+  double begin() const { return at_[0]; }
+  double end() const { return at_[knots_ - 1]; }
+
+  /// u(t) and du/dt, n + 1 numbers each.
+  void evaluate(double t, Vector& u, Vector& rate) const;
+
+  /// dlambda/dt.
+  double rate_of_lambda(double t) const;
+
+  /// The model's own point, with its unit tangent; s is that of the origin and t.
+  void point(const Vector& weights, const CurvePoint& origin, double t, CurvePoint& point) const;
+
+ private:
+  std::array<double, 2 * most_nodes> at_{};
+  std::size_t knots_ = 0;
+  Matrix c_{};  ///< divided differences, one column per knot
+  mutable Vector u_{}, rate_{};
+};
+
+}  // namespace springfold::continuation

@@ -1,0 +1,275 @@
+#include "springfold/continuation/between.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/normalised.hpp"
+#include "springfold/continuation/step.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Part of a curve on one piece, from one of its points to another.
+struct Stretch {
+  CurvePoint from{}, to{};
+  bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
+};
+
+/// The curve as a function of the way along the tangent at a stretch's begin.
+struct Node {
+  double t = 0;
+  Vector u{};     ///< (x, lambda)
+  Vector rate{};  ///< du/dt
+};
+
+/// The polynomial through some nodes and their rates, of degree five for three of them, in Newton's form:
+///
+///     u(t) = c_0 + (t - a) (c_1 + (t - a) (c_2 + (t - m) (c_3 + (t - m) (c_4 + (t - b) c_5))))
+class Hermite {
+ public:
+  explicit Hermite(const std::vector<const Node*>& nodes) {
+    const std::size_t order = 2 * nodes.size();
+    for (std::size_t i = 0; i < order; ++i) knots_.push_back(nodes[i / 2]->t);
+    c_.resize(nodes.front()->u.size(), static_cast<Index>(order));
+    for (std::size_t i = 0; i < order; ++i) c_.col(static_cast<Index>(i)) = nodes[i / 2]->u;
+    for (std::size_t k = 1; k < order; ++k)
+      for (std::size_t i = order - 1; i >= k; --i) {
+        const double width = knots_[i] - knots_[i - k];
+        const auto here = static_cast<Index>(i);
+        if (width > 0)
+          c_.col(here) = (c_.col(here) - c_.col(here - 1)) / width;
+        else
+          c_.col(here) = nodes[i / 2]->rate;
+      }
+  }
+
+  void evaluate(double t, Vector& u, Vector& rate) const {
+    u = c_.rightCols(1);
+    rate.setZero(u.size());
+    for (Index i = c_.cols() - 2; i >= 0; --i) {
+      const double away = t - knots_[static_cast<std::size_t>(i)];
+      rate = u + away * rate;
+      u = c_.col(i) + away * u;
+    }
+  }
+
+ private:
+  std::vector<double> knots_{};
+  Matrix c_{};
+};
+
+class Filler {
+ public:
+  Filler(const Walker& walker, double spacing, Between& result)
+      : walker_{walker}, spacing_{spacing}, result_{result} {}
+
+  void fill(const Stretch& stretch) {
+    stretch_ = &stretch;
+    const Direction chord{stretch.to.x - stretch.from.x, stretch.to.lambda - stretch.from.lambda};
+    length_ = metric_product(walker_.weights, chord, stretch.from.tangent);
+    const double h = stretch.to.s - stretch.from.s;
+    if (!(length_ > 0) || !(h > 0)) return;
+    per_s_ = length_ / h;
+    // Not at the ends themselves: those are rows already.
+    constexpr double same = 1e-9;
+    const double first = std::floor(stretch.from.s / spacing_ + same) + 1;
+    const double last = std::ceil(stretch.to.s / spacing_ - same) - 1;
+    if (!(first <= last)) return;
+    const Node a = node_of(stretch.from), b = node_of(stretch.to);
+    // The cubic through the ends predicts the middle.
+    const double half = 0.5 * length_;
+    const Vector guess = 0.5 * (a.u + b.u) + 0.25 * half * (a.rate - b.rate);
+    const auto m = node_near(half, guess, nullptr);
+    if (m)
+      between(a, *m, b, first, last, 0);
+    else {
+      const Node middle{half, guess, (b.u - a.u) / length_};
+      one_by_one(Hermite({&a, &middle, &b}), first, last);
+    }
+  }
+
+ private:
+  static constexpr double exact = 1e-13;  // error of the polynomial that needs no correction
+  /// Where the quintic is off by e at two nodes more, the polynomial through all five, of degree nine, is
+  /// off by about e^(10/6): on a smooth curve each order more brings the same factor.
+  static constexpr double nearly_exact = 1e-9;
+  static constexpr int deepest = 24;
+
+  double way_of(double k) const { return (k * spacing_ - stretch_->from.s) * per_s_; }
+
+  Node node_of(const CurvePoint& p) const {
+    const Index n = p.x.size();
+    Node node{
+        .t = &p == &stretch_->from ? 0.0 : length_, .u = Vector(n + 1), .rate = Vector(n + 1)};
+    node.u << p.x, p.lambda;
+    set_rate(p, node);
+    return node;
+  }
+
+  void set_rate(const CurvePoint& p, Node& node) const {
+    const double along = metric_product(walker_.weights, p.tangent, stretch_->from.tangent);
+    node.rate << p.tangent.dx, p.tangent.dlambda;
+    node.rate /= along;
+  }
+
+  /// The curve's point nearest to a guess, within the plane across the tangent at the begin.
+  std::optional<CurvePoint> corrected(const Vector& guess) const {
+    const Index n = guess.size() - 1;
+    return point_on_curve(walker_, guess.head(n), guess[n], stretch_->from.piece,
+                          stretch_->from.tangent)
+        .point;
+  }
+
+  /// @param rate  predicted; the tangent must be along it
+  std::optional<Node> node_near(double t, const Vector& guess, const Vector* rate) const {
+    const auto p = corrected(guess);
+    if (!p) return std::nullopt;
+    const Index n = p->x.size();
+    Node node{.t = t, .u = Vector(n + 1), .rate = Vector(n + 1)};
+    node.u << p->x, p->lambda;
+    set_rate(*p, node);
+    constexpr double other_direction = 0.5;
+    if (rate && (node.rate - *rate).norm() > other_direction * rate->norm()) return std::nullopt;
+    return node;
+  }
+
+  /// The points first...last between the outer two of three nodes.
+  void between(const Node& a, const Node& m, const Node& b, double first, double last, int depth) {
+    if (!(first <= last)) return;
+    const Hermite curve({&a, &m, &b});
+    constexpr double few = 3;
+    if (last - first < few) return one_by_one(curve, first, last);
+    Vector u, rate;
+    double error = 0;
+    std::optional<Node> inner[2];
+    for (int i = 0; i < 2; ++i) {
+      const double t = 0.5 * (m.t + (i == 0 ? a.t : b.t));
+      curve.evaluate(t, u, rate);
+      inner[i] = node_near(t, u, &rate);
+      if (!inner[i] || depth > deepest) return one_by_one(curve, first, last);
+      error = std::max(error, (inner[i]->u - u).lpNorm<Eigen::Infinity>());
+    }
+    const double scale = std::max(1.0, m.u.lpNorm<Eigen::Infinity>());
+    if (error <= exact * scale) return on_curve(curve, first, last);
+    if (error <= nearly_exact * scale)
+      return on_curve(Hermite({&a, &*inner[0], &m, &*inner[1], &b}), first, last);
+    const double seam = std::floor((m.t / per_s_ + stretch_->from.s) / spacing_);
+    between(a, *inner[0], m, first, std::min(seam, last), depth + 1);
+    between(m, *inner[1], b, std::max(seam + 1, first), last, depth + 1);
+  }
+
+  /// Points on a polynomial that is exact: checked, not corrected.
+  void on_curve(const Hermite& curve, double first, double last) {
+    for (double k = first; k <= last; ++k) {
+      curve.evaluate(way_of(k), u_, rate_);
+      const Index n = u_.size() - 1;
+      CurvePoint point = started(k);
+      point.x = u_.head(n);
+      point.lambda = u_[n];
+      const bool inside = walker_.problem.residual(point.x, point.lambda, point.piece, F_);
+      const double scale = std::max(1.0, u_.lpNorm<Eigen::Infinity>());
+      const bool small = inside && F_.lpNorm<Eigen::Infinity>() <=
+                                       walker_.options.newton.residual_tolerance * scale;
+      if (!small || !stretch_->counted) {
+        one_by_one(curve, k, k);
+        continue;
+      }
+      point.tangent = {rate_.head(n), rate_[n]};
+      const double length = length_of(walker_, point.tangent);
+      point.tangent.dx /= length;
+      point.tangent.dlambda /= length;
+      point.negative = stretch_->from.negative;
+      result_.points.push_back(std::move(point));
+    }
+  }
+
+  void one_by_one(const Hermite& curve, double first, double last) {
+    for (double k = first; k <= last; ++k) {
+      curve.evaluate(way_of(k), u_, rate_);
+      auto point = corrected(u_);
+      if (!point) {
+        ++result_.missed;
+        continue;
+      }
+      point->s = k * spacing_;
+      result_.points.push_back(std::move(*point));
+    }
+  }
+
+  CurvePoint started(double k) const {
+    CurvePoint point;
+    point.s = k * spacing_;
+    point.piece = stretch_->from.piece;
+    return point;
+  }
+
+  const Walker& walker_;
+  double spacing_, length_ = 0, per_s_ = 1;
+  const Stretch* stretch_ = nullptr;
+  Between& result_;
+  Vector u_{}, rate_{}, F_{};
+};
+
+bool is_kink(const Hit& hit) { return !hit.switches.empty(); }
+
+bool changes_the_count(const Hit& hit) { return hit.kind != HitKind::user; }
+
+/// The stretches of a curve: from point to point, parted at kinks, up to the event that ended it.
+std::vector<Stretch> stretches_of(const Curve& curve, bool counts) {
+  std::vector<Stretch> stretches;
+  CurvePoint from = curve.points.front();
+  bool special = false;
+  const auto up_to = [&](const CurvePoint& to) {
+    const bool counted = !special && from.negative == to.negative;
+    if (to.s > from.s) stretches.push_back({from, to, counted && (from.negative || !counts)});
+    special = false;
+  };
+  std::size_t h = 0;
+  const auto take_hits = [&](double until) {
+    for (; h < curve.hits.size() && curve.hits[h].point.s <= until; ++h) {
+      const Hit& hit = curve.hits[h];
+      special = special || changes_the_count(hit);
+      const bool last = h + 1 == curve.hits.size() && hit.point.s > curve.points.back().s;
+      if (!is_kink(hit) && !last) continue;
+      up_to(hit.point);
+      from = hit.leaving.empty() ? hit.point : hit.leaving.front();
+      special = is_kink(hit);
+    }
+  };
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    take_hits(curve.points[i].s);
+    up_to(curve.points[i]);
+    from = curve.points[i];
+  }
+  take_hits(std::numeric_limits<double>::infinity());
+  return stretches;
+}
+
+}  // namespace
+
+Between points_between(ProblemView problem, const Curve& curve, double spacing,
+                       const TraceOptions& options) {
+  assert(spacing > 0);
+  Between result;
+  if (curve.points.empty()) return result;
+  const CurvePoint& start = curve.points.front();
+  const Normalised own(problem, start.x, start.lambda, start.piece);
+  const Walker walker{own, own.metric(), options};
+  Filler filler(walker, spacing, result);
+  for (Stretch& stretch : stretches_of(curve, problem.symmetric())) {
+    stretch.from = own.inside(stretch.from);
+    const CurvePoint to = own.inside(stretch.to);
+    // A closed curve may end at another copy of its start, whole periods away.
+    const Direction chord = between(walker, stretch.from, to);
+    stretch.to.x = stretch.from.x + chord.dx;
+    stretch.to.tangent = direction_seen_from(walker, stretch.from.x, to);
+    filler.fill(stretch);
+  }
+  for (CurvePoint& point : result.points) point = own.outside(std::move(point));
+  return result;
+}
+
+}  // namespace springfold::continuation

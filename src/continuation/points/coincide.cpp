@@ -1,0 +1,113 @@
+#include "continuation/points/coincide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/diagram.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+
+Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near) {
+  Vector signs = Vector::Ones(x.size());
+  for (const Index i : double_covers)
+    if (x.segment<4>(i).dot(near.segment<4>(i)) < 0) signs.segment<4>(i).setConstant(-1);
+  return signs;
+}
+
+namespace {
+
+/// d times nearest_signs().
+void take_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near,
+                Vector& d) {
+  for (const Index i : double_covers)
+    if (x.segment<4>(i).dot(near.segment<4>(i)) < 0) d.segment<4>(i) *= -1;
+}
+
+/// The memory with what the problem says of itself.
+WorkingMemory& informed(const Walker& walker) {
+  WorkingMemory& memory = *walker.memory;
+  if (!memory.asked) {
+    memory.periods = walker.problem.periods();
+    memory.double_covers = walker.problem.double_covers();
+    memory.asked = true;
+  }
+  return memory;
+}
+
+void set_between(const Walker& walker, const CurvePoint& a, const CurvePoint& b, Direction& d) {
+  const WorkingMemory& memory = informed(walker);
+  d.dx = b.x;
+  d.dlambda = b.lambda - a.lambda;
+  take_signs(memory.double_covers, b.x, a.x, d.dx);
+  d.dx -= a.x;
+  for (Index i = 0; i < d.dx.size(); ++i)
+    if (memory.periods[i] > 0) d.dx[i] = std::remainder(d.dx[i], memory.periods[i]);
+}
+
+}  // namespace
+
+Direction direction_seen_from(const Walker& walker, const Vector& near, const CurvePoint& point) {
+  Direction direction = point.tangent;
+  take_signs(informed(walker).double_covers, point.x, near, direction.dx);
+  return direction;
+}
+
+Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
+  Direction d;
+  set_between(walker, a, b, d);
+  return d;
+}
+
+double length_of(const Walker& walker, const Direction& d) {
+  return std::sqrt(metric_product(walker.weights, d, d));
+}
+
+double cosine(const Walker& walker, const Direction& a, const Direction& b) {
+  const double lengths = length_of(walker, a) * length_of(walker, b);
+  return lengths > 0 ? metric_product(walker.weights, a, b) / lengths : 0;
+}
+
+bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
+  const double scale = std::max({1.0, a.x.norm(), std::abs(a.lambda)});
+  return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= 1e-7 * scale &&
+         std::abs(cosine(walker, a.tangent, direction_seen_from(walker, a.x, b))) >= 0.999;
+}
+
+std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
+                                 const CurvePoint& from, const CurvePoint& to) {
+  if (target.piece != from.piece) return std::nullopt;
+  Direction& offset = walker.memory->direction;
+  // The points' s may be of another metric: that of this walker counts.
+  set_between(walker, from, to, offset);
+  const double h = std::max(to.s - from.s, metric_product(walker.weights, offset, from.tangent));
+  set_between(walker, from, target, offset);
+  const double along = metric_product(walker.weights, offset, from.tangent);
+  // The curve bends away from its tangent by no more than a fraction of the step.
+  if (!(along > 0 && along <= h) || length_of(walker, offset) > 1.2 * h) return std::nullopt;
+  auto point = point_at(walker, from, along);
+  if (!point) return std::nullopt;
+  if (!coincide(walker, *point, target)) return std::nullopt;
+  return point;
+}
+
+std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& start,
+                                      const CurvePoint& from, const CurvePoint& to) {
+  if (!(from.s > 0)) return std::nullopt;
+  auto point = passes(walker, start, from, to);
+  if (!point || cosine(walker, point->tangent, direction_seen_from(walker, point->x, start)) < 0)
+    return std::nullopt;
+  return point;
+}
+
+bool passes_through(ProblemView problem, const Curve& curve, const CurvePoint& point,
+                    const TraceOptions& options) {
+  const Walker walker{problem, problem.metric(), options};
+  if (!curve.points.empty() && coincide(walker, curve.points.front(), point)) return true;
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
+    if (passes(walker, point, curve.points[i], curve.points[i + 1])) return true;
+  return false;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,78 @@
+#include "continuation/points/entry_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace springfold::continuation {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void expect(Index found, Index needed, const std::string& what) {
+  if (found != needed)
+    refuse(what + " has size " + std::to_string(found) + ", needed: " + std::to_string(needed));
+}
+
+void check_piece(ProblemView problem, const Piece& piece) {
+  const Index m = problem.switch_count();
+  // A piece may be left out where no switch acts.
+  if (m > 0) expect(static_cast<Index>(piece.size()), m, "the piece");
+  if (std::any_of(piece.begin(), piece.end(), [](auto side) { return side != 1 && side != -1; }))
+    refuse("the piece has sides that are neither +1 nor -1");
+}
+
+void check_constants(ProblemView problem) {
+  const Index n = problem.size();
+  const Vector metric = problem.metric(), periods = problem.periods();
+  expect(metric.size(), n, "metric()");
+  expect(periods.size(), n, "periods()");
+  if (n > 0 && !(metric.allFinite() && metric.minCoeff() >= 0))
+    refuse("metric() has weights that are negative or not finite");
+  if (n > 0 && !(periods.allFinite() && periods.minCoeff() >= 0))
+    refuse("periods() has entries that are negative or not finite");
+  for (const Index i : problem.double_covers())
+    if (i < 0 || i + 4 > n) refuse("double_covers() names unknowns that do not exist");
+}
+
+void check_evaluation(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
+  const Index n = problem.size(), m = problem.switch_count();
+  Vector F, dF_dlambda, g, dg_dlambda;
+  Matrix J, dg_dx;
+  if (problem.residual(x, lambda, piece, F)) expect(F.size(), n, "the residual");
+  if (!problem.structured() && problem.derivatives(x, lambda, piece, J, dF_dlambda)) {
+    expect(J.rows(), n, "dF_dx (rows)");
+    expect(J.cols(), n, "dF_dx (columns)");
+    expect(dF_dlambda.size(), n, "dF_dlambda");
+  }
+  if (m == 0) return;
+  if (problem.switches(x, lambda, g)) expect(g.size(), m, "switches()");
+  if (problem.switch_gradients(x, lambda, dg_dx, dg_dlambda)) {
+    expect(dg_dx.rows(), m, "dg_dx (rows)");
+    expect(dg_dx.cols(), n, "dg_dx (columns)");
+    expect(dg_dlambda.size(), m, "dg_dlambda");
+  }
+}
+
+}  // namespace
+
+void check_entry(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                 const TraceOptions& options) {
+  for (const std::string& wrong : problems_in(options)) refuse(wrong);
+  if (problem.size() < 0 || problem.switch_count() < 0) refuse("a problem has a negative size");
+  expect(x.size(), problem.size(), "the point x");
+  if (!x.allFinite() || !std::isfinite(lambda)) refuse("the point (x, lambda) is not finite");
+  check_piece(problem, piece);
+  check_constants(problem);
+  check_evaluation(problem, x, lambda, piece);
+}
+
+void check_ray(ProblemView problem, const Ray& ray) {
+  expect(ray.tangent.dx.size(), problem.size(), "the tangent of the ray");
+  if (!ray.tangent.dx.allFinite() || !std::isfinite(ray.tangent.dlambda) ||
+      (ray.tangent.dx.isZero(0) && ray.tangent.dlambda == 0))
+    refuse("the tangent of the ray is zero or not finite");
+  if (ray.start) expect(ray.start->x.size(), problem.size(), "the start of the ray");
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,151 @@
+#include "springfold/continuation/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/words.hpp"
+#include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/branch_point.hpp"
+#include "springfold/continuation/locate.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Largest residual on the predictor line at a share t of the step, against that at its end. A smooth
+/// curve gives t^2, near an inflection t^3; there is room for changing curvature.
+double residual_limit(double t) {
+  if (t <= 0.25) return 1.6 * t;
+  return t <= 0.5 ? 0.4 + 0.8 * (t - 0.25) : 0.6 + 1.2 * (t - 0.5);
+}
+
+/// The residual on the predicted way, at seven places of it, against that at its end.
+std::string residual_doubt(const Walker& walker, const ArcModel* model, const CurvePoint& from,
+                           double ds) {
+  constexpr double noise = 1e-12;
+  constexpr int parts = 8;
+  Vector& F = walker.memory->F;
+  CurvePoint& p = walker.memory->trial;
+  const bool expected = expect(walker, model, from, ds, p);
+  const auto size_at = [&](double t) {
+    const double d = t * ds;
+    if (expected) {
+      model->point(walker.weights, from, d, p);
+    } else {
+      p.x = from.x + d * from.tangent.dx;
+      p.lambda = from.lambda + d * from.tangent.dlambda;
+    }
+    const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
+    return inside && F.size() > 0 ? F.norm() : 0.0;
+  };
+  const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
+  for (int k = 1; k < parts; ++k) {
+    const double t = static_cast<double>(k) / parts;
+    if (size_at(t) > residual_limit(t) * at_end + noise * scale)
+      return "residual does not grow evenly along the predictor: another branch may be near";
+  }
+  return {};
+}
+
+/// 1 / (tau . tau_from): times the tangent it is the rate of the curve by the way t along the tangent at `from`,
+/// du/dt = tau / (tau . tau_from) exactly, every corrected point being on the hyperplane across it.
+double rate(const Walker& walker, const CurvePoint& from, const CurvePoint& p) {
+  return 1 / metric_product(walker.weights, p.tangent, from.tangent);
+}
+
+/// Length of what a direction has across the tangent; the direction is used up.
+double across(const Walker& walker, Direction& d, const Direction& tangent) {
+  const double along = metric_product(walker.weights, d, tangent);
+  d.dx -= along * tangent.dx;
+  d.dlambda -= along * tangent.dlambda;
+  return length_of(walker, d);
+}
+
+/// Distance of the corrected middle from the cubic through both ends. @param d  storage
+double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                 const CurvePoint& middle, Direction& d) {
+  ArcModel& chord = walker.memory->chord;
+  CurvePoint& expected = walker.memory->trial;
+  if (!chord.go_through(walker.weights, from, StepSamples(from, nullptr, to)))
+    return std::numeric_limits<double>::infinity();
+  chord.point(walker.weights, from, middle.s - from.s, expected);
+  d.dx = middle.x - expected.x;
+  d.dlambda = middle.lambda - expected.lambda;
+  return across(walker, d, middle.tangent);
+}
+
+/// What the tangents, integrated by Simpson's rule, leave of the way from one end to the other. A
+/// neighbouring branch has nearly the same tangents, but lies elsewhere. @param d  storage
+double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                    const CurvePoint& middle, Direction& d) {
+  const double h = to.s - from.s;
+  const double a = h / 6 * rate(walker, from, from), m = h * 2 / 3 * rate(walker, from, middle),
+               b = h / 6 * rate(walker, from, to);
+  d.dx = to.x - from.x - a * from.tangent.dx - m * middle.tangent.dx - b * to.tangent.dx;
+  d.dlambda = to.lambda - from.lambda - a * from.tangent.dlambda - m * middle.tangent.dlambda -
+              b * to.tangent.dlambda;
+  return across(walker, d, middle.tangent);
+}
+
+/// Errors that residuals at rounding level leave where dF/dx is nearly singular.
+double corrector_noise(const Walker& walker, const CurvePoint& point) {
+  if (!walker.problem.symmetric()) return 0;
+  const double least = least_eigenvalue(walker, point), scale = std::max(1.0, point.x.norm());
+  return least > 0 ? 1e-13 * scale / least : 1;
+}
+
+}  // namespace
+
+bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from,
+             const CurvePoint& to, CurvePoint& middle, std::string& doubt) {
+  const double ds = to.s - from.s;
+  doubt = residual_doubt(walker, model, from, ds);
+  if (!doubt.empty()) return false;
+  // Predicted by nothing that lies ahead.
+  StepMeasures measures;
+  std::string refusal;
+  const bool found = (expect(walker, model, from, 0.5 * ds, middle) &&
+                      find_point(walker, from.piece, from.tangent, middle, measures, refusal)) ||
+                     find_point_at(walker, from, 0.5 * ds, middle);
+  if (!found) {
+    doubt = "no point of the curve found half-way";
+    return false;
+  }
+  middle.s = from.s + 0.5 * ds;
+  Direction& d = walker.memory->direction;
+  const auto bend = [&](const CurvePoint& p) {
+    const double along = p.s - from.s;
+    d.dx = p.x - from.x - along * from.tangent.dx;
+    d.dlambda = p.lambda - from.lambda - along * from.tangent.dlambda;
+    return length_of(walker, d);
+  };
+  constexpr double share = 0.1, smaller_share = 0.01;
+  constexpr double noise = 1e-11;
+  // An eigen-decomposition: only where it can matter.
+  const auto exceeds = [&](double value, double limit) {
+    return value > limit + noise && value > limit + noise + corrector_noise(walker, middle);
+  };
+  const double size = std::max(bend(middle), 0.25 * bend(to));
+  const double off = off_cubic(walker, from, to, middle, d);
+  if (exceeds(off, share * size)) {
+    doubt = "the point half-way is " + rounded(off / ds) +
+            " steps off the cubic through both ends: another branch may be near";
+    return true;
+  }
+  const double left = off_integral(walker, from, to, middle, d);
+  if (exceeds(left, smaller_share * size))
+    doubt = "the end is " + rounded(left / ds) +
+            " steps from where the tangents lead: another branch may be near";
+  return true;
+}
+
+Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
+  Evidence evidence;
+  CurvePoint middle;
+  if (examine(walker, nullptr, from, to, middle, evidence.doubt))
+    evidence.middle = std::move(middle);
+  return evidence;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,216 @@
+#include "springfold/continuation/newton.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "continuation/points/working_memory.hpp"
+#include "springfold/core/finite.hpp"
+#include "springfold/core/inertia.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Newton stops only when the next correction would be shorter than this.
+constexpr double refined_step = 1e-14;
+
+/// Corrections below this may be rounding of F, magnified by a nearly singular matrix.
+constexpr double noise_step = 1e-8;
+
+/// The same where the residual itself is no more than rounding.
+constexpr double blurred_step = 1e-6;
+
+/// Are these residuals no more than a few times the rounding errors that the terms of F have?
+bool is_rounding(double residual, const Linearisation& at, const Vector& x, double lambda,
+                 Vector& sizes) {
+  if (at.structured) {
+    at.structured->magnitudes(x, sizes);
+  } else {
+    sizes.setZero(x.size());
+    for (Index j = 0; j < x.size(); ++j)
+      sizes.array() += at.dF_dx.col(j).array().abs() * std::abs(x[j]);
+  }
+  sizes.array() += std::abs(lambda) * at.dF_dlambda.array().abs();
+  return residual <= 4 * (std::numeric_limits<double>::epsilon() * sizes.lpNorm<Eigen::Infinity>());
+}
+
+double norm(const Vector& weights, const Direction& d) {
+  return std::sqrt(metric_product(weights, d, d));
+}
+
+}  // namespace
+
+double metric_product(const Vector& weights, const Direction& a, const Direction& b) {
+  return (weights.array() * a.dx.array() * b.dx.array()).sum() + a.dlambda * b.dlambda;
+}
+
+bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+               Linearisation& at) {
+  if (!problem.structured()) return linearise_densely(problem, x, lambda, piece, at);
+  // The same object again if nobody else has it; what it holds is let go first, for the problem to use.
+  auto matrix = std::const_pointer_cast<StructuredMatrix>(std::move(at.structured));
+  at.structured.reset();
+  if (matrix.use_count() == 1)
+    *matrix = {};
+  else
+    matrix = std::make_shared<StructuredMatrix>();
+  if (!problem.structured_derivatives(x, lambda, piece, *matrix, at.dF_dlambda) ||
+      !at.dF_dlambda.allFinite())
+    return false;
+  at.structured = std::move(matrix);
+  return true;
+}
+
+bool linearise_densely(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                       Linearisation& at) {
+  at.structured.reset();
+  return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && all_finite(at.dF_dx) &&
+         all_finite(at.dF_dlambda);
+}
+
+Vector product(const Linearisation& at, const Vector& v) {
+  return at.structured ? product(*at.structured, v) : Vector(at.dF_dx * v);
+}
+
+Vector magnitudes(const Linearisation& at, const Vector& v) {
+  return at.structured ? magnitudes(*at.structured, v) : Vector(at.dF_dx.cwiseAbs() * v.cwiseAbs());
+}
+
+std::optional<Index> negative_eigenvalues(const Linearisation& at) {
+  const auto inertia = at.structured ? at.structured->inertia() : inertia_of(at.dF_dx);
+  if (!inertia || inertia->zero > 0) return std::nullopt;
+  return inertia->negative;
+}
+
+std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& weights,
+                                        const Direction& border, const Vector& r, double rho) {
+  const Index n = r.size();
+  assert(at.dF_dlambda.size() == n && border.dx.size() == n);
+  BorderedFactors factors;
+  factors.begin(at, false);
+  if (!factors.set_border(weights, border)) return std::nullopt;
+  Vector x(n + 1);
+  x << r, rho;
+  if (!factors.solve(x.data())) return std::nullopt;
+  return Direction{x.head(n), x[n]};
+}
+
+std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weights,
+                                    const Direction& reference) {
+  const Index n = at.dF_dlambda.size();
+  auto tangent = solve_bordered(at, weights, reference, Vector::Zero(n), 1.0);
+  if (!tangent) return std::nullopt;
+  const double length = norm(weights, *tangent);
+  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  tangent->dx /= length;
+  tangent->dlambda /= length;
+  return tangent;
+}
+
+std::string_view to_string(NewtonStatus status) {
+  switch (status) {
+    case NewtonStatus::converged:
+      return "converged";
+    case NewtonStatus::too_many_iterations:
+      return "corrector needs too many iterations";
+    case NewtonStatus::diverges:
+      return "corrector diverges";
+    case NewtonStatus::singular:
+      return "bordered matrix is singular";
+    case NewtonStatus::outside_domain:
+      return "left the domain of the problem";
+  }
+  return "unknown";
+}
+
+bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
+                const Direction& reference, Direction& tangent) {
+  if (!place.factors.set_border(weights, reference)) return false;
+  const Index n = place.x.size();
+  Vector& u = memory.step;
+  u.resize(n + 1);
+  if (!place.factors.solve_for_tangent(u.data())) return false;
+  const auto dx = u.head(n).array();
+  const double length = std::sqrt((weights.array() * dx * dx).sum() + u[n] * u[n]);
+  if (!(length > 0) || !std::isfinite(length)) return false;
+  tangent.dx = u.head(n) / length;
+  tangent.dlambda = u[n] / length;
+  return true;
+}
+
+NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
+                     const Piece& piece, const Direction& border, const NewtonOptions& options) {
+  const auto memory = working_memory();
+  memory->newton.x = std::move(x);
+  memory->newton.lambda = lambda;
+  correct(problem, weights, piece, border, options, *memory);
+  return std::move(memory->newton);
+}
+
+void correct(ProblemView problem, const Vector& weights, const Piece& piece,
+             const Direction& border, const NewtonOptions& options, WorkingMemory& memory) {
+  NewtonResult& result = memory.newton;
+  Vector &F = memory.F, &step = memory.step;
+  const Index n = result.x.size();
+  const Place* place = nullptr;  // of the last correction
+  const bool structured = problem.structured();
+  double before = 0;
+  result.iterations = 0;
+  result.residual_norm = result.contraction = 0;
+  result.corrections.clear();
+  const auto ends = [&result](NewtonStatus status) { result.status = status; };
+  for (;; ++result.iterations) {
+    // Together with its derivatives, which are needed here or, at the end, for the tangent.
+    Place* here =
+        structured ? nullptr : place_with_residual(problem, memory, result.x, result.lambda, piece);
+    if (here)
+      F = here->F;
+    else if (!problem.residual(result.x, result.lambda, piece, F) || !F.allFinite())
+      return ends(NewtonStatus::outside_domain);
+    result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
+    const double scale =
+        std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
+    const bool small = result.residual_norm <= options.residual_tolerance * scale;
+    // What is left to correct: the residual times the size of the inverse matrix that the last
+    // correction has shown.
+    const auto left_over = [&] {
+      return result.residual_norm * (result.corrections.back() / before);
+    };
+    const auto rounded = [&] {
+      return is_rounding(result.residual_norm, place->at, result.x, result.lambda, memory.sizes);
+    };
+    const bool refined = !result.corrections.empty() &&
+                         (result.residual_norm == 0 ||
+                          (before > 0 && left_over() <= refined_step * scale) || rounded());
+    before = result.residual_norm;
+    if (small && refined) return ends(NewtonStatus::converged);
+    const bool settled =
+        small && (result.corrections.empty() || result.corrections.back() < noise_step);
+    if (result.iterations == options.maximum_iterations)
+      return ends(settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
+    if (!here) here = place_at(problem, memory, result.x, result.lambda, piece);
+    if (!here) return ends(NewtonStatus::outside_domain);
+    place = here;
+    step.resize(n + 1);
+    step.head(n) = -F;
+    step[n] = 0;
+    if (!here->factors.set_border(weights, border) || !here->factors.solve(step.data()))
+      return ends(settled ? NewtonStatus::converged : NewtonStatus::singular);
+    const double length =
+        std::sqrt((weights.array() * step.head(n).array().square()).sum() + step[n] * step[n]);
+    if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
+      const double ratio = length / result.corrections.back();
+      // Beside a singular point rounding of F alone makes corrections that do not contract.
+      if (small && ratio > 0.1 && (length < noise_step || (length < blurred_step && rounded())))
+        return ends(NewtonStatus::converged);
+      result.contraction = std::max(result.contraction, ratio);
+      if (ratio > 1) return ends(NewtonStatus::diverges);
+    }
+    result.corrections.push_back(length);
+    result.x += step.head(n);
+    result.lambda += step[n];
+  }
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,213 @@
+#include "continuation/points/normalised.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "springfold/continuation/newton.hpp"
+#include "springfold/core/scaling.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Power of two that brings a weight of the metric into [1, 4).
+double unit_of(double weight) {
+  if (!(weight > 0) || !std::isfinite(weight)) return 1;
+  return std::ldexp(1, -static_cast<int>(std::floor(0.5 * std::ilogb(weight))));
+}
+
+/// How far beside the start the equations are looked at as well: at the start itself all their
+/// derivatives may vanish.
+constexpr std::array<double, 3> beside{0, 1.0 / 128, 1.0 / 8};
+
+}  // namespace
+
+Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
+    : problem_{problem} {
+  const Index n = problem.size();
+  unit_ = problem.metric().unaryExpr(&unit_of);
+  force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
+  surface_ = Vector::Ones(problem.switch_count());
+  scale_equations(x, lambda, piece);
+  scale_switches(x, lambda);
+  trivial_ =
+      (unit_.array() == 1).all() && (force_.array() == 1).all() && (surface_.array() == 1).all();
+}
+
+void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
+  double largest = 0;
+  for (const double d : beside) {
+    Linearisation at;
+    if (unit_.size() == 0 || !linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
+    if (at.structured) {
+      largest = std::max(largest, scaled(*at.structured, force_, unit_).largest);
+    } else {
+      const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
+      largest = std::max(largest, K.cwiseAbs().maxCoeff());
+    }
+    largest = std::max(largest, force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff());
+  }
+  force_ /= power_of_two_near(largest);
+}
+
+void Normalised::scale_switches(const Vector& x, double lambda) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (surface_.size() == 0 || !problem_.switch_gradients(x, lambda, dg_dx, dg_dlambda)) return;
+  for (Index j = 0; j < surface_.size(); ++j) {
+    const Vector slope = dg_dx.row(j).transpose().cwiseProduct(unit_);
+    surface_[j] = 1 / power_of_two_near(std::hypot(slope.norm(), dg_dlambda[j]));
+  }
+}
+
+bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.residual(x_, lambda, piece, G)) return false;
+  G.array() *= force_.array();
+  return true;
+}
+
+bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
+                             Vector& dG_dlambda) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
+  scale(dG_dy, dG_dlambda);
+  return true;
+}
+
+bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, Vector& G,
+                           Matrix& dG_dy, Vector& dG_dlambda) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
+  G.array() *= force_.array();
+  scale(dG_dy, dG_dlambda);
+  return true;
+}
+
+void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
+  const Index n = unit_.size();
+  const double* __restrict const force = force_.data();
+  for (Index j = 0; j < n; ++j) {
+    double* __restrict const column = dG_dy.col(j).data();
+    const double unit = unit_[j];
+    for (Index i = 0; i < n; ++i) column[i] *= force[i] * unit;
+  }
+  dG_dlambda.array() *= force_.array();
+}
+
+bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                                        StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
+    return false;
+  matrices_.put(force_, unit_, dG_dy);
+  dG_dlambda.array() *= force_.array();
+  return true;
+}
+
+bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.switches(x_, lambda, h)) return false;
+  h.array() *= surface_.array();
+  return true;
+}
+
+bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
+                                  Vector& dh_dlambda) const {
+  x_ = y.cwiseProduct(unit_);
+  if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
+  dh_dy.array().colwise() *= surface_.array();
+  dh_dy.array().rowwise() *= unit_.transpose().array();
+  dh_dlambda.array() *= surface_.array();
+  return true;
+}
+
+Ray Normalised::inside(const Ray& ray) const {
+  Ray result = ray;
+  result.tangent = {inside(ray.tangent.dx), ray.tangent.dlambda};
+  if (ray.start) result.start = inside(*ray.start);
+  return result;
+}
+
+Ray Normalised::outside(const Ray& ray) const {
+  Ray result = ray;
+  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), ray.tangent.dlambda};
+  if (ray.start) result.start = outside(*ray.start);
+  return result;
+}
+
+CurvePoint Normalised::inside(const CurvePoint& point) const {
+  CurvePoint result = point;
+  result.x = inside(point.x);
+  if (point.tangent.dx.size() > 0)
+    result.tangent = {inside(point.tangent.dx), point.tangent.dlambda};
+  return result;
+}
+
+CurvePoint Normalised::outside(CurvePoint point) const {
+  point.x.array() *= unit_.array();
+  if (point.tangent.dx.size() > 0) point.tangent.dx.array() *= unit_.array();
+  return point;
+}
+
+Hit Normalised::outside(const Hit& hit) const {
+  Hit result = hit;
+  result.point = outside(hit.point);
+  for (CurvePoint& point : result.leaving) point = outside(std::move(point));
+  return result;
+}
+
+std::vector<Event> Normalised::inside(const std::vector<Event>& events) const {
+  std::vector<Event> result = events;
+  for (Event& event : result)
+    event.value = [this, value = std::move(event.value),
+                   there = CurvePoint{}](const CurvePoint& point) mutable {
+      there = point;  // into the memory of the last one
+      there = outside(std::move(there));
+      return value(there);
+    };
+  return result;
+}
+
+StepObserver Normalised::inside(const StepObserver& observer) const {
+  if (!observer) return {};
+  return [this, &observer](const CurvePoint& point) { return observer(outside(point)); };
+}
+
+HitObserver Normalised::inside(const HitObserver& observer) const {
+  if (!observer) return {};
+  return [this, &observer](const Hit& hit) { return observer(outside(hit)); };
+}
+
+DiagramOptions Normalised::inside(const DiagramOptions& options) const {
+  DiagramOptions result = options;
+  const auto moved_out = [this](const auto& ask) {
+    return [this, ask](const CurvePoint& point) { return ask(outside(point)); };
+  };
+  if (options.left_out) result.left_out = moved_out(options.left_out);
+  if (options.ends_at) result.ends_at = moved_out(options.ends_at);
+  if (options.outside) result.outside = moved_out(options.outside);
+  return result;
+}
+
+Curve Normalised::outside(Curve curve) const {
+  for (CurvePoint& point : curve.points) point = outside(std::move(point));
+  for (Hit& hit : curve.hits) hit = outside(hit);
+  return curve;
+}
+
+Diagram Normalised::outside(Diagram diagram) const {
+  for (Branch& branch : diagram.branches) branch.curve = outside(std::move(branch.curve));
+  for (Junction& junction : diagram.junctions) {
+    junction.point = outside(junction.point);
+    for (Way& way : junction.ways) {
+      way.point = outside(way.point);
+      way.start = outside(way.start);
+    }
+  }
+  for (Doubt& doubt : diagram.doubts)
+    if (doubt.place) doubt.place = outside(*doubt.place);
+  return diagram;
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,168 @@
+#include "springfold/continuation/response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "continuation/linear/bordered_factors.hpp"
+#include "springfold/core/equilibration.hpp"
+#include "springfold/core/finite.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// First critical loads in a unit of lambda: a few steps of ordinary length lie before the first one.
+constexpr double critical_loads = 8;
+
+/// Motion up to the first critical load that shows how x responds.
+constexpr double clear_motion = 1.0 / 64;
+
+/// dF/dx at one point with lambda held, its rows and columns brought to one size, factorised.
+class Regular {
+ public:
+  bool begin(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
+    if (!linearise(problem, x, lambda, piece, at_)) return false;
+    const Index n = x.size();
+    columns_ = rows_ = Vector::Ones(n);
+    if (!at_.structured) {
+      const Equilibration factors = equilibrate(at_.dF_dx);
+      rows_ = factors.rows;
+      columns_ = factors.columns;
+      at_.dF_dx = (rows_.asDiagonal() * at_.dF_dx * columns_.asDiagonal()).eval();
+      at_.dF_dlambda = rows_.cwiseProduct(at_.dF_dlambda).eval();
+    }
+    factors_.begin(at_, problem.symmetric());
+    u_.resize(n + 1);
+    return factors_.set_border(Vector::Ones(n), {Vector::Zero(n), 1});
+  }
+
+  /// dx / dlambda along the curve.
+  bool tangent(Vector& dx) {
+    if (!factors_.solve_for_tangent(u_.data())) return false;
+    dx = columns_.cwiseProduct(u_.head(columns_.size())) / u_[columns_.size()];
+    return all_finite(dx);
+  }
+
+  /// Replaces r, in the units of F, by the solution of dF/dx v = r, in those of x.
+  bool solve(Vector& r) {
+    const Index n = r.size();
+    u_ << rows_.cwiseProduct(r), 0;
+    if (!factors_.solve(u_.data())) return false;
+    r = columns_.cwiseProduct(u_.head(n));
+    return all_finite(r);
+  }
+
+  const Vector& units() const { return columns_; }
+
+ private:
+  Linearisation at_{};
+  BorderedFactors factors_{};
+  Vector rows_{}, columns_{}, u_{};
+};
+
+/// Numbers between 1/2 and 3/2 without symmetry, the same everywhere.
+Vector irregular(Index n) {
+  Vector v(n);
+  std::uint64_t state = 0x9E3779B97F4A7C15;
+  for (Index i = 0; i < n; ++i) {
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    v[i] = 0.5 + static_cast<double>(state >> 11) * 0x1p-53;
+  }
+  return v;
+}
+
+/// Largest magnitude of an eigenvalue of (dF/dx)^-1 d(dF/dx)/dlambda along the curve, roughly, from what its powers do
+/// to a vector. Its inverse is how far in lambda the next singular point seems to lie.
+/// @param d  half of the way in lambda that the rate is taken over
+std::optional<double> rate_of_matrix(ProblemView problem, const Vector& x, double lambda,
+                                     const Piece& piece, const Vector& dx, double d,
+                                     Regular& here) {
+  Linearisation before, after;
+  if (!linearise(problem, x - d * dx, lambda - d, piece, before) ||
+      !linearise(problem, x + d * dx, lambda + d, piece, after))
+    return std::nullopt;
+  // The geometric mean of an even number of factors: they alternate where eigenvalues come in pairs of both signs.
+  constexpr int powers = 12, settled = 4;
+  Vector v = irregular(x.size());
+  double logarithms = 0;
+  for (int k = 0; k < powers; ++k) {
+    const Vector moved = here.units().cwiseProduct(v);
+    Vector image = (product(after, moved) - product(before, moved)) / (2 * d);
+    if (!here.solve(image)) return std::nullopt;
+    v = image.cwiseQuotient(here.units());
+    const double size = v.norm();
+    if (!(size > 0) || !std::isfinite(size)) return 0.0;
+    v /= size;
+    if (k >= settled) logarithms += std::log(size);
+  }
+  return std::exp(logarithms / (powers - settled));
+}
+
+/// Length of dx in the metric, without entries that are nothing but what rounding leaves of loads that cancel.
+double motion(const Vector& weights, const Vector& dx, const Vector& units) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  const double size = dx.cwiseQuotient(units).lpNorm<Eigen::Infinity>();
+  double squares = 0;
+  for (Index i = 0; i < dx.size(); ++i)
+    if (std::abs(dx[i]) > rounding * size * units[i]) squares += weights[i] * dx[i] * dx[i];
+  return std::sqrt(squares);
+}
+
+double stiffness_of(const Vector& weights, Regular& here) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vector loads = (weights.array() > 0).select(irregular(weights.size()), 0);
+  const double size = loads.norm();
+  if (!here.solve(loads)) return 0;
+  const double moved = motion(weights, loads, here.units());
+  return moved > 0 ? size / moved : infinity;
+}
+
+/// How far in lambda the next singular point seems to lie; infinity: nothing is seen of one.
+double critical_way(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                    const Vector& dx, double moved, Regular& here) {
+  // The rate is taken over a short way in x; where x does not move, over a way that the result itself asks for.
+  constexpr double infinity = std::numeric_limits<double>::infinity(), short_way = 1e-4, far = 1e3,
+                   farther = 1e12;
+  double d = moved > 0 ? short_way / moved : std::max(1.0, std::abs(lambda));
+  double way = infinity;
+  for (int i = 0; i < 4; ++i) {
+    const auto rate = rate_of_matrix(problem, x, lambda, piece, dx, d, here);
+    way = rate && *rate > 0 ? 1 / *rate : infinity;
+    if (way < far * d && d < far * way) break;
+    const double next = std::isfinite(way) ? way : farther * d;
+    if (moved > 0 && next > d) break;
+    d = next;
+  }
+  return way < farther * d ? way : infinity;
+}
+
+}  // namespace
+
+std::optional<Response> response_at(ProblemView problem, const Vector& x, double lambda,
+                                    const Piece& piece) {
+  const Vector weights = problem.metric();
+  Regular here;
+  Vector dx;
+  if (!here.begin(problem, x, lambda, piece) || !here.tangent(dx)) return std::nullopt;
+  const double moved = motion(weights, dx, here.units());
+  const double way = critical_way(problem, x, lambda, piece, dx, moved, here);
+  Response response;
+  double change = 1;  // in lambda: what multipliers are measured over
+  if (moved > 0 && way * moved >= clear_motion) {
+    change = 1 / moved;
+    response.lambda = slopes_in_a_unit * change;
+  } else if (std::isfinite(way)) {
+    change = critical_loads * way;
+    response.lambda = change;
+  }
+  for (Index i = 0; i < dx.size(); ++i)
+    if (weights[i] == 0)
+      response.multiplier = std::max(response.multiplier, std::abs(dx[i]) * change);
+  response.stiffness = stiffness_of(weights, here);
+  return response;
+}
+
+}  // namespace springfold::continuation
