@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "architecture/rules.hpp"
 
@@ -35,6 +37,16 @@ TEST(SourceTree, EveryLayerIncludesOnlyWhatLiesBelowIt) {
 
 TEST(SourceTree, EveryRoomOfTheEngineIncludesOnlyRoomsBelowIt) {
   for (const SourceFile& file : library_files()) EXPECT_THAT(forbidden_rooms(file), IsEmpty());
+}
+
+TEST(SourceTree, EveryRoomOfTheEngineSaysInItsReadmeWhatItsFilesAreFor) {
+  for (const SourceFile& file : library_files()) {
+    if (!file.path.starts_with("src/continuation/")) continue;
+    const std::filesystem::path path = std::filesystem::path(SPRINGFOLD_SOURCE_DIR) / file.path;
+    std::ostringstream readme;
+    readme << std::ifstream{path.parent_path() / "README.md"}.rdbuf();
+    EXPECT_NE(readme.str().find('`' + path.stem().string() + '`'), std::string::npos) << file.path;
+  }
 }
 
 TEST(SourceTree, ThirdPartiesThatWeMayWantToReplaceStandInOneFileEach) {
