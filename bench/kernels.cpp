@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "continuation/points/locate.hpp"
 #include "orthoglide.hpp"
-#include "springfold/continuation/locate.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/statics/first_equilibrium.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "quantities.hpp"
-#include "springfold/continuation/kink.hpp"
+#include "springfold/continuation/ray.hpp"
 
 namespace springfold::analysis {
 

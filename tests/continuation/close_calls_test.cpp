@@ -2,7 +2,7 @@
 // within one step, and neighbouring branches that nearly touch.
 #include <gtest/gtest.h>
 
-#include "springfold/continuation/evidence.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {

@@ -10,8 +10,8 @@
 #include <functional>
 #include <random>
 
+#include "continuation/locating/exits.hpp"
 #include "problems.hpp"
-#include "springfold/continuation/exits.hpp"
 
 namespace springfold::continuation {
 

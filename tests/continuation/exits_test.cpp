@@ -1,4 +1,4 @@
-#include "springfold/continuation/exits.hpp"
+#include "continuation/locating/exits.hpp"
 
 #include <gtest/gtest.h>
 

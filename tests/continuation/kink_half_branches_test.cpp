@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "continuation/kinks/kink.hpp"
 #include "kink_problems.hpp"
-#include "springfold/continuation/kink.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "springfold/continuation/kink.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {

@@ -1,10 +1,10 @@
 // The tools that special points are found with, one by one.
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 
 #include <gtest/gtest.h>
 
-#include "springfold/continuation/branch_point.hpp"
-#include "springfold/continuation/evidence.hpp"
+#include "continuation/locating/branch_point.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {

@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "springfold/continuation/branch_point.hpp"
+#include "continuation/locating/branch_point.hpp"
 #include "springfold/continuation/diagram.hpp"
 #include "tracing.hpp"
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "springfold/continuation/exits.hpp"
 #include "springfold/continuation/trace.hpp"
 
 namespace springfold::continuation {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "springfold/continuation/curve.hpp"
-#include "springfold/continuation/kink.hpp"
+#include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/options.hpp"
 #include "springfold/continuation/problem.hpp"
+#include "springfold/continuation/ray.hpp"
 
 namespace springfold::continuation {
 

@@ -1,7 +1,7 @@
 // Has a curve kept to its branch where another one is so near that rounding could have led across? Private to the engine.
 #pragma once
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

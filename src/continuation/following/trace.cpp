@@ -10,6 +10,7 @@
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/events.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/unexplained.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
@@ -18,7 +19,6 @@
 #include "continuation/points/numerics.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
-#include "springfold/continuation/evidence.hpp"
 #include "springfold/continuation/verification.hpp"
 
 namespace springfold::continuation {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "continuation/points/arc.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

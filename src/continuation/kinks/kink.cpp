@@ -1,4 +1,4 @@
-#include "springfold/continuation/kink.hpp"
+#include "continuation/kinks/kink.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 #include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -8,7 +8,7 @@
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/singular.hpp"
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/piecewise_form.hpp"
 

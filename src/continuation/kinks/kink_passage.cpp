@@ -10,8 +10,8 @@
 #include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/flat_turns.hpp"
+#include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
-#include "springfold/continuation/locate.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "continuation/kinks/kink.hpp"
 #include "continuation/locating/events.hpp"
-#include "springfold/continuation/kink.hpp"
 
 namespace springfold::continuation {
 

@@ -1,7 +1,7 @@
 // Ways out of a point on switching surfaces. Private to the engine.
 #pragma once
 
-#include "springfold/continuation/kink.hpp"
+#include "continuation/kinks/kink.hpp"
 
 namespace springfold::continuation {
 

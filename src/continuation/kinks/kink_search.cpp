@@ -6,10 +6,10 @@
 #include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
+#include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
-#include "springfold/continuation/branch_point.hpp"
-#include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
 namespace {

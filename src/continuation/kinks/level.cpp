@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "continuation/kinks/kink_numerics.hpp"
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -7,8 +7,8 @@
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
+#include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "springfold/continuation/exits.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/piecewise_form.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

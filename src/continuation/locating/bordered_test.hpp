@@ -7,7 +7,7 @@
 
 #include "continuation/linear/extended.hpp"
 #include "continuation/points/samples.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/sigma_touch.hpp"
 #include "continuation/points/coincide.hpp"
-#include "springfold/continuation/branch_point.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -1,4 +1,4 @@
-#include "springfold/continuation/branch_point.hpp"
+#include "continuation/locating/branch_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "continuation/points/samples.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -9,7 +9,7 @@
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
-#include "springfold/continuation/evidence.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {

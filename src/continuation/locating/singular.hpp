@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "continuation/points/samples.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

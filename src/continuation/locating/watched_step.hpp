@@ -8,9 +8,9 @@
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/arc.hpp"
+#include "continuation/points/locate.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
-#include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
 

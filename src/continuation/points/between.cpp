@@ -7,7 +7,7 @@
 
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/diagram.hpp"
-#include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
 

@@ -2,7 +2,7 @@
 // to the engine.
 #pragma once
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -1,8 +1,8 @@
 // What is checked once where a problem enters the engine, so that nothing inside needs to ask. Private to the engine.
 #pragma once
 
-#include "springfold/continuation/kink.hpp"
 #include "springfold/continuation/problem.hpp"
+#include "springfold/continuation/ray.hpp"
 
 namespace springfold::continuation {
 

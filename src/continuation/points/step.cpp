@@ -1,4 +1,4 @@
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 #include <algorithm>
 #include <cmath>

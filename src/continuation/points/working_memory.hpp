@@ -8,7 +8,7 @@
 #include "continuation/linear/arnoldi.hpp"
 #include "continuation/linear/bordered_factors.hpp"
 #include "continuation/points/arc.hpp"
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -1,4 +1,4 @@
-#include "springfold/continuation/exits.hpp"
+#include "continuation/locating/exits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "continuation/branches/exit_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
+#include "continuation/locating/exit_rays.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/core/decompositions.hpp"
 

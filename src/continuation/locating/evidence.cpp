@@ -1,14 +1,14 @@
-#include "springfold/continuation/evidence.hpp"
+#include "continuation/locating/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "continuation/locating/branch_point.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/locate.hpp"
 #include "continuation/points/words.hpp"
 #include "continuation/points/working_memory.hpp"
-#include "springfold/continuation/branch_point.hpp"
-#include "springfold/continuation/locate.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -1,9 +1,9 @@
-// Evidence that a step stayed on its curve and passed nothing unseen.
+// Evidence that a step stayed on its curve and passed nothing unseen. Private to the engine.
 #pragma once
 
 #include <string>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

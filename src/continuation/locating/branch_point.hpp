@@ -1,7 +1,7 @@
-// Branch points: where the extended Jacobian [dF/dx dF/dlambda] loses rank.
+// Branch points: where the extended Jacobian [dF/dx dF/dlambda] loses rank. Private to the engine.
 #pragma once
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -1,30 +1,12 @@
-// Where a piecewise-smooth curve meets its switching surfaces.
+// Where a piecewise-smooth curve meets its switching surfaces. Private to the engine.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
+#include "springfold/continuation/ray.hpp"
 
 namespace springfold::continuation {
-
-/// One way to leave a point: a piece and a unit tangent that leads into it.
-struct Ray {
-  Piece piece{};
-  Direction tangent{};
-  std::vector<Index> resting{};  ///< switches that stay zero along it
-  /// Where the piece is singular at the point itself: the first point of the curve beyond it, before
-  /// the next switching surface, with its own tangent; s is the distance. trace() goes on from there.
-  std::optional<CurvePoint> start{};
-};
-
-struct Rays {
-  std::vector<Ray> rays{};
-  bool complete = true;  ///< false: some piece has no derivatives or no unique tangent here, or one
-                         ///< whose side of a surface could not be told; `why` says which
-  std::string why{};
-};
 
 /// All ways to leave a point of the curve on which the switches `active` are zero. Every one of the
 /// 2^k pieces around it is linearised, and of its two tangents those are kept that lead into it (a

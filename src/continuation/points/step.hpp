@@ -1,4 +1,4 @@
-// One step along a curve as a function of values: a refused step cannot leave a trace.
+// One step along a curve as a function of values: a refused step cannot leave a trace. Private to the engine.
 #pragma once
 
 #include <memory>

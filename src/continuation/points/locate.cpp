@@ -1,4 +1,4 @@
-#include "springfold/continuation/locate.hpp"
+#include "continuation/points/locate.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>

@@ -1,11 +1,11 @@
 // Special points between two points of a curve, found by re-solving on the curve, never by
-// interpolation.
+// interpolation. Private to the engine.
 #pragma once
 
 #include <functional>
 #include <optional>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 

@@ -1,4 +1,4 @@
-#include "continuation/branches/exit_rays.hpp"
+#include "continuation/locating/exit_rays.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,11 +1,11 @@
-// All branches that leave a singular point.
+// All branches that leave a singular point. Private to the engine.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "springfold/continuation/step.hpp"
+#include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 
