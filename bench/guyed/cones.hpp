@@ -10,11 +10,11 @@ namespace springfold::guyed {
 
 /// A cable, to first and second order in the sway w of the structure.
 struct Cable {
-  Vector rate{};        ///< d(length)/dw
-  Matrix second{};      ///< second derivative of the length
+  Vector rate{};    ///< d(length)/dw
+  Matrix second{};  ///< second derivative of the length
   double stiffness = 0;
-  double length = 0;    ///< in the upright state
-  double stretch = 0;   ///< there beyond its free length; negative: slack by as much
+  double length = 0;   ///< in the upright state
+  double stretch = 0;  ///< there beyond its free length; negative: slack by as much
 };
 
 /// Twice the energy is w' (springs - P load) w and what the cables add, each where it is taut.

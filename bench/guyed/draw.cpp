@@ -23,8 +23,9 @@ struct Anchor {
 };
 
 Anchor random_anchor(const Bare& bare, Random& random) {
-  Anchor anchor{.corner = static_cast<std::size_t>(choice(random, static_cast<int>(bare.corners.size()))),
-                .at = Vector(bare.horizontals + 1)};
+  Anchor anchor{
+      .corner = static_cast<std::size_t>(choice(random, static_cast<int>(bare.corners.size()))),
+      .at = Vector(bare.horizontals + 1)};
   const double reach = uniform(random, 0.4, 1.5);
   const double azimuth = uniform(random, 0, 2 * std::numbers::pi);
   if (bare.horizontals == 1)
@@ -70,8 +71,8 @@ std::vector<double> loads_of(const Structure& structure) {
 std::string study(const Bare& bare, const Draw& draw) {
   constexpr double sway = 0.1;
   std::string text = "[[study]]\nname = \"press\"\nbody = \"" + bare.loaded +
-                     "\"\ncontrol = \"load\"\ndirection = " + bare.direction + "\nuntil = { lambda = [" +
-                     number(draw.from) + ", " + number(draw.to) + "]";
+                     "\"\ncontrol = \"load\"\ndirection = " + bare.direction +
+                     "\nuntil = { lambda = [" + number(draw.from) + ", " + number(draw.to) + "]";
   for (const Sway& column : draw.sways)
     text += ", \"" + column.quantity + "\" = [" + number(column.upright - sway) + ", " +
             number(column.upright + sway) + "]";
@@ -95,7 +96,8 @@ bool try_draw(Random& random, Draw& result) {
   const std::vector<Anchor> list = anchors(bare, count, tight, random);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const bool second_of_pair = tight && i % 2 == 1;
-    const bool alone = tight && i + 1 == list.size() && i % 2 == 0;  // nothing would hold against it
+    const bool alone =
+        tight && i + 1 == list.size() && i % 2 == 0;  // nothing would hold against it
     if (!second_of_pair) stiffness = log_uniform(random, 0.3, 3);
     stretch = alone ? (choice(random, 2) ? 0 : -result.pretension) : result.pretension;
     const Attached cable = attach(bare, list[i].corner, list[i].at, stiffness, stretch);

@@ -18,9 +18,9 @@ struct Sway {
 };
 
 struct Draw {
-  std::string family{};      ///< "column", "column in space", "frame"
-  double pretension = 0;     ///< of the length of the cables; negative: slack
-  std::string text{};        ///< the case file
+  std::string family{};   ///< "column", "column in space", "frame"
+  double pretension = 0;  ///< of the length of the cables; negative: slack
+  std::string text{};     ///< the case file
   Structure structure{};
   std::vector<Sway> sways{};  ///< in the order of Structure's coordinates
   double from = 0, to = 0;    ///< loads that the study asks for

@@ -120,12 +120,13 @@ struct Judge {
       faults.push_back(said("%g ways out at %.12g instead of %g", static_cast<double>(found.size()),
                             group.load, static_cast<double>(group.directions.size())));
     for (const Vector& expected : group.directions) {
-      const auto best = std::max_element(found.begin(), found.end(), [&](const Vector& a, const Vector& b) {
-        return a.dot(expected) < b.dot(expected);
-      });
+      const auto best = std::max_element(
+          found.begin(), found.end(),
+          [&](const Vector& a, const Vector& b) { return a.dot(expected) < b.dot(expected); });
       if (best == found.end()) return;
       if (best->dot(expected) < along)
-        faults.push_back(said("direction at %.12g is off, cosine %.6g", group.load, best->dot(expected)));
+        faults.push_back(
+            said("direction at %.12g is off, cosine %.6g", group.load, best->dot(expected)));
       found.erase(best);
     }
   }
@@ -135,7 +136,8 @@ struct Judge {
     for (const Event& event : result.branches[0].events) {
       const double P = load(event.row);
       if (event.kind == EventKind::end_of_range || event.kind == EventKind::unresolved) continue;
-      const bool leaves = event.kind == EventKind::branch_point || event.kind == EventKind::branching_kink;
+      const bool leaves =
+          event.kind == EventKind::branch_point || event.kind == EventKind::branching_kink;
       const auto same = std::find_if(expected.begin(), expected.end(), [&](const Group& group) {
         return std::abs(group.load - P) <= place * draw.to;
       });

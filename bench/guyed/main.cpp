@@ -5,6 +5,8 @@
 //
 // Draw i of a seed is always the same problem. README.md says what is drawn and what is judged. With --check the exit
 // code is 1 if anything is wrong, or more than one draw in a hundred is unresolved.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
@@ -13,7 +15,6 @@
 #include <fstream>
 #include <map>
 #include <thread>
-#include <unistd.h>
 
 #include "judge.hpp"
 #include "springfold/analysis/history.hpp"
@@ -61,10 +62,11 @@ void print_truth(const Draw& draw) {
 Judged run(const Settings& settings, long number) {
   Random random(settings.seed * 1000003ull + static_cast<unsigned long long>(number));
   const Draw drawn = draw(random);
-  const auto file = settings.file.empty()
-                        ? std::filesystem::temp_directory_path() /
-                              ("guyed-" + std::to_string(::getpid()) + "-" + std::to_string(number) + ".toml")
-                        : std::filesystem::path(settings.file);
+  const auto file =
+      settings.file.empty()
+          ? std::filesystem::temp_directory_path() /
+                ("guyed-" + std::to_string(::getpid()) + "-" + std::to_string(number) + ".toml")
+          : std::filesystem::path(settings.file);
   Judged judged{.number = number, .family = drawn.family, .pretension = drawn.pretension};
   if (settings.verbose) print_truth(drawn);
   try {
@@ -118,7 +120,8 @@ struct Tally {
 void print(const std::map<std::string, Tally>& table) {
   std::printf("%-34s %8s %12s %8s\n", "", "right", "unresolved", "wrong");
   for (const auto& [name, tally] : table)
-    std::printf("%-34s %8ld %12ld %8ld\n", name.c_str(), tally.right, tally.unresolved, tally.wrong);
+    std::printf("%-34s %8ld %12ld %8ld\n", name.c_str(), tally.right, tally.unresolved,
+                tally.wrong);
 }
 
 /// Is everything right, but for one draw in a hundred that is unresolved?

@@ -40,8 +40,7 @@ Matrix sinking(const std::vector<double>& lengths, Index count) {
 Matrix bending(const std::vector<double>& lengths, const std::vector<double>& stiffnesses) {
   Matrix B = tilts(lengths);
   for (Index i = B.rows() - 1; i > 0; --i) B.row(i) -= B.row(i - 1).eval();
-  return B.transpose() *
-         Eigen::Map<const Vector>(stiffnesses.data(), B.rows()).asDiagonal() * B;
+  return B.transpose() * Eigen::Map<const Vector>(stiffnesses.data(), B.rows()).asDiagonal() * B;
 }
 
 /// The same matrix for each of two directions, w = (x1, y1, x2, y2, ...).
@@ -69,18 +68,23 @@ Bare column(bool hinges_give, Random& random) {
   const int n = 1 + choice(random, 4);
   const auto l = some(n, 0.5, 1.5, random);
   const auto c = hinges_give ? some(n, 0.05, 2, random) : std::vector<double>(l.size(), 0.0);
-  Bare bare{.family = "column", .loaded = node(n), .direction = "[0, -1, 0]",
-            .springs = bending(l, c), .load = sinking(l, n)};
+  Bare bare{.family = "column",
+            .loaded = node(n),
+            .direction = "[0, -1, 0]",
+            .springs = bending(l, c),
+            .load = sinking(l, n)};
   double height = 0;
   for (int i = 1; i <= n; ++i) {
     const auto k = static_cast<std::size_t>(i - 1);
     height += l[k];
-    bare.text += "[[body]]\nname = \"" + node(i) + "\"\ntask_space = \"planar\"\npose = " +
-                 list({0, height, 0}) + "\n[[chain]]\nname = \"link" + std::to_string(i) +
-                 "\"\nfrom = \"" + below(i) + "\"\nto = \"" + node(i) +
-                 "\"\nelements = [{ joint = \"revolute\", axis = \"z\", role = \"preloaded\", spring = { "
-                 "law = \"linear\", stiffness = " + number(c[k]) + " } }, { rigid = " +
-                 list({0, l[k]}) + " }]\n";
+    bare.text +=
+        "[[body]]\nname = \"" + node(i) +
+        "\"\ntask_space = \"planar\"\npose = " + list({0, height, 0}) +
+        "\n[[chain]]\nname = \"link" + std::to_string(i) + "\"\nfrom = \"" + below(i) +
+        "\"\nto = \"" + node(i) +
+        "\"\nelements = [{ joint = \"revolute\", axis = \"z\", role = \"preloaded\", spring = { "
+        "law = \"linear\", stiffness = " +
+        number(c[k]) + " } }, { rigid = " + list({0, l[k]}) + " }]\n";
     bare.sways.push_back({node(i) + ".x", 0});
     bare.corners.push_back({node(i), "[0, 0]", 0, height, {i - 1}, sinking(l, i)});
   }
@@ -94,24 +98,30 @@ Bare column_in_space(bool hinges_give, Random& random) {
   const auto cx = hinges_give ? some(n, 0.05, 2, random) : none;
   const auto cy = hinges_give ? some(n, 0.05, 2, random) : none;
   const Matrix G = sinking(l, n);
-  Bare bare{.family = "column in space", .loaded = node(n), .direction = "[0, 0, -1, 0, 0, 0]",
-            .horizontals = 2, .springs = in_both(bending(l, cy), bending(l, cx)),
+  Bare bare{.family = "column in space",
+            .loaded = node(n),
+            .direction = "[0, 0, -1, 0, 0, 0]",
+            .horizontals = 2,
+            .springs = in_both(bending(l, cy), bending(l, cx)),
             .load = in_both(G, G)};
   double height = 0;
   for (int i = 1; i <= n; ++i) {
     const auto k = static_cast<std::size_t>(i - 1);
     height += l[k];
-    bare.text += "[[body]]\nname = \"" + node(i) + "\"\ntask_space = \"spatial\"\npose = " +
-                 list({0, 0, height, 0, 0, 0}) + "\n[[chain]]\nname = \"link" + std::to_string(i) +
-                 "\"\nfrom = \"" + below(i) + "\"\nto = \"" + node(i) +
-                 "\"\nelements = [{ joint = \"universal\", axes = [\"x\", \"y\"], role = \"preloaded\", "
-                 "spring = [{ law = \"linear\", stiffness = " + number(cx[k]) +
-                 " }, { law = \"linear\", stiffness = " + number(cy[k]) + " }] }, { rigid = " +
-                 list({0, 0, l[k]}) + " }]\n";
+    bare.text +=
+        "[[body]]\nname = \"" + node(i) +
+        "\"\ntask_space = \"spatial\"\npose = " + list({0, 0, height, 0, 0, 0}) +
+        "\n[[chain]]\nname = \"link" + std::to_string(i) + "\"\nfrom = \"" + below(i) +
+        "\"\nto = \"" + node(i) +
+        "\"\nelements = [{ joint = \"universal\", axes = [\"x\", \"y\"], role = \"preloaded\", "
+        "spring = [{ law = \"linear\", stiffness = " +
+        number(cx[k]) + " }, { law = \"linear\", stiffness = " + number(cy[k]) +
+        " }] }, { rigid = " + list({0, 0, l[k]}) + " }]\n";
     bare.sways.push_back({node(i) + ".x", 0});
     bare.sways.push_back({node(i) + ".y", 0});
     const Matrix Gi = sinking(l, i);
-    bare.corners.push_back({node(i), "[0, 0, 0]", 0, height, {2 * i - 2, 2 * i - 1}, in_both(Gi, Gi)});
+    bare.corners.push_back(
+        {node(i), "[0, 0, 0]", 0, height, {2 * i - 2, 2 * i - 1}, in_both(Gi, Gi)});
   }
   return bare;
 }
@@ -120,10 +130,12 @@ Bare column_in_space(bool hinges_give, Random& random) {
 std::string leg(const std::string& name, int storey, const std::vector<double>& foot, double length,
                 double head, double stiffness) {
   return "[[chain]]\nname = \"" + name + std::to_string(storey) + "\"\nfrom = \"" + below(storey) +
-         "\"\nfrom_at = " + list(foot) + "\nto = \"" + node(storey) + "\"\nto_at = " +
-         list({head, 0}) +
-         "\nelements = [{ joint = \"revolute\", axis = \"z\", role = \"preloaded\", spring = { law = "
-         "\"linear\", stiffness = " + number(stiffness) + " } }, { rigid = " + list({0, length}) +
+         "\"\nfrom_at = " + list(foot) + "\nto = \"" + node(storey) +
+         "\"\nto_at = " + list({head, 0}) +
+         "\nelements = [{ joint = \"revolute\", axis = \"z\", role = \"preloaded\", spring = { law "
+         "= "
+         "\"linear\", stiffness = " +
+         number(stiffness) + " } }, { rigid = " + list({0, length}) +
          " }, { joint = \"revolute\", axis = \"z\" }]\n";
 }
 
@@ -135,8 +147,8 @@ Bare frame(bool hinges_give, Random& random) {
   const auto left = some(n, 0.5, 1.5, random);
   auto right = left;
   right[0] = uniform(random, 0.7, 1.4) * left[0];
-  const auto stiff = hinges_give ? some(2 * n, 0.05, 2, random)
-                                 : std::vector<double>(2 * left.size(), 0.0);
+  const auto stiff =
+      hinges_give ? some(2 * n, 0.05, 2, random) : std::vector<double>(2 * left.size(), 0.0);
   const double to_left = -share * width, to_right = (1 - share) * width;
   Bare bare{.family = "frame", .loaded = node(n), .direction = "[0, -1, 0]"};
   bare.springs = Matrix::Zero(n, n);
@@ -149,16 +161,18 @@ Bare frame(bool hinges_give, Random& random) {
                     stiff[2 * k + 1] * tilt_right * tilt_right.transpose();
     height += left[k];
     const double x = share * width;
-    const std::vector<double> foot_left = i == 1 ? std::vector<double>{0, 0} : std::vector<double>{to_left, 0};
+    const std::vector<double> foot_left =
+        i == 1 ? std::vector<double>{0, 0} : std::vector<double>{to_left, 0};
     const std::vector<double> foot_right =
         i == 1 ? std::vector<double>{width, left[0] - right[0]} : std::vector<double>{to_right, 0};
-    bare.text += "[[body]]\nname = \"" + node(i) + "\"\ntask_space = \"planar\"\npose = " +
-                 list({x, height, 0}) + "\n" +
+    bare.text += "[[body]]\nname = \"" + node(i) +
+                 "\"\ntask_space = \"planar\"\npose = " + list({x, height, 0}) + "\n" +
                  leg("left", i, foot_left, left[k], to_left, stiff[2 * k]) +
                  leg("right", i, foot_right, right[k], to_right, stiff[2 * k + 1]);
     bare.sways.push_back({node(i) + ".x", x});
     bare.corners.push_back({node(i), list({to_left, 0}), 0, height, {i - 1}, sinking(left, i)});
-    bare.corners.push_back({node(i), list({to_right, 0}), width, height, {i - 1}, sinking(right, i)});
+    bare.corners.push_back(
+        {node(i), list({to_right, 0}), width, height, {i - 1}, sinking(right, i)});
   }
   return bare;
 }
@@ -199,8 +213,11 @@ Attached attach(const Bare& bare, std::size_t corner, const Vector& reach, doubl
   const double length = reach.norm();
   const Vector d = -reach / length;  // from the anchor to the corner
   const Index n = bare.load.rows(), h = bare.horizontals;
-  Cable cable{.rate = Vector::Zero(n), .second = -d[h] * at.sinking, .stiffness = stiffness,
-              .length = length, .stretch = stretch * length};
+  Cable cable{.rate = Vector::Zero(n),
+              .second = -d[h] * at.sinking,
+              .stiffness = stiffness,
+              .length = length,
+              .stretch = stretch * length};
   for (Index i = 0; i < h; ++i) {
     const Index row = at.sway[static_cast<std::size_t>(i)];
     cable.rate[row] = d[i];
@@ -212,21 +229,23 @@ Attached attach(const Bare& bare, std::size_t corner, const Vector& reach, doubl
 }
 
 std::string cable_spring(const Bare& bare, const Attached& cable, std::size_t count) {
-  return "[[spring]]\nname = \"cable" + std::to_string(count) + "\"\nfrom_at = " +
-         anchor_of(bare, cable) + "\nto = \"" + cable.corner->body + "\"\nto_at = " +
-         cable.corner->at + "\nlaw = { law = \"one_sided\", stiffness = " +
-         number(cable.cable.stiffness) + ", from = " + number(threshold(cable)) + " }\n";
+  return "[[spring]]\nname = \"cable" + std::to_string(count) +
+         "\"\nfrom_at = " + anchor_of(bare, cable) + "\nto = \"" + cable.corner->body +
+         "\"\nto_at = " + cable.corner->at +
+         "\nlaw = { law = \"one_sided\", stiffness = " + number(cable.cable.stiffness) +
+         ", from = " + number(threshold(cable)) + " }\n";
 }
 
 std::string cable_chain(const Bare& bare, const Attached& cable, std::size_t count) {
   const double angle = std::atan2(cable.reach[0], -cable.reach[1]);
-  return "[[chain]]\nname = \"cable" + std::to_string(count) + "\"\nfrom_at = " +
-         anchor_of(bare, cable) + "\nto = \"" + cable.corner->body + "\"\nto_at = " +
-         cable.corner->at + "\nelements = [{ joint = \"revolute\", axis = \"z\", initial = " +
-         number(angle) +
+  return "[[chain]]\nname = \"cable" + std::to_string(count) +
+         "\"\nfrom_at = " + anchor_of(bare, cable) + "\nto = \"" + cable.corner->body +
+         "\"\nto_at = " + cable.corner->at +
+         "\nelements = [{ joint = \"revolute\", axis = \"z\", initial = " + number(angle) +
          " }, { joint = \"prismatic\", axis = \"y\", role = \"preloaded\", initial = " +
-         number(cable.cable.length) + ", spring = { law = \"one_sided\", stiffness = " +
-         number(cable.cable.stiffness) + ", from = " + number(threshold(cable)) +
+         number(cable.cable.length) +
+         ", spring = { law = \"one_sided\", stiffness = " + number(cable.cable.stiffness) +
+         ", from = " + number(threshold(cable)) +
          " } }, { joint = \"revolute\", axis = \"z\", initial = " + number(-angle) + " }]\n";
 }
 

@@ -11,16 +11,16 @@ namespace springfold::guyed {
 /// A point at which a cable may be fastened.
 struct Corner {
   std::string body{};
-  std::string at{};         ///< in the body's frame, as a case file has it
-  double across = 0;        ///< in the plane: its place
+  std::string at{};   ///< in the body's frame, as a case file has it
+  double across = 0;  ///< in the plane: its place
   double height = 0;
   std::vector<Index> sway{};  ///< coordinates that move it, one per horizontal direction
-  Matrix sinking{};         ///< it sinks by w' sinking w / 2
+  Matrix sinking{};           ///< it sinks by w' sinking w / 2
 };
 
 struct Bare {
   std::string family{}, text{}, loaded{}, direction{};
-  int horizontals = 1;      ///< horizontal directions: 1 in the plane, 2 in space
+  int horizontals = 1;       ///< horizontal directions: 1 in the plane, 2 in space
   Matrix springs{}, load{};  ///< as of Structure
   std::vector<Sway> sways{};
   std::vector<Corner> corners{};

@@ -23,7 +23,8 @@ std::optional<Matrix> own_directions(const PathProblem& problem, const continuat
 
 /// The same by all unknowns of the statics, in the frames of Evaluator::assemble.
 std::optional<Matrix> whole_directions(const PathProblem& problem,
-                                       const continuation::CurvePoint& at, const Switches& resting) {
+                                       const continuation::CurvePoint& at,
+                                       const Switches& resting) {
   Vector z;
   const statics::System& system = problem.turned_to_pose(at.x, at.lambda, z);
   const statics::Inputs inputs = problem.inputs(at.lambda);

@@ -366,10 +366,10 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   Curve curve{.points = {progress.here}};
   // The piece may be singular at the point itself, and the next surface as near as the way's first point.
   if (start.start) {
+    progress.from_singular = true;
     progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
     if (start.start->x != x || start.start->lambda != lambda) {
       progress.here = *start.start;
-      progress.from_singular = true;
       progress.left.clear();
       curve.points.push_back(progress.here);
     }
