@@ -3,18 +3,38 @@
 
 #include "quantities.hpp"
 #include "resting.hpp"
+#include "springfold/statics/shapes.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 using Kind = QuantityDefinition::Kind;
+using Switches = std::vector<std::size_t>;
 
-std::vector<Index> coordinates_of(const PathProblem& problem, double lambda,
-                                  const std::vector<std::size_t>& resting) {
-  std::vector<Index> list;
-  for (const std::size_t j : resting) list.push_back(problem.system(lambda).switches[j].coordinate);
-  return list;
+/// Gradients of the switches by the unknowns of the path's own equations, as columns.
+std::optional<Matrix> own_directions(const PathProblem& problem, const continuation::CurvePoint& at,
+                                     const Switches& resting) {
+  Matrix dg;
+  Vector dg_dlambda;
+  if (!problem.switch_gradients(at.x, at.lambda, dg, dg_dlambda)) return std::nullopt;
+  return Matrix(dg(resting, Eigen::all).transpose());
+}
+
+/// The same by all unknowns of the statics, in the frames of Evaluator::assemble.
+std::optional<Matrix> whole_directions(const PathProblem& problem,
+                                       const continuation::CurvePoint& at,
+                                       const Switches& resting) {
+  Vector z;
+  const statics::System& system = problem.turned_to_pose(at.x, at.lambda, z);
+  const statics::Inputs inputs = problem.inputs(at.lambda);
+  Matrix E(system.size, static_cast<Index>(resting.size()));
+  statics::SwitchGradient gradient;
+  for (std::size_t k = 0; k < resting.size(); ++k) {
+    if (!switch_gradient(system, resting[k], z, inputs.rho, gradient)) return std::nullopt;
+    E.col(static_cast<Index>(k)) = gradient.z;
+  }
+  return E;
 }
 
 }  // namespace
@@ -24,9 +44,9 @@ std::optional<RestingIndex> Evaluator::resting_index_of(
   if (stages_ || !problem_.symmetric()) return std::nullopt;
   const std::vector<std::size_t> resting = resting_switches(problem_, point);
   if (resting.empty()) return std::nullopt;
-  const std::vector<Index> coordinates = coordinates_of(problem_, point.lambda, resting);
-  if (std::find(coordinates.begin(), coordinates.end(), -1) != coordinates.end())
-    return std::nullopt;  // of a shape: the pieces do not differ by one entry of the diagonal
+  const auto directions = kind == Kind::index ? own_directions(problem_, point, resting)
+                                              : whole_directions(problem_, point, resting);
+  if (!directions) return std::nullopt;
   const auto own = [&](const Piece& piece) -> std::optional<Matrix> {
     Matrix J;
     Vector dF_dlambda;
@@ -41,8 +61,18 @@ std::optional<RestingIndex> Evaluator::resting_index_of(
     if (kind == Kind::index_force) return at->A;
     return Matrix(statics::without_gauge(at->A, at->work).topLeftCorner(first_pose_, first_pose_));
   };
-  return resting_index(kind == Kind::index ? MatrixOfPiece(own) : MatrixOfPiece(whole), point.piece,
-                       resting, coordinates, problem_.closures());
+  const MatrixOfPiece matrix = kind == Kind::index ? MatrixOfPiece(own) : MatrixOfPiece(whole);
+  const Matrix E = directions->topRows(kind == Kind::index_pose ? first_pose_ : directions->rows());
+  // With all bodies held a spring between them stays as it is.
+  std::vector<Index> moving;
+  Switches switching;
+  for (std::size_t k = 0; k < resting.size(); ++k) {
+    const auto column = static_cast<Index>(k);
+    if (E.col(column).isZero(0)) continue;
+    moving.push_back(column);
+    switching.push_back(resting[k]);
+  }
+  return resting_index(matrix, point.piece, switching, E(Eigen::all, moving), problem_.closures());
 }
 
 void Evaluator::decide_indices(const std::vector<QuantityDefinition>& quantities,

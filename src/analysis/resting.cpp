@@ -9,7 +9,7 @@
 namespace springfold::analysis {
 namespace {
 
-/// Compliance of the springs' coordinates in a piece that is regular.
+/// Compliance of the springs' directions in a piece that is regular.
 struct Base {
   Matrix G{};
   Index negative = 0;
@@ -22,33 +22,29 @@ Piece with_sides(Piece piece, const std::vector<std::size_t>& resting, std::size
   return piece;
 }
 
-std::optional<Base> base_of(const Matrix& M, const std::vector<Index>& coordinates, Piece piece) {
-  const auto k = static_cast<Index>(coordinates.size());
-  Matrix E = Matrix::Zero(M.rows(), k);
-  for (Index j = 0; j < k; ++j) E(coordinates[static_cast<std::size_t>(j)], j) = 1;
+std::optional<Base> base_of(const Matrix& M, const Matrix& E, Piece piece) {
   const auto solution = solve_and_count(M, E);
   if (!solution || solution->inertia.zero > 0 || !solution->X.allFinite()) return std::nullopt;
-  return Base{solution->X(coordinates, Eigen::all), solution->inertia.negative, std::move(piece)};
+  const Matrix G = E.transpose() * solution->X;
+  return Base{0.5 * (G + G.transpose()), solution->inertia.negative, std::move(piece)};
 }
 
 /// The first piece that is regular, the given one first.
 std::optional<Base> regular_piece(const MatrixOfPiece& matrix, const Piece& piece,
-                                  const std::vector<std::size_t>& resting,
-                                  const std::vector<Index>& coordinates) {
+                                  const std::vector<std::size_t>& resting, const Matrix& E) {
   const std::size_t all = std::size_t{1} << resting.size();
   for (std::size_t sides = 0; sides <= all; ++sides) {
     const Piece tried = sides == 0 ? piece : with_sides(piece, resting, all - sides);
     const auto M = matrix(tried);
     if (!M) return std::nullopt;
-    if (auto base = base_of(*M, coordinates, tried)) return base;
+    if (auto base = base_of(*M, E, tried)) return base;
   }
   return std::nullopt;
 }
 
-/// What the diagonal gains where a spring begins to act.
+/// What a spring's stiffness gains where it begins to act: the matrix gains jump e e^T.
 std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
-                               const std::vector<std::size_t>& resting,
-                               const std::vector<Index>& coordinates) {
+                               const std::vector<std::size_t>& resting, const Matrix& E) {
   Vector jumps(static_cast<Index>(resting.size()));
   const Piece none = with_sides(piece, resting, 0);
   const auto M = matrix(none);
@@ -57,8 +53,9 @@ std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
     one[resting[k]] = 1;
     const auto N = matrix(one);
     if (!N) return std::nullopt;
-    const Index c = coordinates[k];
-    jumps[static_cast<Index>(k)] = (*N)(c, c) - (*M)(c, c);
+    const auto j = static_cast<Index>(k);
+    const double square = E.col(j).squaredNorm();
+    jumps[j] = E.col(j).dot((*N - *M) * E.col(j)) / (square * square);
   }
   return M ? std::optional<Vector>(jumps) : std::nullopt;
 }
@@ -108,12 +105,12 @@ double RestingIndex::index() const {
 
 std::optional<RestingIndex> resting_index(const MatrixOfPiece& matrix, const Piece& piece,
                                           const std::vector<std::size_t>& resting,
-                                          const std::vector<Index>& coordinates, Index closures) {
+                                          const Matrix& directions, Index closures) {
   const auto k = static_cast<Index>(resting.size());
   if (k == 0 || k > most_cones) return std::nullopt;
-  const auto base = regular_piece(matrix, piece, resting, coordinates);
+  const auto base = regular_piece(matrix, piece, resting, directions);
   if (!base) return std::nullopt;
-  const auto jumps = jumps_of(matrix, piece, resting, coordinates);
+  const auto jumps = jumps_of(matrix, piece, resting, directions);
   if (!jumps) return std::nullopt;
   Vector sides(k);
   for (Index j = 0; j < k; ++j) sides[j] = base->piece[resting[static_cast<std::size_t>(j)]];

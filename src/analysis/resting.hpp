@@ -31,11 +31,11 @@ using MatrixOfPiece = std::function<std::optional<Matrix>(const Piece&)>;
 
 /// A state is stable if the quadratic form of its energy is positive on the cone of every piece. The form is
 /// that of the springs' own coordinates, with everything else at its best (core/piecewise_form.hpp).
-/// @param coordinates  of the resting springs, in the rows of the matrix
-/// @param closures     negative eigenvalues that belong to constraints
+/// @param directions  gradients of the resting switches by the unknowns of the matrix, one per column
+/// @param closures    negative eigenvalues that belong to constraints
 /// @returns nothing for more than twelve springs, or where all pieces are singular
 std::optional<RestingIndex> resting_index(const MatrixOfPiece& matrix, const Piece& piece,
                                           const std::vector<std::size_t>& resting,
-                                          const std::vector<Index>& coordinates, Index closures);
+                                          const Matrix& directions, Index closures);
 
 }  // namespace springfold::analysis

@@ -11,6 +11,7 @@
 #include "equilibria.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
+#include "put_to_rest.hpp"
 #include "run_kinds.hpp"
 #include "run_traced.hpp"
 #include "settle_units.hpp"
@@ -275,16 +276,15 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
 
 }  // namespace
 
-StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study,
+StudyResult run_from_start(const model::Mechanism& given, const Study& study,
                            const ParameterFamily* family, const Observer& observer,
                            const TraceBy& trace_by) {
   const double began = thread_seconds();
   StudyResult result;
   result.study = study.name;
-  Setup setup = set_up(mechanism, study, family);
+  auto [mechanism, setup, first] = begin_study(given, study, family, result.start);
   result.lambda_unit = lambda_unit_of(study, setup.system);
   result.non_conservative = non_conservative_loads(mechanism, study);
-  statics::FirstEquilibrium first = find_start(setup, study, result.start);
   if (result.start.found) settle_units(mechanism, study, family, first, setup);
   const auto quantities =
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
@@ -313,15 +313,13 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
   return result;
 }
 
-std::optional<StartReport> solve_start(const model::Mechanism& mechanism, const Study& study,
+std::optional<StartReport> solve_start(const model::Mechanism& given, const Study& study,
                                        const ParameterFamily* family) {
-  assert(problems_in(study, mechanism).empty());
-  if (study.kind == StudyKind::control)
-    return run_control(mechanism, first_target(study), {}).start;
+  assert(problems_in(study, given).empty());
+  if (study.kind == StudyKind::control) return run_control(given, first_target(study), {}).start;
   if (is_of_commands(study.kind)) return std::nullopt;
-  Setup setup = set_up(mechanism, study, family);
   StartReport report;
-  statics::FirstEquilibrium first = find_start(setup, study, report);
+  auto [mechanism, setup, first] = begin_study(given, study, family, report);
   if (report.found) settle_units(mechanism, study, family, first, setup);
   report.redundant = redundant_closures(setup);
   if (!report.found || study.kind == StudyKind::equilibria) return report;

@@ -141,6 +141,22 @@ bool is_surprise(const NewtonResult& newton, const Vector& x) {
   return !newton.corrections.empty() && newton.corrections.front() > most_surprise * (1 + x.norm());
 }
 
+/// Does the step still lie beside the junction that the curve left where its piece is singular? There the curve is that of
+/// the junction's reduced equation: special points nearer to it than `told_apart` belong to it, and eigenvalues that vanish
+/// in it are lost in their rounding. A spring that switches soon leaves no longer steps.
+bool beside_junction(const Progress& progress, const CurvePoint& end) {
+  return progress.from_singular && end.s <= told_apart;
+}
+
+/// Nothing is told of the number of negative eigenvalues there.
+void accept_beside_junction(double ds, StepEvents& found, CurvePoint& end, Curve& curve) {
+  curve.log.push_back({curve.points.back().s, ds, "beside the junction: " + found.doubt});
+  found.doubt.clear();
+  found.unexplained = 0;
+  found.flat = found.passing = false;
+  end.negative.reset();
+}
+
 /// One step: predict, correct, look for switching surfaces and events, record.
 /// @param report  special points that cannot be told apart are reported on the shortest steps
 Outcome advance(const Walker& walker, const std::vector<Event>& events, const HitObserver& at_hit,
@@ -174,6 +190,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   const bool cut = meets_kink && !closed;
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
   if (closed) end_at(*start, found);
+  if (!found.doubt.empty() && !found.of_caller && beside_junction(progress, end))
+    accept_beside_junction(progress.ds, found, end, curve);
   if (!found.doubt.empty()) {
     refusal = found.doubt;
     refused.special = true;
@@ -349,6 +367,7 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   Curve curve{.points = {progress.here}};
   // The piece may be singular at the point itself, and the next surface as near as the way's first point.
   if (start.start) {
+    progress.from_singular = true;
     progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
     if (start.start->x != x || start.start->lambda != lambda) {
       progress.here = *start.start;

@@ -18,8 +18,9 @@ struct Progress {
   std::vector<Index> left{};      ///< switches that are zero at `here` and being left
   double ds = 0;
   int sense = 0;  ///< sign of lambda's rate after the last kink, or before a family; 0: not known
-  bool flat = false;     ///< lambda stands still as far as could be seen from the last kink
-  double clear_of = -1;  ///< special points before this s belong to the last kink
+  bool flat = false;           ///< lambda stands still as far as could be seen from the last kink
+  double clear_of = -1;        ///< special points before this s belong to the last kink
+  bool from_singular = false;  ///< the curve began at a junction at which its piece is singular
 };
 
 enum class Outcome { go_on, shorten, stop };

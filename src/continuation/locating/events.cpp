@@ -112,8 +112,10 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   std::vector<Found> found;
   for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
   for (const Event& event : events)
-    if (!add_user_event(walker, samples, event, found))
+    if (!add_user_event(walker, samples, event, found)) {
       result.doubt = "event \"" + event.name + "\" could not be located";
+      result.of_caller = true;
+    }
 
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });

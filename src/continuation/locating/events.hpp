@@ -17,6 +17,7 @@ struct StepEvents {
   int unexplained = 1;        ///< with a doubt: how many eigenvalues change sign unexplained
   bool passing = false;  ///< with a doubt: branches pass each other closely; the curve turns aside
   bool flat = false;  ///< with a doubt: lambda stands still to rounding; shorter steps do not help
+  bool of_caller = false;  ///< with a doubt: it is about an event of the caller
 };
 
 /// @param middle  the curve's point half-way, or nullptr: then only the ends are compared

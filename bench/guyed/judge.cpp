@@ -1,0 +1,189 @@
+#include "judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace springfold::guyed {
+namespace {
+
+using analysis::Branch;
+using analysis::Event;
+using analysis::EventKind;
+using analysis::StudyResult;
+
+constexpr double one_load = 1e-7;  // part of a load within which two are one
+constexpr double place = 1e-9;     // part of the largest load by which an event may be off
+constexpr double along = 0.99;     // cosine between a branch's first point and its tangent
+
+struct Columns {
+  std::size_t lambda = 0, index = 0;
+  std::vector<std::size_t> sways{};
+};
+
+std::size_t column(const StudyResult& result, const std::string& name) {
+  for (std::size_t i = 0; i < result.quantities.size(); ++i)
+    if (result.quantities[i].name == name) return i;
+  throw std::runtime_error("no column " + name);
+}
+
+Columns columns(const Draw& draw, const StudyResult& result) {
+  Columns list{column(result, "lambda"), column(result, "index"), {}};
+  for (const Sway& sway : draw.sways) list.sways.push_back(column(result, sway.quantity));
+  return list;
+}
+
+Vector sway(const Draw& draw, const Columns& columns, const analysis::Sample& row) {
+  Vector w(static_cast<Index>(draw.sways.size()));
+  for (std::size_t i = 0; i < draw.sways.size(); ++i)
+    w[static_cast<Index>(i)] = row.values[columns.sways[i]] - draw.sways[i].upright;
+  return w;
+}
+
+std::string said(const char* format, double a, double b = 0, double c = 0) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+std::vector<std::string> reasons(const StudyResult& result) {
+  std::vector<std::string> list = result.doubts;
+  if (!result.start.found) list.push_back("no start: " + result.start.message);
+  for (const Branch& branch : result.branches) {
+    for (const auto* stop : {&branch.backward, &branch.forward})
+      if (!stop->complete) list.push_back("stopped: " + stop->reason);
+    for (const Event& event : branch.events)
+      if (event.kind == EventKind::unresolved) list.push_back(event.detail);
+  }
+  if (list.empty() && !complete(result)) list.push_back("not complete");
+  return list;
+}
+
+/// All that leaves at one load.
+struct Group {
+  double load = 0;
+  std::vector<Vector> directions{};
+};
+
+std::vector<Group> groups(const Truth& truth, const Draw& draw) {
+  std::vector<Group> list;
+  for (const HalfBranch& branch : truth.leaving) {
+    if (branch.load < draw.from || branch.load > draw.to) continue;
+    if (list.empty() || branch.load - list.back().load > one_load * branch.load)
+      list.push_back({branch.load, {}});
+    list.back().directions.push_back(branch.direction);
+  }
+  return list;
+}
+
+struct Judge {
+  const Draw& draw;
+  const StudyResult& result;
+  const Truth& truth;
+  Columns at;
+  std::vector<std::string> faults{};
+
+  double load(std::size_t row) const { return result.branches[0].samples[row].values[at.lambda]; }
+
+  void rows() {
+    std::size_t wrong = 0;
+    std::string first;
+    for (const auto& row : result.branches[0].samples) {
+      const double P = row.values[at.lambda], told = row.values[at.index];
+      const double nearby = one_load * draw.to;
+      const int expected = truth.index(P);
+      if (sway(draw, at, row).norm() > 1e-7) {
+        faults.push_back(said("sways by %.3g at %.12g", sway(draw, at, row).norm(), P));
+        return;
+      }
+      if (truth.index(P - nearby) != truth.index(P + nearby) || !row.event.empty()) continue;
+      if (told == expected) continue;
+      if (wrong++ == 0) first = said("index %g at %.12g instead of %g", told, P, expected);
+    }
+    if (wrong > 0) faults.push_back(first + said(", in %g rows", static_cast<double>(wrong)));
+  }
+
+  /// Directions in which the result's branches leave an event.
+  std::vector<Vector> directions(const std::string& label) const {
+    std::vector<Vector> list;
+    for (const Branch& branch : result.branches)
+      if (branch.origin == label && branch.samples.size() > 1) {
+        const Vector w = sway(draw, at, branch.samples[1]);
+        if (w.norm() > 0) list.push_back(w.normalized());
+      }
+    return list;
+  }
+
+  void compare(const Group& group, const std::string& label) {
+    std::vector<Vector> found = directions(label);
+    if (found.size() != group.directions.size())
+      faults.push_back(said("%g ways out at %.12g instead of %g", static_cast<double>(found.size()),
+                            group.load, static_cast<double>(group.directions.size())));
+    for (const Vector& expected : group.directions) {
+      const auto best = std::max_element(
+          found.begin(), found.end(),
+          [&](const Vector& a, const Vector& b) { return a.dot(expected) < b.dot(expected); });
+      if (best == found.end()) return;
+      if (best->dot(expected) < along)
+        faults.push_back(
+            said("direction at %.12g is off, cosine %.6g", group.load, best->dot(expected)));
+      found.erase(best);
+    }
+  }
+
+  void events() {
+    std::vector<Group> expected = groups(truth, draw);
+    for (const Event& event : result.branches[0].events) {
+      const double P = load(event.row);
+      if (event.kind == EventKind::end_of_range || event.kind == EventKind::unresolved) continue;
+      const bool leaves =
+          event.kind == EventKind::branch_point || event.kind == EventKind::branching_kink;
+      const auto same = std::find_if(expected.begin(), expected.end(), [&](const Group& group) {
+        return std::abs(group.load - P) <= place * draw.to;
+      });
+      if (!leaves || same == expected.end()) {
+        faults.push_back(event.label + said(" at %.12g is none: ", P) + event.detail);
+        continue;
+      }
+      compare(*same, event.label);
+      expected.erase(same);
+    }
+    for (const Group& missed : expected)
+      faults.push_back(said("missed at %.12g: %g ways", missed.load,
+                            static_cast<double>(missed.directions.size())));
+  }
+};
+
+std::vector<std::string> faults(const Draw& draw, const StudyResult& result, double at_rest) {
+  if (result.branches.empty()) return {};
+  const Truth true_state = truth(draw.structure, at_rest);
+  Judge judge{draw, result, true_state, columns(draw, result)};
+  judge.rows();
+  judge.events();
+  return judge.faults;
+}
+
+/// What is missing may be excused by what was left open; what is told must be right.
+bool is_missing(const std::string& fault) {
+  return fault.starts_with("missed") || fault.find(" ways out at ") != std::string::npos ||
+         fault.starts_with("index nan") || fault.starts_with("index -nan");
+}
+
+}  // namespace
+
+Verdict judge(const Draw& draw, const StudyResult& result) {
+  constexpr double rounding = 1e-15;  // stretches that are zero in the case
+  Verdict verdict{.reasons = reasons(result), .faults = faults(draw, result, rounding)};
+  if (!verdict.faults.empty() && std::abs(draw.pretension) < told_as_resting) {
+    const auto others = faults(draw, result, told_as_resting);
+    if (others.size() < verdict.faults.size()) verdict.faults = others;
+  }
+  const bool excused = std::all_of(verdict.faults.begin(), verdict.faults.end(), is_missing);
+  if (!verdict.reasons.empty() && excused)
+    verdict.outcome = Outcome::unresolved;
+  else if (!verdict.faults.empty())
+    verdict.outcome = Outcome::wrong;
+  return verdict;
+}
+
+}  // namespace springfold::guyed

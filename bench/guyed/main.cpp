@@ -1,0 +1,173 @@
+// Campaign of guyed columns and frames: random structures whose cables are stretched, slack or just at rest while the
+// load grows, run as case files and judged against closed forms of the linearised cones.
+//
+//     guyed [N] [seed] [--check] [--threads n] [--draw i] [--verbose] [--case file]
+//
+// Draw i of a seed is always the same problem. README.md says what is drawn and what is judged. With --check the exit
+// code is 1 if anything is wrong, or more than one draw in a hundred is unresolved.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "judge.hpp"
+#include "springfold/analysis/history.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::guyed {
+namespace {
+
+struct Settings {
+  long count = 1000;
+  unsigned long long seed = 1;
+  unsigned threads = 1;
+  long draw = -1;  ///< only this one
+  bool verbose = false, check = false;
+  std::string file{};  ///< where the case of the draw is kept
+};
+
+struct Judged {
+  long number = 0;
+  std::string family{};
+  double pretension = 0;
+  Verdict verdict{};
+  double seconds = 0;
+};
+
+analysis::StudyResult run_case(const std::string& text, const std::filesystem::path& file) {
+  std::ofstream{file, std::ios::binary} << text;
+  const io::Case read = io::load_case(file);
+  const io::PlannedRun& planned = read.runs.at(0);
+  return analysis::run_study_after(planned.history, planned.mechanism, planned.plan, nullptr);
+}
+
+void print_truth(const Draw& draw) {
+  for (const double at_rest : {1e-15, told_as_resting}) {
+    const Truth known = truth(draw.structure, at_rest);
+    std::printf("  at rest within %g:\n", at_rest);
+    for (const HalfBranch& branch : known.leaving) {
+      std::printf("    %.14g  direction", branch.load);
+      for (const double w : branch.direction) std::printf(" %.4g", w);
+      std::printf("%s\n", branch.load > draw.to ? "  (beyond the range)" : "");
+    }
+  }
+}
+
+Judged run(const Settings& settings, long number) {
+  Random random(settings.seed * 1000003ull + static_cast<unsigned long long>(number));
+  const Draw drawn = draw(random);
+  const auto file =
+      settings.file.empty()
+          ? std::filesystem::temp_directory_path() /
+                ("guyed-" + std::to_string(::getpid()) + "-" + std::to_string(number) + ".toml")
+          : std::filesystem::path(settings.file);
+  Judged judged{.number = number, .family = drawn.family, .pretension = drawn.pretension};
+  if (settings.verbose) print_truth(drawn);
+  try {
+    const analysis::StudyResult result = run_case(drawn.text, file);
+    judged.verdict = judge(drawn, result);
+    judged.seconds = result.seconds;
+  } catch (const std::exception& e) {
+    judged.verdict = {Outcome::wrong, {}, {std::string("exception: ") + e.what()}};
+  }
+  if (settings.file.empty()) std::filesystem::remove(file);
+  return judged;
+}
+
+std::vector<Judged> run_all(const Settings& settings) {
+  const long first = settings.draw >= 0 ? settings.draw : 0;
+  const long last = settings.draw >= 0 ? settings.draw + 1 : settings.count;
+  std::vector<Judged> results(static_cast<std::size_t>(std::max(0L, last - first)));
+  std::atomic<long> next{first};
+  const auto work = [&] {
+    for (long i = next++; i < last; i = next++)
+      results[static_cast<std::size_t>(i - first)] = run(settings, i);
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned t = 1; t < settings.threads; ++t) threads.emplace_back(work);
+  work();
+  threads.clear();
+  return results;
+}
+
+void print(const Judged& judged, bool all) {
+  const Verdict& verdict = judged.verdict;
+  std::printf("draw %ld, %s, pretension %g, %.2f s: %s\n", judged.number, judged.family.c_str(),
+              judged.pretension, judged.seconds,
+              verdict.outcome == Outcome::wrong        ? "WRONG"
+              : verdict.outcome == Outcome::unresolved ? "unresolved"
+                                                       : "right");
+  const std::size_t most = all ? 100 : 3;
+  for (std::size_t i = 0; i < std::min(most, verdict.faults.size()); ++i)
+    std::printf("    %s\n", verdict.faults[i].c_str());
+  for (std::size_t i = 0; i < std::min(most, verdict.reasons.size()); ++i)
+    std::printf("    said: %s\n", verdict.reasons[i].c_str());
+}
+
+struct Tally {
+  long right = 0, unresolved = 0, wrong = 0;
+  void add(Outcome outcome) {
+    ++(outcome == Outcome::right ? right : outcome == Outcome::unresolved ? unresolved : wrong);
+  }
+};
+
+void print(const std::map<std::string, Tally>& table) {
+  std::printf("%-34s %8s %12s %8s\n", "", "right", "unresolved", "wrong");
+  for (const auto& [name, tally] : table)
+    std::printf("%-34s %8ld %12ld %8ld\n", name.c_str(), tally.right, tally.unresolved,
+                tally.wrong);
+}
+
+/// Is everything right, but for one draw in a hundred that is unresolved?
+bool report(const std::vector<Judged>& results, const Settings& settings) {
+  std::map<std::string, Tally> by_pretension, by_family;
+  Tally all;
+  double seconds = 0;
+  for (const Judged& judged : results) {
+    const Outcome outcome = judged.verdict.outcome;
+    if (settings.verbose || outcome != Outcome::right) print(judged, settings.verbose);
+    char name[40];
+    std::snprintf(name, sizeof name, "pretension %g", judged.pretension);
+    by_pretension[name].add(outcome);
+    by_family[judged.family].add(outcome);
+    all.add(outcome);
+    seconds += judged.seconds;
+  }
+  by_family["all"] = all;
+  std::printf("\n");
+  print(by_pretension);
+  print(by_family);
+  std::printf("%.1f s of computation\n", seconds);
+  return all.wrong == 0 && 100 * all.unresolved <= static_cast<long>(results.size());
+}
+
+}  // namespace
+}  // namespace springfold::guyed
+
+int main(int argc, char** argv) {
+  using namespace springfold::guyed;
+  Settings settings;
+  CLI::App app("Random guyed columns and frames: what leaves their upright state?");
+  app.add_option("N", settings.count, "number of draws")->check(CLI::NonNegativeNumber);
+  app.add_option("seed", settings.seed, "the same seed gives the same draws");
+  app.add_option("--threads", settings.threads, "default: 1")->check(CLI::Range(1, 256));
+  app.add_option("--draw", settings.draw, "only this draw");
+  app.add_option("--case", settings.file, "with --draw: keep the case in this file");
+  app.add_flag("--verbose", settings.verbose, "all that was expected and found");
+  app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
+  CLI11_PARSE(app, argc, argv);
+  if (settings.draw < 0) settings.file.clear();
+  try {
+    const bool met = report(run_all(settings), settings);
+    return settings.check && !met ? 1 : 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "guyed: %s\n", e.what());
+    return 2;
+  }
+}

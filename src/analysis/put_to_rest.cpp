@@ -1,0 +1,83 @@
+#include "put_to_rest.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "shape_units.hpp"
+#include "springfold/continuation/options.hpp"
+#include "springfold/statics/shapes.hpp"
+#include "start.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Per spring of joints and of shapes, in the order of the system: by how much its law is to be moved, dimensionless.
+struct Shifts {
+  std::vector<double> joints{}, shapes{};
+  bool any = false;
+};
+
+/// A threshold is exactly where the coordinate is, but for the rounding of both.
+bool is_upon(double g, double breakpoint) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  return std::abs(g) <= rounding * std::max(1.0, std::abs(breakpoint));
+}
+
+Shifts shifts_of(const statics::System& system, const statics::FirstEquilibrium& first) {
+  Shifts shifts{std::vector<double>(system.springs.size(), 0.0),
+                std::vector<double>(system.shapes.size(), 0.0)};
+  const double near = continuation::TraceOptions{}.simultaneous;
+  for (std::size_t j = 0; j < system.switches.size(); ++j) {
+    const statics::Switch& at = system.switches[j];
+    const double g = switch_value(system, j, first.z, first.inputs.rho);
+    if (!(std::abs(g) <= near) || is_upon(g, at.breakpoint)) continue;
+    (at.of_shape() ? shifts.shapes : shifts.joints)[at.spring] = g;
+    shifts.any = true;
+  }
+  return shifts;
+}
+
+void move_springs(const Shifts& shifts, const Scales& scales, model::Mechanism& mechanism) {
+  std::size_t spring = 0;
+  for (model::Chain& chain : mechanism.chains)
+    for (model::Element& element : chain.elements) {
+      auto* joint = std::get_if<model::Joint>(&element);
+      if (joint == nullptr || !joint->spring || !has_coordinate(*joint)) continue;
+      const double unit = joint->kind == model::JointKind::prismatic ? scales.length : 1;
+      const double shift = shifts.joints[spring++];
+      if (shift != 0) joint->spring = model::moved(*joint->spring, shift * unit);
+    }
+  for (std::size_t i = 0; i < mechanism.shape_springs.size(); ++i) {
+    model::ShapeSpring& own = mechanism.shape_springs[i];
+    if (shifts.shapes[i] != 0)
+      own.law = model::moved(own.law, shifts.shapes[i] * unit_of_value(own.shape.kind, scales));
+  }
+}
+
+}  // namespace
+
+Begin begin_study(const model::Mechanism& mechanism, const Study& study,
+                  const ParameterFamily* family, StartReport& report) {
+  // Springs that no longer pull let the equilibrium move by as little again.
+  constexpr int rounds = 3;
+  Begin begin{mechanism, set_up(mechanism, study, family), {}};
+  begin.first = find_start(begin.setup, study, report);
+  if (family != nullptr || study.kind != StudyKind::force_deflection) return begin;
+  for (int round = 0; round < rounds && report.found; ++round) {
+    const Shifts shifts = shifts_of(begin.setup.system, begin.first);
+    if (!shifts.any) break;
+    Begin moved{begin.mechanism, {}, {}};
+    move_springs(shifts, begin.setup.scales, moved.mechanism);
+    moved.setup = set_up(moved.mechanism, study, family);
+    StartReport again;
+    moved.first = find_start(moved.setup, study, again);
+    if (!again.found) break;
+    begin = std::move(moved);
+    report = std::move(again);
+  }
+  return begin;
+}
+
+}  // namespace springfold::analysis

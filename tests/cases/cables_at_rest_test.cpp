@@ -1,0 +1,124 @@
+// Cables that just rest, or are stretched or slack by next to nothing, in the upright state of a guyed mast.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "case_runs.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+using analysis::StudyResult;
+
+enum class As { chain, spring };
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+/// A cable of stiffness 1 from the top of the mast to the ground at x = +-1, stretched by `stretch`.
+std::string cable(const std::string& name, double side, double stretch, As as) {
+  const std::string from = number(std::sqrt(2.0) - stretch);
+  const std::string law = "{ law = \"one_sided\", stiffness = 1, from = " + from + " }";
+  if (as == As::spring)
+    return "[[spring]]\nname = \"" + name + "\"\nfrom_at = [" + number(side) +
+           ", 0]\nto = \"top\"\nlaw = " + law + "\n";
+  return "[[chain]]\nname = \"" + name + "\"\nfrom_at = [" + number(side) +
+         ", 0]\nelements = [{ joint = \"revolute\", axis = \"z\", initial = \"" +
+         number(45 * side) +
+         "*deg\" }, { joint = \"prismatic\", axis = \"y\", role = \"preloaded\", "
+         "initial = \"sqrt(2)\", spring = " +
+         law + " }]\n";
+}
+
+/// A mast of length 1 with a spring of stiffness c in its foot, under a load on its top.
+std::string mast(double c, const std::string& cables) {
+  return "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n"
+         "[[chain]]\nname = \"mast\"\nelements = [{ joint = \"revolute\", axis = \"-z\", name = "
+         "\"foot\", role = \"preloaded\", spring = { law = \"linear\", stiffness = " +
+         number(c) + " } }, { rigid = [0, 1] }]\n" + cables +
+         "[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\n"
+         "until = { lambda = [-0.2, 2], \"mast.foot\" = [-0.3, 0.3] }\nbranches = { depth = 1 }\n";
+}
+
+std::size_t branches_from(const StudyResult& result, const std::string& label) {
+  std::size_t count = 0;
+  for (const auto& branch : result.branches) count += branch.origin == label ? 1u : 0u;
+  return count;
+}
+
+/// Index in the rows of the upright state below and above a load.
+void expect_index(const StudyResult& result, double from, double to, int index) {
+  int rows = 0;
+  for (std::size_t row = 0; row < result.branches[0].samples.size(); ++row) {
+    const double load = value(result, row, "lambda");
+    if (!(load > from && load < to)) continue;
+    EXPECT_EQ(value(result, row, "index"), index) << "at " << load;
+    EXPECT_EQ(value(result, row, "index_force"), index) << "at " << load;
+    ++rows;
+  }
+  EXPECT_GT(rows, 2);
+}
+
+TEST(CablesAtRest, TwoCablesHoldAMastUpToHalfOfWhatTheyHoldWhenStretched) {
+  // Each acts on its own side: P = k sin^2 = 1/2. Stretched by 1e-10 of the length or less they rest.
+  for (const As as : {As::chain, As::spring})
+    for (const double stretch : {0.0, 1e-12, 3e-11, -1e-12, -3e-11}) {
+      SCOPED_TRACE(number(stretch) + (as == As::chain ? ", chain" : ", spring"));
+      const StudyResult result =
+          run(mast(0, cable("left", -1, stretch, as) + cable("right", 1, stretch, as))).of("press");
+      EXPECT_TRUE(complete(result));
+      const auto loads = lambdas(result, EventKind::branching_kink);
+      ASSERT_EQ(loads.size(), 1u);
+      EXPECT_NEAR(loads[0], 0.5, 1e-10);
+      EXPECT_EQ(branches_from(result, "KB1"), 2u) << "to both sides";
+      expect_index(result, -0.2, 0.4999, 0);
+      expect_index(result, 0.5001, 2, 1);
+    }
+}
+
+TEST(CablesAtRest, OneCableLeavesHalfBranchesAtTwoLoads) {
+  // Without it P = c = 0.3, with it c + 1/2: to the other side the mast falls earlier.
+  for (const As as : {As::chain, As::spring}) {
+    SCOPED_TRACE(as == As::chain ? "chain" : "spring");
+    const StudyResult result = run(mast(0.3, cable("left", -1, 0, as))).of("press");
+    EXPECT_TRUE(complete(result));
+    const auto loads = lambdas(result, EventKind::branching_kink);
+    ASSERT_EQ(loads.size(), 2u);
+    EXPECT_NEAR(loads[0], 0.3, 1e-10);
+    EXPECT_NEAR(loads[1], 0.8, 1e-10);
+    expect_index(result, -0.2, 0.2999, 0);
+    expect_index(result, 0.3001, 2, 1);
+  }
+}
+
+TEST(CablesAtRest, StretchedByAMillionthTheirBranchesSwitchRightBehindTheBranchPoint) {
+  // P = 1 - T / sqrt(2) with the tension T = k times the stretch: second-order terms of both cables.
+  for (const double stretch : {1e-6, 1e-5, 1e-3}) {
+    SCOPED_TRACE(stretch);
+    const StudyResult result = run(mast(0, cable("left", -1, stretch, As::spring) +
+                                               cable("right", 1, stretch, As::spring)))
+                                   .of("press");
+    EXPECT_TRUE(complete(result));
+    const auto loads = lambdas(result, EventKind::branch_point);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_NEAR(loads[0], 1 - stretch / std::sqrt(2.0), 1e-10);
+    EXPECT_EQ(branches_from(result, "BP1"), 2u);
+    for (std::size_t b = 1; b < result.branches.size(); ++b) {
+      ASSERT_FALSE(result.branches[b].events.empty());
+      int releases = 0;
+      for (const auto& event : result.branches[b].events)
+        releases +=
+            event.kind == EventKind::switching || event.kind == EventKind::corner_limit_point;
+      EXPECT_EQ(releases, 1) << "one cable goes slack";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace springfold::io
