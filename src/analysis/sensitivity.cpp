@@ -5,6 +5,7 @@
 
 #include "base_path.hpp"
 #include "critical_runs.hpp"
+#include "imperfection.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -29,6 +30,9 @@ std::vector<std::string> parameters_of(const Study& study) {
   return study.critical.parameters.empty() ? study.critical.cases->names
                                            : study.critical.parameters;
 }
+
+/// A worst combination is one of named parameters: all of the case have no common unit.
+bool has_worst(const Study& study) { return !study.critical.parameters.empty(); }
 
 /// Total derivatives of the columns by the parameter of `curves`; NaN where the point has none.
 std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
@@ -82,6 +86,8 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
   if (!study.critical.cases) return names;
   for (std::string& name : sensitivity_columns(rated, parameters_of(study)))
     names.push_back(std::move(name));
+  for (std::string& name : law_columns(parameters_of(study), has_worst(study)))
+    names.push_back(std::move(name));
   return names;
 }
 
@@ -89,6 +95,8 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
   const auto& names = study.critical.cases->names;
   BasePath path;
   std::vector<std::size_t> columns;
+  std::vector<PointLaws> laws;
+  std::size_t lambda = 0;  // which of the rated columns
   for (const std::string& parameter : parameters_of(study)) {
     const auto number =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
@@ -101,6 +109,7 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       for (std::size_t i = 0; i < base.quantities.size(); ++i) {
         const auto& q = base.quantities[i];
         result.quantities.push_back({q.name, q.unit});
+        if (q.kind == QuantityDefinition::Kind::lambda) lambda = columns.size();
         if (is_rated(q, base.setup.system)) columns.push_back(i);
       }
       path = base_path(base, false, observer);
@@ -109,12 +118,15 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
         result.start.message = path.problem;
         return;
       }
+      laws.assign(path.points.begin(), path.points.end());
     }
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
     std::string lost;
-    for (const SpecialPoint& point : path.points) {
+    for (std::size_t k = 0; k < path.points.size(); ++k) {
+      const SpecialPoint& point = path.points[k];
       auto rates = rates_of(curves, base, point, columns);
+      laws[k].enter(curves, rates[lambda]);
       if (std::isnan(rates.front())) lost += (lost.empty() ? "" : ", ") + point.label;
       auto& values = path.branch.samples[point.row].values;
       values.insert(values.end(), rates.begin(), rates.end());
@@ -123,6 +135,13 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       for (Event& event : path.branch.events)
         if (event.label == point.label && lost.find(point.label) != std::string::npos)
           event.detail += "; no rate by " + parameter;
+  }
+  for (const std::string& name : law_columns(parameters_of(study), has_worst(study)))
+    result.quantities.push_back({name, Unit::none});
+  for (std::size_t k = 0; k < path.points.size(); ++k) {
+    const auto more = laws[k].values(has_worst(study));
+    auto& values = path.branch.samples[path.points[k].row].values;
+    values.insert(values.end(), more.begin(), more.end());
   }
   for (Sample& sample : path.branch.samples)
     sample.values.resize(result.quantities.size(), undefined);

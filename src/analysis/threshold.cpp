@@ -126,10 +126,17 @@ class Threshold {
     label_critical(result_.branches);
   }
 
+  /// Pieces of a boundary differ by which springs act in the unloaded state, too.
+  std::string springs_at_start(double mu) const {
+    const Member* member = curves_.at(mu);
+    if (member == nullptr || member->first.piece.empty()) return "";
+    return ", springs at the start " + piece_text(member->setup.system, member->first.piece);
+  }
+
   void found(double mu, bool any) {
     report_.found = true;
     report_.value = mu * curves_.scale();
-    report_.decides = any ? decides_ : "the range begins beyond it";
+    report_.decides = any ? decides_ + springs_at_start(mu) : "the range begins beyond it";
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;
     if (any) {
