@@ -173,17 +173,25 @@ std::optional<double> first_critical(const LeadingTerms& terms, double towards) 
   const auto rays = rays_from(terms, *u, -towards * far, {}, options);
   if (rays.rays.size() != 2) return std::nullopt;
   const bool second = towards * rays.rays[0].tangent.dlambda < 0;
-  std::optional<double> found;
+  std::optional<CriticalStart> found;
   const std::vector<Event> range{{"range",
                                   [&](const CurvePoint& p) { return far - towards * p.lambda; },
                                   EventAction::stop}};
   trace(terms, *u, -towards * far, rays.rays[second ? 1 : 0], range, options, {},
         [&](const Hit& hit) {
           if (hit.kind != HitKind::limit_point && hit.kind != HitKind::branch_point) return true;
-          found = hit.point.lambda;
+          const bool folds = hit.kind == HitKind::limit_point;
+          found = {.kind = folds ? CriticalKind::limit_point : CriticalKind::branch_point,
+                   .x = hit.point.x,
+                   .lambda = hit.point.lambda,
+                   .corank = hit.multiplicity};
           return false;
         });
-  return found;
+  if (!found) return std::nullopt;
+  // Located on a step, solved for here.
+  const Family alone{.at = [&](double) { return std::optional(ProblemView(terms)); }};
+  const auto exact = polish_critical(alone, *found);
+  return exact ? exact->lambda : found->lambda;
 }
 
 std::optional<ImperfectionLaw> law_of_two_modes(const ReducedForm& form, const Vector& gamma) {

@@ -34,12 +34,6 @@ struct Found {
   std::string name{}, code{};
 };
 
-std::string name_of(const StudyResult& result, const analysis::Event& event) {
-  if (event.kind == analysis::EventKind::threshold && result.threshold)
-    return result.threshold->decides;
-  return event.detail;
-}
-
 Found found_in(const Case& the_case, const PlotSpec& spec, const std::string& at,
                const StudyResult& result, const PlacePoint& place) {
   for (const Branch& branch : result.branches)
@@ -47,7 +41,7 @@ Found found_in(const Case& the_case, const PlotSpec& spec, const std::string& at
       if (event.label == at)
         return {place(value_of(the_case, result, branch, event.row, spec.x),
                       value_of(the_case, result, branch, event.row, spec.y)),
-                name_of(result, event), analysis::code_of(event.kind)};
+                event.detail, analysis::code_of(event.kind)};
   return {};
 }
 
