@@ -62,6 +62,31 @@ std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
   return rates;
 }
 
+void say_lost(const std::string& labels, const std::string& parameter, BasePath& path) {
+  for (const SpecialPoint& point : path.points)
+    for (Event& event : path.branch.events)
+      if (event.label == point.label && labels.find(point.label) != std::string::npos)
+        event.detail += "; no rate by " + parameter;
+}
+
+/// Columns of the laws of imperfections; what other rows do not have is undefined.
+void add_laws(const Study& study, const std::vector<PointLaws>& laws, BasePath& path,
+              StudyResult& result) {
+  for (const std::string& name : law_columns(parameters_of(study), has_worst(study)))
+    result.quantities.push_back({name, Unit::none});
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const auto more = laws[k].values(has_worst(study));
+    auto& values = path.branch.samples[path.points[k].row].values;
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  for (Sample& sample : path.branch.samples)
+    sample.values.resize(result.quantities.size(), undefined);
+  for (Event& event : path.branch.events) {
+    event.rates_before.resize(result.quantities.size(), undefined);
+    event.rates_after.resize(result.quantities.size(), undefined);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sensitivity_columns(const std::vector<std::string>& rated,
@@ -118,7 +143,7 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
         result.start.message = path.problem;
         return;
       }
-      laws.assign(path.points.begin(), path.points.end());
+      for (const SpecialPoint& point : path.points) laws.emplace_back(point);
     }
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
@@ -131,24 +156,9 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       auto& values = path.branch.samples[point.row].values;
       values.insert(values.end(), rates.begin(), rates.end());
     }
-    for (SpecialPoint& point : path.points)
-      for (Event& event : path.branch.events)
-        if (event.label == point.label && lost.find(point.label) != std::string::npos)
-          event.detail += "; no rate by " + parameter;
+    say_lost(lost, parameter, path);
   }
-  for (const std::string& name : law_columns(parameters_of(study), has_worst(study)))
-    result.quantities.push_back({name, Unit::none});
-  for (std::size_t k = 0; k < path.points.size(); ++k) {
-    const auto more = laws[k].values(has_worst(study));
-    auto& values = path.branch.samples[path.points[k].row].values;
-    values.insert(values.end(), more.begin(), more.end());
-  }
-  for (Sample& sample : path.branch.samples)
-    sample.values.resize(result.quantities.size(), undefined);
-  for (Event& event : path.branch.events) {
-    event.rates_before.resize(result.quantities.size(), undefined);
-    event.rates_after.resize(result.quantities.size(), undefined);
-  }
+  add_laws(study, laws, path, result);
   result.branches.push_back(std::move(path.branch));
 }
 

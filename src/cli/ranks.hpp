@@ -21,6 +21,7 @@ class Ranks {
   int number() const { return number_; }  ///< 0: the one that writes
   int count() const { return count_; }
   bool are_several() const { return count_ > 1; }
+  static bool are_built_in();
   /// mpirun started several processes, and this build knows nothing of MPI.
   static bool are_missed();
 

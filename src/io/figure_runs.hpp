@@ -15,8 +15,8 @@ namespace springfold::io {
 using PlacePoint = std::function<PlotPoint(double x, double y)>;
 
 /// Joins the special point `at` of neighbouring runs, in the order of the case. A piece ends where a run has no such
-/// point and where what happens there changes: thresholds are told apart by what decides. Every piece has a colour and
-/// its name. x and y are columns, or parameters of the runs.
+/// point and where what happens there is called otherwise: of thresholds, by what decides. Every piece has a colour and its
+/// name. x and y are columns, or parameters of the runs.
 void add_over_runs(Figure& figure, const Case& the_case, const PlotSpec& spec,
                    const std::string& at, const std::vector<const analysis::StudyResult*>& runs,
                    const PlacePoint& place);
