@@ -6,9 +6,6 @@
 #   curve_hues    one number per curve: 0, its colour tells its stability; n, it is the n-th branch of a
 #                 diagram and has the n-th colour, its dashes tell its stability
 #   first_parts   those of them that stand for the others of their kind in the key
-#   curve_colours  one per curve, "#440154", or "none": then as curve_hues says
-#   scale_title, scale_low, scale_high   parameter of a family of curves and its range; '' if there is none
-#   has_shades     1 if $shades has the outlines of stable regions
 #   point_codes   "start LP SA ...": codes that occur; block point_<code> holds x y
 # Labels and their leader lines are set already.
 
@@ -16,13 +13,12 @@ part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
 part_kind(part) = part[1:6] eq 'stable' ? 'stable' : \
                   part[1:6] eq 'driven' ? 'unstable under dead load' : 'unstable'
 part_hue(part) = part eq 'nothing' ? 0 : int(word(curve_hues, int(part[strstrt(part, '_') + 1:*])))
-part_given(part) = part eq 'nothing' ? 'none' : word(curve_colours, int(part[strstrt(part, '_') + 1:*]))
-part_color(part) = part_given(part) ne 'none' ? part_given(part) : part_hue(part) > 0 \
+part_color(part) = part_hue(part) > 0 \
     ? word(branch_colors, (part_hue(part) - 1) % words(branch_colors) + 1) \
     : part[1:6] eq 'stable' ? stable_color : part[1:6] eq 'driven' ? driven_color : unstable_color
 # Lines of a diagram stand in the key in ink: their colours tell branches.
 is_first(part) = strstrt(' '.first_parts.' ', ' '.part.' ') > 0
-key_color(part) = part_hue(part) > 0 || part_given(part) ne 'none' ? ink : part_color(part)
+key_color(part) = part_hue(part) > 0 ? ink : part_color(part)
 
 set lmargin at screen frame_left
 set rmargin at screen frame_right
@@ -42,22 +38,9 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
 
-if (scale_title ne '') {
-  set palette defined (0 '#440154', 1 '#481a6c', 2 '#472f7d', 3 '#414487', 4 '#39568c', 5 '#31688e', \
-      6 '#2a788e', 7 '#23888e', 8 '#1f988b', 9 '#22a884', 10 '#35b779', 11 '#54c568', 12 '#7ad151', \
-      13 '#a5db36', 14 '#d2e21b', 15 '#fde725')
-  set cbrange [scale_low:scale_high]
-  set cblabel scale_title noenhanced textcolor rgb ink
-  set colorbox user origin frame_right + 0.015, frame_bottom size 0.016, frame_top - frame_bottom
-}
-set style fill solid noborder
-
 set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
 set output figure_name.'.png'
-plot (has_shades ? '$shades' : '$nothing_shaded') using 1:2 with filledcurves closed \
-         linecolor rgb shade_color title (has_shades ? 'stable' : ''), \
-     (scale_title ne '' ? scale_low : NaN) with lines linewidth 0 linecolor palette notitle, \
-     for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
+plot for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
          linecolor rgb part_color(part) notitle, \
      for [part in curve_parts] 1/0 with lines linestyle part_style(part) \
          linecolor rgb key_color(part) title (is_first(part) ? part_kind(part) : ''), \

@@ -20,7 +20,6 @@ unstable_color = '#D55E00'
 branch_colors = '#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #882255 #999933'
 ink = '#222222'
 pale = '#D9D9D9'
-shade_color = '#DCEAF5'   # stable regions
 
 font_family = 'DejaVu Sans'
 base_font = font_family.',14'

@@ -309,25 +309,6 @@ class Builder {
     return std::nullopt;
   }
 
-  bool is_parameter(const std::string& name, std::size_t study) const {
-    return std::any_of(result_.runs.begin(), result_.runs.end(), [&](const PlannedRun& planned) {
-      return planned.study == draft_->studies[study].name && planned.parameters.contains(name);
-    });
-  }
-
-  /// Below the first critical load the path from the start is stable; of other curves nobody knows that.
-  void check_shade(const PlotDraft& plot, const PlotSpec& spec, std::size_t i) {
-    const std::string& study = draft_->studies[i].name;
-    const auto run = std::find_if(result_.runs.begin(), result_.runs.end(),
-                                  [&](const PlannedRun& planned) { return planned.study == study; });
-    if (!spec.shade || run == result_.runs.end() ||
-        run->plan.kind == analysis::StudyKind::critical_load)
-      return;
-    problems_.add(plot.shade, "plot." + spec.name + ".shade",
-                  "study \"" + study + "\" is of kind \"" + std::string(to_string(run->plan.kind)) +
-                      "\", need kind = \"critical_load\": the stable region lies below its loads");
-  }
-
   void add_plots() {
     const Values parameters = evaluate(draft_->parameters, {}, draft_->book, "", problems_);
     for (const PlotDraft& plot : draft_->plots) {
@@ -339,9 +320,8 @@ class Builder {
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
           check_curves(spec.name, i);
-          for (const NamedPlace* quantity : {&plot.x, &plot.y})
-            if (curves.at.empty() || !is_parameter(quantity->name, i)) check_use(*quantity, i, 1);
-          check_shade(plot, spec, i);
+          check_use(plot.x, i, 1);
+          check_use(plot.y, i, 1);
         }
       result_.plots.push_back(std::move(spec));
     }

@@ -21,7 +21,6 @@ struct PlotDraft {
   NumberTable numbers{};
   NumberId x_factor = 0, y_factor = 0;
   NamedPlace x{}, y{};
-  Place shade{};  ///< of the key `shade`, or of the table
 };
 
 struct MapPlotDraft {

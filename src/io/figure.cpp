@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "figure_runs.hpp"
 #include "label_layout.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -176,29 +175,19 @@ void add_jumps(Figure& figure, const Axes& axes, const StudyResult& result) {
   }
 }
 
-void title_axes(Figure& figure, const Axes& axes, const StudyResult& result) {
-  const auto& [spec, units] = axes;
-  if (!figure.x_title.text.empty()) return;
-  const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
-  figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
-  figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
-  if (!spec.polar) return;
-  // Both axes show the distance.
-  const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
-  if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
-  if (spec.y_label.empty()) figure.y_title.text = distance.text + ", along " + spec.x + " = 90°";
-}
-
-double parameter_of(const Case& the_case, const StudyResult& result, const std::string& name) {
-  const PlannedRun* planned = plan_of(the_case, result);
-  const auto none = std::numeric_limits<double>::quiet_NaN();
-  if (planned == nullptr) return none;
-  const auto known = planned->parameters.find(name);
-  return known == planned->parameters.end() ? none : known->second;
-}
-
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const FigureText& label) {
-  title_axes(figure, axes, result);
+  const auto& [spec, units] = axes;
+  if (figure.x_title.text.empty()) {
+    const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
+    figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
+    figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
+    if (spec.polar) {  // both axes show the distance
+      const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
+      if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
+      if (spec.y_label.empty())
+        figure.y_title.text = distance.text + ", along " + spec.x + " = 90°";
+    }
+  }
   const std::size_t first_curve = figure.curves.size();
   const bool is_diagram = result.branches.size() > 1;
   for (std::size_t b = 0; b < result.branches.size(); ++b)
@@ -296,32 +285,15 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     Figure figure{.name = names.make(safe_file_name(spec.name)),
                   .title = {spec.title, spec.markup}};
     bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
-    const Axes axes{spec, the_case.units};
-    const auto place = [&axes](double x, double y) { return axes.place(x, y); };
-    std::vector<const StudyResult*> drawn;
-    std::vector<double> values;  // of the parameter that colours, per curve
     for (const auto& curves : spec.curves) {
-      std::vector<const StudyResult*> joined;
       for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
-        if (!curves.at.empty()) {
-          joined.push_back(result);
-          continue;
-        }
-        if (!has_columns(spec, *result, problems)) continue;
-        add_run(figure, axes, *result, label);
-        drawn.push_back(result);
-        values.resize(figure.curves.size(), parameter_of(the_case, *result, spec.colour_by));
+        if (has_columns(spec, *result, problems))
+          add_run(figure, {spec, the_case.units}, *result, label);
       }
-      if (curves.at.empty()) continue;
-      if (!joined.empty()) title_axes(figure, axes, *joined.front());
-      add_over_runs(figure, the_case, spec, curves.at, joined, place);
     }
-    if (!spec.colour_by.empty()) colour_by(figure, spec.colour_by, values);
-    if (fit_axes(figure, spec.polar)) {
-      if (spec.shade) shade_stable(figure, spec, drawn, place);
+    if (fit_axes(figure, spec.polar))
       figures.push_back(std::move(figure));
-    }
     else if (is_wanted)
       problems.push_back("figure '" + spec.name + "': there is no point to draw");
   }

@@ -36,7 +36,6 @@ struct FigureCurve {
   FigureText label{};              ///< empty: not labelled
   std::vector<CurvePart> parts{};  ///< in the order of the branch
   int hue = 0;  ///< n: colour of the n-th branch of a diagram; 0: colours tell stability
-  std::string colour{};  ///< "#440154": of a family of curves; empty: as `hue` says
 };
 
 /// A special point, or the start of a curve (code "start", no label).
@@ -53,9 +52,6 @@ struct Figure {
   std::vector<FigureCurve> curves{};
   std::vector<FigureMark> marks{};
   std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
-  std::vector<Polyline> shades{};      ///< outlines of stable regions
-  std::string scale_title{};           ///< of a family of curves: its parameter; empty: none
-  std::pair<double, double> scale{};   ///< its smallest and largest value
 };
 
 /// The figures that the case asks for, otherwise one per study that has a curve. Curves whose runs

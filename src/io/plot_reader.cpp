@@ -8,11 +8,10 @@ namespace springfold::io {
 namespace {
 
 PlotCurves read_curves(const Item& item, const std::vector<StudyDraft>& studies, Reading& reading) {
-  const TableReader table{*item.node, item.key, {"study", "runs", "labels", "at"}, reading};
+  const TableReader table{*item.node, item.key, {"study", "runs", "labels"}, reading};
   PlotCurves curves;
   curves.study = table.required_text("study", "the name of a study").value_or("");
   curves.labels = read_texts(table.list("labels", "a list of texts"), reading);
-  curves.at = table.text("at").value_or("");
   const std::vector<Item> runs = table.list("runs", "a list of run numbers");
   if (curves.study.empty()) return curves;
   const auto study =
@@ -134,8 +133,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
   static const std::vector<std::string> keys{"name",    "title",   "x",        "y",
                                              "x_label", "y_label", "x_factor", "y_factor",
-                                             "markup",  "curves",  "polar",    "shade",
-                                             "colour_by"};
+                                             "markup",  "curves",  "polar"};
   std::vector<PlotDraft> plots;
   std::set<std::string> taken;
   for (const Item& item : tables) {
@@ -153,12 +151,6 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     spec.x_label = table.text("x_label").value_or("");
     spec.y_label = table.text("y_label").value_or("");
     spec.polar = table.flag("polar", false);
-    spec.shade = table.flag("shade", false);
-    draft.shade = table.has("shade") ? table.find("shade")->place : table.place();
-    spec.colour_by = table.text("colour_by").value_or("");
-    if (!spec.colour_by.empty())
-      parameter_number(spec.colour_by, table.find("colour_by")->place, table.key_of("colour_by"),
-                       reading.book, reading.problems);
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
     spec.markup = read_markup(table, item, reading);

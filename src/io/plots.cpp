@@ -120,25 +120,10 @@ void send_curves(Gnuplot& gnuplot, const Figure& figure) {
     gnuplot << "$nothing" << begin_block << "e\n";
     parts = "nothing";
   }
-  std::string colours;
-  for (const auto& curve : figure.curves)
-    add_word(colours, curve.colour.empty() ? "none" : curve.colour);
-  gnuplot << assignment("curve_colours", colours) << assignment("scale_title", figure.scale_title)
-          << assignment("scale_low", figure.scale.first)
-          << assignment("scale_high", figure.scale.second);
   std::string hues;
   for (const auto& curve : figure.curves) add_word(hues, std::to_string(curve.hue));
   gnuplot << assignment("curve_parts", parts) << assignment("first_parts", first_parts)
           << assignment("curve_hues", hues);
-}
-
-void send_shades(Gnuplot& gnuplot, const Figure& figure) {
-  gnuplot << assignment("has_shades", figure.shades.empty() ? 0.0 : 1.0) << "$shades"
-          << begin_block;
-  if (figure.shades.empty())
-    gnuplot << "e\n";
-  else
-    gnuplot.send2d(figure.shades);
 }
 
 void send_marks(Gnuplot& gnuplot, const Figure& figure) {
@@ -209,9 +194,7 @@ void write_script(const fs::path& path, const Figure& figure, const Templates& t
   Gnuplot gnuplot{file};  // closes the file
   gnuplot.imbue(std::locale::classic());
   gnuplot << std::defaultfloat << std::setprecision(12);
-  Canvas canvas;
-  constexpr double scale_width = 130;  // colours beside the frame, with their numbers
-  if (!figure.scale_title.empty()) canvas.right -= scale_width;
+  const Canvas canvas;
   gnuplot << "# Written by springfold; `gnuplot " << figure.name << ".gp` draws it again.\n";
   send_values(gnuplot, figure, canvas);
   gnuplot << "\n" << templates.style << "\n";
@@ -219,7 +202,6 @@ void write_script(const fs::path& path, const Figure& figure, const Templates& t
   send_jumps(gnuplot, figure);
   send_curves(gnuplot, figure);
   send_marks(gnuplot, figure);
-  send_shades(gnuplot, figure);
   gnuplot << "\n" << templates.figure;
   gnuplot.flush();
   if (!gnuplot.good()) throw std::runtime_error{"cannot write " + path.string()};

@@ -111,7 +111,6 @@ struct PlotCurves {
   std::string study{};
   std::vector<int> runs{};            ///< empty: all of the study
   std::vector<std::string> labels{};  ///< one per run; empty: the runs' own labels
-  std::string at{};  ///< "TH1": this special point of all runs, joined; empty: the runs' curves
 };
 
 struct PlotSpec {
@@ -124,8 +123,6 @@ struct PlotSpec {
       false;  ///< its texts are in the markup of gnuplot; false: they are drawn as they stand
   bool polar =
       false;  ///< the plotted x is an angle [rad], the plotted y the distance from the origin
-  bool shade = false;       ///< fills the stable region below first critical loads
-  std::string colour_by{};  ///< parameter whose value colours the curves; empty: colours tell stability
   std::vector<PlotCurves> curves{};
 };
 
