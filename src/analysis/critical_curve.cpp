@@ -61,7 +61,7 @@ void run_curve(const CaseCurves& curves, const Study& study, const Observer& obs
       follow_both_ways(curves, base_study(study), *start, point->kind, observer);
   const bool is_broken = start->kind == continuation::CriticalKind::branch_point &&
                          start->corank == 1 && !followed.growing.kept &&
-                         followed.growing.points.size() <= 1;
+                         !critical_rate(curves.family(), *start);
   if (is_broken) followed = limit_points_through(curves, study, *start, observer);
   result.branches.push_back(rows_of(curves, followed));
   if (is_broken && !result.branches.front().samples.empty())

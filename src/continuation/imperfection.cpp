@@ -226,6 +226,18 @@ std::optional<ImperfectionLaw> imperfection_law(const ReducedForm& form, const V
   return std::nullopt;
 }
 
+namespace {
+
+/// Laws for one sign are written for m > 0; of the others, which hold for both, the largest entry is positive.
+bool is_turned(const ImperfectionLaw& law, const Vector& shape) {
+  if (law.sign != 0) return law.sign < 0;
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  return shape[largest] < 0;
+}
+
+}  // namespace
+
 std::optional<WorstImperfection> worst_imperfection(const ReducedForm& form, const Matrix& gammas) {
   const Svd svd = jacobi_svd(gammas, SingularVectors::thin, SingularVectors::thin);
   const Index rank = std::min<Index>(svd.rank, gammas.rows());
@@ -237,7 +249,7 @@ std::optional<WorstImperfection> worst_imperfection(const ReducedForm& form, con
     const auto law = imperfection_law(form, gammas * c);
     if (!law) return -HUGE_VAL;
     if (!worst || law->coefficient > worst->law.coefficient)
-      worst = {*law, law->sign < 0 ? Vector(-c) : c};
+      worst = {*law, is_turned(*law, c) ? Vector(-c) : c};
     return law->coefficient;
   };
   if (rank == 1) {

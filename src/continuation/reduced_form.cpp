@@ -177,9 +177,11 @@ std::optional<Vector> imperfection_part(const Family& family, const CriticalStar
       start.mu, family.step);
   if (!rate) return std::nullopt;
   Vector gamma = form.W.transpose() * *rate;
-  // An imperfection that does not act on the modes is zero but for the rounding of differences.
-  constexpr double rounding = 1e-9;
-  if (gamma.norm() <= rounding * rate->norm()) gamma.setZero();
+  // What does not act on the modes is zero but for the rounding of differences: beside what acts elsewhere, and beside
+  // what the load does to the modes.
+  constexpr double beside_others = 1e-9, beside_load = 1e-12;
+  if (gamma.norm() <= std::max(beside_others * rate->norm(), beside_load * form.mixed.norm()))
+    gamma.setZero();
   return gamma;
 }
 
