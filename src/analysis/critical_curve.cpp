@@ -1,5 +1,6 @@
 // The study kind `critical_curve`, and what the kinds of two parameters have in common.
 #include <algorithm>
+#include <cmath>
 
 #include "cpu_time.hpp"
 #include "critical_rows.hpp"
@@ -13,6 +14,30 @@ std::string list_of(const BasePath& path) {
   std::string names;
   for (const SpecialPoint& point : path.points) names += (names.empty() ? "" : ", ") + point.label;
   return names.empty() ? "none" : names;
+}
+
+/// A parameter that breaks the branch makes limit points of its branch point: their curve leads through it.
+FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
+                                   continuation::CriticalStart start, const Observer& observer) {
+  if (const auto exact = polish_critical(curves.family(), start)) {
+    start.x = exact->x;
+    start.lambda = exact->lambda;
+  }
+  start.kind = continuation::CriticalKind::limit_point;
+  return follow_both_ways(curves, base_study(study), start, EventKind::limit_point, observer);
+}
+
+void mark_branch_point(const SpecialPoint& point, Branch& branch) {
+  const std::size_t columns = branch.samples.front().values.size();
+  Event event{.kind = EventKind::branch_point,
+              .detail = point.label + " of the case: limit points of its imperfect versions meet here",
+              .row = branch.start_row,
+              .rates_before = std::vector<double>(columns, std::nan("")),
+              .rates_after = std::vector<double>(columns, std::nan(""))};
+  const auto behind = std::find_if(branch.events.begin(), branch.events.end(), [&](const Event& e) {
+    return e.row > branch.start_row;
+  });
+  branch.events.insert(behind, std::move(event));
 }
 
 void run_curve(const CaseCurves& curves, const Study& study, const Observer& observer,
@@ -32,9 +57,15 @@ void run_curve(const CaseCurves& curves, const Study& study, const Observer& obs
     result.start.message = why;
     return;
   }
-  const FollowedCurve followed =
+  FollowedCurve followed =
       follow_both_ways(curves, base_study(study), *start, point->kind, observer);
+  const bool is_broken = start->kind == continuation::CriticalKind::branch_point &&
+                         start->corank == 1 && !followed.growing.kept &&
+                         !critical_rate(curves.family(), *start);
+  if (is_broken) followed = limit_points_through(curves, study, *start, observer);
   result.branches.push_back(rows_of(curves, followed));
+  if (is_broken && !result.branches.front().samples.empty())
+    mark_branch_point(*point, result.branches.front());
   label_critical(result.branches);
   if (result.branches.front().samples.empty()) {
     result.branches.clear();

@@ -5,6 +5,7 @@
 
 #include "base_path.hpp"
 #include "critical_runs.hpp"
+#include "imperfection.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -29,6 +30,9 @@ std::vector<std::string> parameters_of(const Study& study) {
   return study.critical.parameters.empty() ? study.critical.cases->names
                                            : study.critical.parameters;
 }
+
+/// A worst combination is one of named parameters: all of the case have no common unit.
+bool has_worst(const Study& study) { return !study.critical.parameters.empty(); }
 
 /// Total derivatives of the columns by the parameter of `curves`; NaN where the point has none.
 std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
@@ -58,6 +62,31 @@ std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
   return rates;
 }
 
+void say_lost(const std::string& labels, const std::string& parameter, BasePath& path) {
+  for (const SpecialPoint& point : path.points)
+    for (Event& event : path.branch.events)
+      if (event.label == point.label && labels.find(point.label) != std::string::npos)
+        event.detail += "; no rate by " + parameter;
+}
+
+/// Columns of the laws of imperfections; what other rows do not have is undefined.
+void add_laws(const Study& study, const std::vector<PointLaws>& laws, BasePath& path,
+              StudyResult& result) {
+  for (const std::string& name : law_columns(parameters_of(study), has_worst(study)))
+    result.quantities.push_back({name, Unit::none});
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const auto more = laws[k].values(has_worst(study));
+    auto& values = path.branch.samples[path.points[k].row].values;
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  for (Sample& sample : path.branch.samples)
+    sample.values.resize(result.quantities.size(), undefined);
+  for (Event& event : path.branch.events) {
+    event.rates_before.resize(result.quantities.size(), undefined);
+    event.rates_after.resize(result.quantities.size(), undefined);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sensitivity_columns(const std::vector<std::string>& rated,
@@ -82,6 +111,8 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
   if (!study.critical.cases) return names;
   for (std::string& name : sensitivity_columns(rated, parameters_of(study)))
     names.push_back(std::move(name));
+  for (std::string& name : law_columns(parameters_of(study), has_worst(study)))
+    names.push_back(std::move(name));
   return names;
 }
 
@@ -89,6 +120,8 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
   const auto& names = study.critical.cases->names;
   BasePath path;
   std::vector<std::size_t> columns;
+  std::vector<PointLaws> laws;
+  std::size_t lambda = 0;  // which of the rated columns
   for (const std::string& parameter : parameters_of(study)) {
     const auto number =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
@@ -101,6 +134,7 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       for (std::size_t i = 0; i < base.quantities.size(); ++i) {
         const auto& q = base.quantities[i];
         result.quantities.push_back({q.name, q.unit});
+        if (q.kind == QuantityDefinition::Kind::lambda) lambda = columns.size();
         if (is_rated(q, base.setup.system)) columns.push_back(i);
       }
       path = base_path(base, false, observer);
@@ -109,27 +143,22 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
         result.start.message = path.problem;
         return;
       }
+      for (const SpecialPoint& point : path.points) laws.emplace_back(point);
     }
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
     std::string lost;
-    for (const SpecialPoint& point : path.points) {
+    for (std::size_t k = 0; k < path.points.size(); ++k) {
+      const SpecialPoint& point = path.points[k];
       auto rates = rates_of(curves, base, point, columns);
+      laws[k].enter(curves, rates[lambda]);
       if (std::isnan(rates.front())) lost += (lost.empty() ? "" : ", ") + point.label;
       auto& values = path.branch.samples[point.row].values;
       values.insert(values.end(), rates.begin(), rates.end());
     }
-    for (SpecialPoint& point : path.points)
-      for (Event& event : path.branch.events)
-        if (event.label == point.label && lost.find(point.label) != std::string::npos)
-          event.detail += "; no rate by " + parameter;
+    say_lost(lost, parameter, path);
   }
-  for (Sample& sample : path.branch.samples)
-    sample.values.resize(result.quantities.size(), undefined);
-  for (Event& event : path.branch.events) {
-    event.rates_before.resize(result.quantities.size(), undefined);
-    event.rates_after.resize(result.quantities.size(), undefined);
-  }
+  add_laws(study, laws, path, result);
   result.branches.push_back(std::move(path.branch));
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branch_rows.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "first_unwanted.hpp"
@@ -126,6 +127,13 @@ class Threshold {
     label_critical(result_.branches);
   }
 
+  /// Pieces of a boundary differ by which springs act at the start, too: segments as in the column `piece`.
+  std::string springs_at_start(double mu) const {
+    const Member* member = curves_.at(mu);
+    if (member == nullptr || member->first.piece.empty()) return "";
+    return ", springs at the start " + piece_text(member->setup.system, member->first.piece);
+  }
+
   void found(double mu, bool any) {
     report_.found = true;
     report_.value = mu * curves_.scale();
@@ -156,7 +164,7 @@ class Threshold {
       if (event.kind == EventKind::extremum) continue;
       Event answer = event;
       answer.kind = EventKind::threshold;
-      answer.detail = report_.message;
+      answer.detail = report_.decides + springs_at_start(report_.value / curves_.scale());
       branch.events.insert(branch.events.begin() + static_cast<std::ptrdiff_t>(i + 1), answer);
       return;
     }

@@ -11,6 +11,7 @@
 #include "exit_code.hpp"
 #include "in_time.hpp"
 #include "messages.hpp"
+#include "ranks.hpp"
 #include "runs.hpp"
 #include "selection.hpp"
 #include "springfold/io/checkpoint.hpp"
@@ -232,38 +233,75 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
 
 }  // namespace
 
+namespace {
+
+/// Several processes go on only if all of them can.
+bool all_can(bool this_one, const Session& session) {
+  return session.ranks == nullptr ? this_one : session.ranks->all(this_one);
+}
+
+std::optional<Case> load(const Arguments& arguments, const Session& session) {
+  try {
+    auto loaded = done_in_time<Case>(
+        [arguments, session] {
+          return io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
+        },
+        session);
+    if (!loaded) {
+      say(session, interrupted_reading_text);
+      session.leave_at_once(interrupted_by(session.signal()));
+      return std::nullopt;
+    }
+    if (all_can(true, session)) return loaded;
+  } catch (...) {
+    all_can(false, session);
+    throw;
+  }
+  throw std::runtime_error("another process of mpirun could not read the case");
+}
+
+/// A process that does its part of sweeps for process 0 and writes nothing.
+int help(const Arguments& arguments, const std::shared_ptr<const Case>& the_case,
+         const Session& session) {
+  if (!all_can(true, session)) return all_done;
+  const Results results = run_all(arguments, {}, the_case, session);
+  if (session.signal() == 0) return all_done;
+  session.ranks->give_up();
+  if (!results.given_up.empty()) session.leave_at_once(interrupted_by(session.signal()));
+  return interrupted_by(session.signal());
+}
+
+bool is_helper(const Session& session) {
+  return session.ranks != nullptr && session.ranks->number() > 0;
+}
+
+}  // namespace
+
 int run_command(const Arguments& arguments, const Session& session) {
   if (arguments.makes_report && !io::has_report()) {
     say(session, "--report: this springfold was built without the page (-DSPRINGFOLD_REPORT=OFF)");
     return wrong_usage;
   }
-  auto loaded = done_in_time<Case>(
-      [arguments, session] {
-        return io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
-      },
-      session);
-  if (!loaded) {
-    say(session, interrupted_reading_text);
-    session.leave_at_once(interrupted_by(session.signal()));
-    return interrupted_by(session.signal());
-  }
+  auto loaded = load(arguments, session);
+  if (!loaded) return interrupted_by(session.signal());
   if (const auto problem = unknown_study(*loaded, arguments.studies); !problem.empty()) {
     say(session, problem);
     return wrong_usage;
   }
-  const fs::path folder = arguments.folder.value_or(default_folder(arguments.case_file));
-  if (const auto problem = problem_with_folder(folder); !problem.empty()) {
-    say(session, problem);
-    return input_output;
-  }
-
-  std::optional<io::FolderLock> lock;
-  if (!is_done([&] { lock.emplace(folder); }, session)) return input_output;
-  io::remove_leftovers(folder);
   const auto the_case =
       std::make_shared<const Case>(with_studies(std::move(*loaded), arguments.studies));
+  if (is_helper(session)) return help(arguments, the_case, session);
+  const fs::path folder = arguments.folder.value_or(default_folder(arguments.case_file));
+  const std::string problem = problem_with_folder(folder);
+  if (!problem.empty()) say(session, problem);
+  std::optional<io::FolderLock> lock;
+  const bool usable =
+      problem.empty() && is_done([&] { lock.emplace(folder); }, session);
+  if (!all_can(usable, session)) return input_output;
+  io::remove_leftovers(folder);
   const Ending ending = run_in(folder, arguments, the_case, session);
   lock.reset();
+  if (session.ranks != nullptr && session.signal() != 0) session.ranks->give_up();
   if (ending.gave_up) session.leave_at_once(ending.code);
   return ending.code;
 }

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "animate_command.hpp"
@@ -13,6 +14,7 @@
 #include "in_time.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
+#include "ranks.hpp"
 #include "run_command.hpp"
 #include "springfold/continuation/interrupted.hpp"
 #include "verify_command.hpp"
@@ -47,7 +49,9 @@ int run_whole(int (*command)(const Arguments&, const Session&), const Arguments&
 }
 
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
-               bool shows_progress) {
+               bool shows_progress, Ranks& ranks) {
+  if (Ranks::are_missed())
+    say(err, "warning: mpirun started several processes, but this springfold was built without MPI");
   if (!parsed.error.empty()) {
     say(err, parsed.error);
     say(err, "try springfold --help");
@@ -57,6 +61,7 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
     out << parsed.text << std::flush;
     return out.good() ? all_done : input_output;
   }
+  if (ranks.number() > 0 && parsed.arguments->command != Command::run) return all_done;
   const InterruptGuard guard;
   const Session session{.out = out,
                         .err = err,
@@ -64,7 +69,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
                         .signal = InterruptGuard::signal,
                         .run_study = run_planned,
                         .run_map = run_planned_map,
-                        .leave_at_once = [](int code) { std::_Exit(code); }};
+                        .leave_at_once = [](int code) { std::_Exit(code); },
+                        .ranks = &ranks};
   switch (parsed.arguments->command) {
     case Command::check:
       return run_whole(check_command, *parsed.arguments, session);
@@ -80,12 +86,10 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
   return run_command(*parsed.arguments, session);
 }
 
-}  // namespace
-
-int run_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
-             bool shows_progress) noexcept {
+int run_guarded(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                bool shows_progress, Ranks& ranks) {
   try {
-    return run_parsed(parse_arguments(argc, argv), out, err, shows_progress);
+    return run_parsed(parse_arguments(argc, argv), out, err, shows_progress, ranks);
   } catch (const io::CaseError& error) {
     // Bare lines: editors jump to "file:line:column".
     for (const auto& message : error.messages()) err << message << "\n";
@@ -106,6 +110,20 @@ int run_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
     say(err, "internal error");
   }
   return internal_error;
+}
+
+}  // namespace
+
+int run_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+             bool shows_progress) noexcept {
+  try {
+    Ranks ranks;
+    if (ranks.number() == 0) return run_guarded(argc, argv, out, err, shows_progress, ranks);
+    std::ostringstream nowhere;  // of several processes one speaks
+    return run_guarded(argc, argv, nowhere, nowhere, false, ranks);
+  } catch (...) {
+    return internal_error;
+  }
 }
 
 }  // namespace springfold::cli

@@ -7,12 +7,14 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "in_time.hpp"
 #include "map_runs.hpp"
 #include "messages.hpp"
 #include "parallel.hpp"
 #include "progress.hpp"
+#include "ranks.hpp"
 #include "springfold/io/checkpoint.hpp"
 #include "springfold/io/sweep.hpp"
 
@@ -57,23 +59,26 @@ class Runner {
       const PlannedRun& first = case_.runs[batch.first];
       // Maps use all cores for themselves.
       const bool is_map = first.plan.kind == analysis::StudyKind::map && session_.run_map;
+      if (is_helper() && first.keeps_curves) continue;
       if (!first.keeps_curves) take_known(batch);
+      divide(batch);
       {
         const std::scoped_lock lock{busy_};
         batch_ = batch;
         written_ = {};  // the first row is put on the disk at once
       }
-      in_parallel(batch.count, is_map ? 1 : thread_count(arguments_.threads),
+      in_parallel(batch.count, is_map ? 1 : threads(),
                   [&](std::size_t i) { run_one(batch, batch.first + i, is_map); });
+      if (is_divided_) bring_together(batch);
       const std::scoped_lock lock{busy_};
-      if (!first.keeps_curves) write_rows(batch);
+      if (!first.keeps_curves && !is_helper()) write_rows(batch);
     }
   }
 
   /// Takes what was found. What comes later, from threads that were given up, is not kept.
   Results collected() {
     const std::scoped_lock lock{busy_};
-    if (!closed_ && session_.signal() != 0 && batch_.count > 0 &&
+    if (!closed_ && session_.signal() != 0 && batch_.count > 0 && !is_helper() &&
         !case_.runs[batch_.first].keeps_curves)
       write_rows(batch_);
     closed_ = true;
@@ -93,7 +98,7 @@ class Runner {
  private:
   /// Rows of an earlier run that was interrupted.
   void take_known(const Batch& batch) {
-    if (!arguments_.resumes) return;
+    if (!arguments_.resumes || is_helper()) return;
     const std::string& study = case_.runs[batch.first].study;
     auto known = io::read_row_checkpoint(folder_, case_, study);
     for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
@@ -107,7 +112,7 @@ class Runner {
 
   void run_one(const Batch& batch, std::size_t i, bool is_map) {
     const PlannedRun& planned = case_.runs[i];
-    if (found_[i] || session_.signal() != 0 || is_over()) return;
+    if (elsewhere_[i] != 0 || found_[i] || session_.signal() != 0 || is_over()) return;
     const std::string number =
         std::to_string(i + 1) + "/" + std::to_string(case_.runs.size()) + " " + planned.study;
     {
@@ -150,12 +155,76 @@ class Runner {
     const std::scoped_lock lock{busy_};
     if (closed_) return;
     interrupted_[i] = ended ? 1 : 0;
+    if (is_helper()) return session_.ranks->send(io::row_line(result));
     found_[i] = std::move(result);
+    if (is_divided_) receive(batch);
+    if (!planned.keeps_curves) write_rows_now_and_then(batch);
+  }
+
+  /// Under the lock.
+  void write_rows_now_and_then(const Batch& batch) {
     constexpr std::chrono::seconds between_checkpoints{2};
     const auto now = std::chrono::steady_clock::now();
-    if (planned.keeps_curves || now - written_ < between_checkpoints) return;
+    if (now - written_ < between_checkpoints) return;
     write_rows(batch);
     written_ = now;
+  }
+
+  bool is_helper() const { return session_.ranks != nullptr && session_.ranks->number() > 0; }
+
+  /// Several processes share the cores: one thread each unless it is said.
+  int threads() const {
+    const bool several = session_.ranks != nullptr && session_.ranks->are_several();
+    return several ? std::max(arguments_.threads, 1) : thread_count(arguments_.threads);
+  }
+
+  /// Which runs of a sweep other processes do: those that are not known yet, in turn.
+  void divide(const Batch& batch) {
+    is_divided_ = session_.ranks != nullptr && session_.ranks->are_several() &&
+                  !case_.runs[batch.first].keeps_curves;
+    elsewhere_.assign(case_.runs.size(), 0);
+    if (!is_divided_) return;
+    std::vector<char> known(batch.count);
+    for (std::size_t i = 0; i < batch.count; ++i) known[i] = found_[batch.first + i] ? 1 : 0;
+    session_.ranks->share(known);
+    int turn = 0;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const bool mine = known[i] == 0 && turn++ % session_.ranks->count() == session_.ranks->number();
+      elsewhere_[batch.first + i] = mine ? 0 : 1;
+    }
+    ends_ = 0;
+  }
+
+  /// Rows of other processes that have arrived, under the lock.
+  void receive(const Batch& batch) {
+    const std::string& study = case_.runs[batch.first].study;
+    ends_ += session_.ranks->receive([&](const std::string& line) {
+      auto result = io::read_row_line(line, case_, study);
+      if (!result) {  // its number alone: there was not enough memory for it
+        fail_locked(case_.runs[batch.first + static_cast<std::size_t>(std::stoul(line))]);
+        return;
+      }
+      for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
+        if (case_.runs[i].run == result->run) found_[i] = std::move(*result);
+    });
+  }
+
+  /// All have done their parts: process 0 waits for the rows of the others.
+  void bring_together(const Batch& batch) {
+    if (is_helper()) {
+      const std::scoped_lock lock{busy_};
+      return session_.ranks->send_end();
+    }
+    constexpr std::chrono::milliseconds look_every{5};
+    while (session_.signal() == 0) {
+      {
+        const std::scoped_lock lock{busy_};
+        receive(batch);
+        if (ends_ + 1 == session_.ranks->count()) return;
+        write_rows_now_and_then(batch);
+      }
+      std::this_thread::sleep_for(look_every);
+    }
   }
 
   /// The rows of a study that are done, under the lock; results are what counts, so a failure is a warning, once.
@@ -180,6 +249,12 @@ class Runner {
   /// Of several threads the first run counts.
   void fail(const PlannedRun& planned) {
     const std::scoped_lock lock{busy_};
+    fail_locked(planned);
+    if (is_helper())
+      session_.ranks->send(std::to_string(&planned - &case_.runs[batch_.first]));
+  }
+
+  void fail_locked(const PlannedRun& planned) {
     if (failed_ == nullptr || planned.run < failed_->run) failed_ = &planned;
   }
 
@@ -195,6 +270,9 @@ class Runner {
   std::vector<char> interrupted_, begun_;  ///< not of bits: several threads write
   std::mutex busy_{};                      ///< progress, what was found and checkpoints
   Batch batch_{};                          ///< what is being run
+  std::vector<char> elsewhere_{};          ///< runs that this process leaves to others
+  bool is_divided_ = false;                ///< the batch, among several processes
+  int ends_ = 0;                           ///< processes that have sent all their rows
   bool closed_ = false;                    ///< what was found has been taken
   std::chrono::steady_clock::time_point written_{};
   bool can_write_ = true;

@@ -9,6 +9,8 @@
 
 namespace springfold::cli {
 
+class Ranks;
+
 using RunStudy =
     std::function<analysis::StudyResult(const io::PlannedRun&, const analysis::Observer&)>;
 
@@ -24,6 +26,7 @@ struct Session {
   RunMap run_map{};  ///< maps, which have options; empty: run_study runs them too
   /// Ends the program while a thread is at work that was given up; empty: no work is ever given up.
   std::function<void(int code)> leave_at_once{};
+  Ranks* ranks = nullptr;  ///< processes among which sweeps are divided; none: this one alone
 };
 
 /// For what runs long: is there a signal?

@@ -1,5 +1,6 @@
 #include "springfold/io/checkpoint.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -145,16 +146,29 @@ std::optional<PartialRows> read_checkpoint(const fs::path& folder, const Case& t
   return all;
 }
 
+std::string row_line(const analysis::StudyResult& result) {
+  std::string text = std::to_string(result.run) + "\t" + (result.start.found ? "1" : "0") + "\t" +
+                     (result.row->complete ? "1" : "0") + "\t" + result.row->status;
+  append_numbers(text, result.row->values);
+  append_numbers(text, result.row->compared);
+  return text;
+}
+
+std::optional<analysis::StudyResult> read_row_line(std::string_view line, const Case& the_case,
+                                                   const std::string& study) {
+  int run = 0;
+  if (!read_number(taken(line, '\t'), run)) return std::nullopt;
+  const auto planned =
+      std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const PlannedRun& known) {
+        return known.run == run && known.study == study;
+      });
+  return planned == the_case.runs.end() ? std::nullopt : kept_row(line, *planned);
+}
+
 void write_row_checkpoint(const fs::path& folder, const Case& the_case, const std::string& study,
                           const std::vector<const analysis::StudyResult*>& done) {
   std::string text = row_header_of(the_case, study);
-  for (const analysis::StudyResult* result : done) {
-    text += std::to_string(result->run) + "\t" + (result->start.found ? "1" : "0") + "\t" +
-            (result->row->complete ? "1" : "0") + "\t" + result->row->status;
-    append_numbers(text, result->row->values);
-    append_numbers(text, result->row->compared);
-    text += "\n";
-  }
+  for (const analysis::StudyResult* result : done) text += row_line(*result) + "\n";
   text += "end\n";
   write_file(row_path_of(folder, study), text);
   put_on_disk(row_path_of(folder, study));

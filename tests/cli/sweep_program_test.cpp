@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/child.hpp"
+#include "cli/ranks.hpp"
 #include "io/scratch_folder.hpp"
 
 namespace springfold::cli {
@@ -165,6 +166,78 @@ TEST_F(SweepProgram, ComparesExpectedValuesOfRunsWithoutCurves) {
   EXPECT_EQ(run("--out out"), 0) << text("out.txt");
   put_text(scratch.path() / "expected.toml", value + "factor = 2\n");
   EXPECT_EQ(run("--out out"), 5);
+}
+
+/// Several processes on this machine, as many as it takes, also for root.
+const std::string mpirun =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+    "OMPI_MCA_mpi_yield_when_idle=1 mpirun ";
+
+bool has_mpirun() {
+  static const bool works =
+      Ranks::are_built_in() && std::system((mpirun + "-n 2 true > /dev/null 2>&1").c_str()) == 0;
+  return works;
+}
+
+class SweepOfProcesses : public SweepProgram {
+ protected:
+  void SetUp() override {
+    if (!has_mpirun()) GTEST_SKIP() << "needs a program with MPI, and an mpirun that starts processes";
+  }
+  int run_many(int processes, const std::string& options) const {
+    const std::string line = "cd '" + scratch.path().string() + "' && " + mpirun + "-n " +
+                             std::to_string(processes) + " '" SPRINGFOLD_PROGRAM
+                             "' run case.toml --no-plots " + options + " > out.txt 2> err.txt";
+    const int status = std::system(line.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+};
+
+TEST_F(SweepOfProcesses, FourWriteTheSameBytesAsOne) {
+  put(strut(grid + table + ", curves = false"));
+  ASSERT_EQ(run("--out one"), 0);
+  ASSERT_EQ(run_many(4, "--out four"), 0) << text("err.txt");
+  EXPECT_EQ(bytes("one"), bytes("four"));
+  EXPECT_EQ(rows_of(text("four/sweeps/press.csv")).size(), 18U);
+}
+
+TEST_F(SweepOfProcesses, LeaveRunsWithCurvesToOne) {
+  put(strut(grid + table));
+  ASSERT_EQ(run("--out one"), 0);
+  ASSERT_EQ(run_many(3, "--out three"), 0) << text("err.txt");
+  EXPECT_EQ(bytes("one"), bytes("three"));
+}
+
+TEST_F(SweepOfProcesses, KilledGoOnToTheSameBytesWithAnotherNumber) {
+  put(strut("grid = { k = { from = 1, to = 2, points = 20 }, c = [12, 16] }, " + table +
+                ", curves = false",
+            "trace = { initial_step = 1e-3, maximum_step = 1e-3 }\n"));
+  ASSERT_EQ(run("--out whole"), 0);
+  // As soon as there is a checkpoint all processes are killed: they are the children of mpirun.
+  put_text(scratch.path() / "kill.sh",
+           mpirun +
+               "-n 3 '" SPRINGFOLD_PROGRAM
+               "' run case.toml --no-plots --out part > out.txt 2> err.txt &\n"
+               "until [ -e part/.checkpoint-press-rows ]; do sleep 0.01; done\n"
+               "kill -KILL $(cat /proc/$!/task/$!/children)\nwait $!\n");
+  const std::string line = "cd '" + scratch.path().string() + "' && bash kill.sh 2> /dev/null";
+  EXPECT_NE(std::system(line.c_str()), 0);
+  ASSERT_TRUE(fs::exists(scratch.path() / "part/.checkpoint-press-rows"));
+  ASSERT_EQ(run_many(2, "--out part --resume"), 0) << text("err.txt");
+  EXPECT_THAT(text("err.txt"),
+              testing::ContainsRegex("press: [0-9]+ of 40 runs are known already"));
+  EXPECT_EQ(bytes("part"), bytes("whole"));
+}
+
+TEST_F(SweepOfProcesses, SayOnceWhatIsWrongWithTheCase) {
+  put(strut("grid = { kk = [1, 2] }, " + table));
+  EXPECT_NE(run_many(3, "--out out"), 0);
+  const std::string said = text("err.txt");
+  const std::string message = "no parameter \"kk\"";
+  const std::size_t first = said.find(message);
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find(message, first + 1), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(scratch.path() / "out"));
 }
 
 }  // namespace

@@ -4,40 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
-#include "problems.hpp"
+#include "families.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-/// F = dV/dx of any number of unknowns, with closed forms.
-struct Given {
-  std::function<Vector(const Vector&, double)> F{};
-  std::function<Matrix(const Vector&, double)> J{};
-  std::function<Vector(const Vector&, double)> by_lambda{};
-  Index n = 1;
-  Index size() const { return n; }
-  static bool symmetric() { return true; }
-  bool residual(const Vector& x, double lambda, Vector& value) const {
-    value = F(x, lambda);
-    return value.allFinite();
-  }
-  bool derivatives(const Vector& x, double lambda, Matrix& dF_dx, Vector& dF_dlambda) const {
-    dF_dx = J(x, lambda);
-    dF_dlambda = by_lambda(x, lambda);
-    return true;
-  }
-};
-
-template <class P>
-Family family_of(std::function<P(double)> make) {
-  const auto held = std::make_shared<std::optional<P>>();
-  return {.at = [=](double mu) -> std::optional<ProblemView> {
-    held->emplace(make(mu));
-    return ProblemView(**held);
-  }};
-}
 
 /// lambda = h(x; mu).
 Family graphs(std::function<double(double, double)> h,
@@ -110,21 +81,23 @@ TEST(TwoParameters, SwallowtailHasTwoCusps) {
   for (const auto& cusp : cusps) EXPECT_NEAR(std::abs(cusp.point.x[0]), std::sqrt(-c / 6), 1e-9);
 }
 
-/// V = (q1 - e)^2/2 + 8 q2^2 + S^2/4 + p q1 + m q2, S = q1^2 - e^2 + 4 q2^2.
-Given arch(double e, double m) {
-  return {[=](const Vector& q, double p) {
-            const double S = q[0] * q[0] - e * e + 4 * q[1] * q[1];
-            return Vector{{q[0] - e + S * q[0] + p, 16 * q[1] + 4 * S * q[1] + m}};
-          },
-          [=](const Vector& q, double) {
-            const double S = q[0] * q[0] - e * e + 4 * q[1] * q[1];
-            return Matrix{{1 + S + 2 * q[0] * q[0], 8 * q[0] * q[1]},
-                          {8 * q[0] * q[1], 16 + 4 * S + 32 * q[1] * q[1]}};
-          },
-          [](const Vector&, double) {
-            return Vector{{1, 0}};
-          },
-          2};
+TEST(TwoParameters, TheFoldsOfTheSwallowtailMeetAtOneLoad) {
+  // Double fold at b = 0, a = c^2/4: both limit points at x^2 = -c/2.
+  const double c = -0.7, x0 = -1, b0 = -4 * x0 * x0 * x0 - 2 * c * x0;
+  const Family family =
+      graphs([=](double x, double b) { return -(x * x * (x * x + c) + b * x); },
+             [=](double x, double b) { return -(4 * x * x * x + 2 * c * x + b); });
+  const auto curve = follow_critical(
+      family, at(CriticalKind::limit_point, one(x0), -(x0 * x0 * (x0 * x0 + c) + b0 * x0), b0),
+      false, {end_at(-5, 5), {"symmetric", [](const CriticalPoint& p) { return p.mu; }}}, {});
+  int seen = 0;
+  for (const auto& hit : curve.hits)
+    if (hit.name == "symmetric" && std::abs(hit.point.x[0]) > 0.1) {
+      EXPECT_NEAR(hit.point.lambda, c * c / 4, 1e-11);
+      EXPECT_NEAR(std::abs(hit.point.x[0]), std::sqrt(-c / 2), 1e-10);
+      ++seen;
+    }
+  EXPECT_EQ(seen, 2);
 }
 
 TEST(TwoParameters, ImperfectArchesLoseStabilityAsPublished) {
@@ -175,6 +148,31 @@ TEST(TwoParameters, ButterflyColumnHasCuspsAtItsTripleRoots) {
     }
     EXPECT_FALSE(of_kind(curve, Degeneracy::cusp).empty());
   }
+}
+
+TEST(TwoParameters, TheFoldsOfTheButterflyColumnMeetAtOneLoad) {
+  const double b = 2;
+  const Family family = family_of<ScalarProblem>([=](double H) {
+    return ScalarProblem{
+        [=](double t, double P) { return b * t + std::sin(2 * t) / 2 - P * std::sin(t) - H; },
+        [=](double t, double P) { return b + std::cos(2 * t) - P * std::cos(t); },
+        [](double t, double) { return -std::sin(t); }};
+  });
+  const double t = 0.9, P = (b + std::cos(2 * t)) / std::cos(t);
+  const double H = b * t + std::sin(2 * t) / 2 - P * std::sin(t);
+  std::vector<double> loads;
+  for (const bool growing : {false, true}) {
+    const std::vector<CriticalEvent> events{
+        {"end", [](const CriticalPoint& p) { return 3.05 - p.lambda; }, EventAction::stop},
+        {"symmetric", [](const CriticalPoint& p) { return p.mu; }}};
+    for (const auto& hit :
+         follow_critical(family, at(CriticalKind::limit_point, one(t), P, H), growing, events, {})
+             .hits)
+      if (hit.name == "symmetric" && std::abs(hit.point.x[0]) > 0.1)
+        loads.push_back(hit.point.lambda);
+  }
+  ASSERT_FALSE(loads.empty());
+  for (const double load : loads) EXPECT_NEAR(load, 2.9170348529388, 1e-9);
 }
 
 /// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "springfold/analysis/run.hpp"
@@ -35,6 +36,12 @@ void write_row_checkpoint(const std::filesystem::path& folder, const Case& the_c
 std::map<int, analysis::StudyResult> read_row_checkpoint(const std::filesystem::path& folder,
                                                          const Case& the_case,
                                                          const std::string& study);
+
+/// One run of which only its row is kept as a line of text, the same bytes for the same row, and back.
+std::string row_line(const analysis::StudyResult& result);
+/// @returns nothing if it is damaged, or of a run that `study` does not have
+std::optional<analysis::StudyResult> read_row_line(std::string_view line, const Case& the_case,
+                                                   const std::string& study);
 
 /// Removes the checkpoints of all runs of the case, once the results in the folder are on the disk.
 /// @throws std::runtime_error when they cannot be put there

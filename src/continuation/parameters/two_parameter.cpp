@@ -82,7 +82,7 @@ class Follower {
   CriticalCurve follow(bool growing) {
     auto system = system_at(family_, start_);
     if (!system) return refused("the equations are not defined at the special point");
-    const auto X = solve_at(*system, system->start_unknowns(), start_.mu);
+    const auto X = first_unknowns(*system);
     if (!X) return refused("the special point could not be located with the second parameter");
     if (system->unfolding(*X) > kept_within) return not_kept();
     Vector at = *X;
@@ -118,6 +118,19 @@ class Follower {
         "the second parameter does not keep the branch: there is no curve of branch points");
   }
 
+  /// Newton's method at the start's mu. Where mu is stationary there it is no parameter, and Newton's method fails
+  /// or wanders off: a start that solves the equations is kept then.
+  std::optional<Vector> first_unknowns(const Augmented& system) const {
+    const Vector start = system.start_unknowns();
+    auto X = solve_at(system, start, start_.mu);
+    if (X && (*X - start).norm() <= same_place) return X;
+    Vector F;
+    const double size = std::max(1.0, start.lpNorm<Eigen::Infinity>());
+    const bool solves = system.residual(start, start_.mu, F) &&
+                        F.lpNorm<Eigen::Infinity>() <= options_.newton.residual_tolerance * size;
+    return solves ? start : X;
+  }
+
   std::optional<Ray> way_out(const Augmented& system, const Vector& X, double mu,
                              const std::optional<Direction>& along, bool growing) {
     const auto rays = rays_from(system, X, mu, {}, options_).rays;
@@ -126,7 +139,8 @@ class Follower {
     for (const Ray& ray : rays) {
       const double forward = along ? metric_product(system.metric(), *along, ray.tangent)
                                    : (growing ? ray.tangent.dlambda : -ray.tangent.dlambda);
-      if (forward > largest) best = &ray;
+      // Where mu is stationary both ways are alike: the two sides take one each.
+      if (forward > largest || (!growing && forward == largest)) best = &ray;
       largest = std::max(largest, forward);
     }
     if (best != nullptr) return *best;

@@ -1,0 +1,120 @@
+#include "imperfection.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace springfold::analysis {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// The branch point to rounding.
+continuation::CriticalStart polished(const CaseCurves& curves, const Member& base,
+                                     const SpecialPoint& point) {
+  const bool is_branch_point = point.kind == EventKind::branch_point;
+  const auto& hit = point.hit;
+  continuation::CriticalStart start{.kind = is_branch_point ? continuation::CriticalKind::branch_point
+                                                            : continuation::CriticalKind::limit_point,
+                                    .x = hit.point.x,
+                                    .lambda = hit.point.lambda,
+                                    .mu = base.mu,
+                                    .piece = hit.point.piece,
+                                    .corank = hit.multiplicity};
+  if (const auto exact = polish_critical(curves.family(), start)) {
+    start.x = exact->x;
+    start.lambda = exact->lambda;
+  }
+  return start;
+}
+
+}  // namespace
+
+void PointLaws::enter(const CaseCurves& curves, double rate) {
+  rates_.push_back(rate);
+  Vector gamma;
+  const Member& base = curves.base();
+  lambda_scale_ = base.setup.lambda_scale;
+  const bool bends = point_->kind == EventKind::branch_point;
+  if ((bends || point_->kind == EventKind::limit_point) && !tried_)
+    form_ = reduced_form(curves.family(), polished(curves, base, *point_),
+                         point_->hit.point.tangent);
+  tried_ = true;
+  if (bends && form_) {
+    const auto part =
+        imperfection_part(curves.family(), polished(curves, base, *point_), *form_);
+    if (part) gamma = *part / curves.scale();
+  }
+  gammas_.push_back(gamma);
+}
+bool PointLaws::breaks(std::size_t i) const { return gammas_[i].size() > 0 && gammas_[i].norm() > 0; }
+
+std::vector<double> PointLaws::values(bool with_worst) const {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rates_.size(); ++i) {
+    if (!breaks(i)) {
+      const bool known = !std::isnan(rates_[i]);
+      values.insert(values.end(), {known ? 1 : undefined, rates_[i], known ? 0 : undefined});
+      continue;
+    }
+    const auto law = imperfection_law(*form_, gammas_[i]);
+    if (law)
+      values.insert(values.end(), {law->exponent, law->coefficient * lambda_scale_,
+                                   static_cast<double>(law->sign)});
+    else
+      values.insert(values.end(), 3, undefined);
+  }
+  if (with_worst) put_worst(values);
+  return values;
+}
+
+/// 1 if lambda grows on the way to the point, -1 if it falls.
+double PointLaws::towards() const {
+  if (point_->kind == EventKind::limit_point && form_ && form_->by_lambda.size() == 1) {
+    const auto law = imperfection_law(*form_, Vector::Ones(1));
+    if (law) return law->coefficient * form_->by_lambda[0] < 0 ? -1 : 1;
+  }
+  return point_->hit.point.tangent.dlambda < 0 ? -1 : 1;
+}
+
+/// Imperfections that break the branch outweigh all others; without any, the gradient of lambda counts.
+void PointLaws::put_worst(std::vector<double>& values) const {
+  const std::size_t count = rates_.size(), at = values.size();
+  values.resize(at + 2 + count, undefined);
+  Index modes = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (breaks(i)) modes = gammas_[i].size();
+  Matrix gammas = Matrix::Zero(modes, static_cast<Index>(count));
+  double slope = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (breaks(i)) gammas.col(static_cast<Index>(i)) = gammas_[i];
+    slope = std::hypot(slope, rates_[i]);
+  }
+  if (modes > 0) {
+    const auto worst = worst_imperfection(*form_, gammas);
+    if (!worst) return;
+    values[at] = worst->law.exponent;
+    values[at + 1] = worst->law.coefficient * lambda_scale_;
+    for (std::size_t i = 0; i < count; ++i)
+      values[at + 2 + i] = worst->shape[static_cast<Index>(i)];
+    return;
+  }
+  if (!(slope > 0)) return;
+  // A load that is reached from below is lowered down the gradient, one from above up the gradient.
+  const double way = towards();
+  values[at] = 1;
+  values[at + 1] = -way * slope;
+  for (std::size_t i = 0; i < count; ++i) values[at + 2 + i] = -way * rates_[i] / slope;
+}
+
+std::vector<std::string> law_columns(const std::vector<std::string>& parameters, bool with_worst) {
+  std::vector<std::string> names;
+  for (const std::string& name : parameters)
+    for (const char* what : {"exponent", "coefficient", "sign"})
+      names.push_back(std::string(what) + "(" + name + ")");
+  if (!with_worst) return names;
+  names.insert(names.end(), {"worst.exponent", "worst.coefficient"});
+  for (const std::string& name : parameters) names.push_back("worst.shape(" + name + ")");
+  return names;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,40 @@
+// How the parameters of the case, as imperfections, lower the critical loads of a branch. Private to analysis.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base_path.hpp"
+#include "springfold/continuation/imperfection.hpp"
+
+namespace springfold::analysis {
+
+/// The laws of one special point; parameters are entered one after the other.
+class PointLaws {
+ public:
+  explicit PointLaws(const SpecialPoint& point) : point_{&point} {}
+
+  /// @param rate  d(lambda)/d(parameter); NaN where the point is not followed
+  void enter(const CaseCurves& curves, double rate);
+  /// Per parameter exponent, coefficient and sign; then, if `with_worst`, exponent, coefficient and shape of the
+  /// worst combination. In the order of law_columns(); NaN where the terms do not decide.
+  std::vector<double> values(bool with_worst) const;
+
+ private:
+  bool breaks(std::size_t i) const;
+  double towards() const;
+  void put_worst(std::vector<double>& values) const;
+
+  const SpecialPoint* point_;
+  bool tried_ = false;
+  std::optional<continuation::ReducedForm> form_{};  ///< of limit and branch points
+  std::vector<Vector> gammas_{};                     ///< per parameter; empty: not known
+  std::vector<double> rates_{};
+  double lambda_scale_ = 1;
+};
+
+/// "exponent(e)", "coefficient(e)", "sign(e)", ...; with `with_worst` "worst.exponent", "worst.coefficient",
+/// "worst.shape(e)", ...
+std::vector<std::string> law_columns(const std::vector<std::string>& parameters, bool with_worst);
+
+}  // namespace springfold::analysis
