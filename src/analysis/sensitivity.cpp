@@ -3,10 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base_path.hpp"
 #include "critical_runs.hpp"
 #include "run_kinds.hpp"
-#include "springfold/core/differences.hpp"
+#include "special_rates.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -30,34 +29,6 @@ std::vector<std::string> parameters_of(const Study& study) {
                                            : study.critical.parameters;
 }
 
-/// Total derivatives of the columns by the parameter of `curves`; NaN where the point has none.
-std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
-                             const SpecialPoint& point, const std::vector<std::size_t>& columns) {
-  std::vector<double> rates(columns.size(), undefined);
-  std::string why;
-  const auto start = critical_start(curves, base, point, why);
-  if (!start) return rates;
-  const auto rate = critical_rate(curves.family(), *start);
-  if (!rate) return rates;
-  const auto along = [&](double t) -> std::optional<Vector> {
-    const Member* member = curves.at(start->mu + t);
-    if (member == nullptr) return std::nullopt;
-    const continuation::CurvePoint there{.x = rate->x + t * rate->dx,
-                                         .lambda = rate->lambda + t * rate->dlambda,
-                                         .piece = start->piece};
-    Vector values(static_cast<Index>(columns.size()));
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      values[static_cast<Index>(i)] =
-          member->evaluator->value(member->quantities[columns[i]], there);
-    return values;
-  };
-  const double size = std::max({1.0, rate->dx.lpNorm<Eigen::Infinity>(), std::abs(rate->dlambda)});
-  const auto found = six_point_derivative(along, 0, 0x1p-9 / size);
-  for (std::size_t i = 0; found && i < columns.size(); ++i)
-    rates[i] = (*found)[static_cast<Index>(i)] / curves.scale();
-  return rates;
-}
-
 }  // namespace
 
 std::vector<std::string> sensitivity_columns(const std::vector<std::string>& rated,
@@ -74,6 +45,12 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
   for (const auto& q : quantities_of(as_curve(study), system, {}, 1, Unit::none)) {
     names.push_back(q.name);
     if (is_rated(q, system)) rated.push_back(q.name);
+  }
+  if (study.kind == StudyKind::design) {
+    for (const DesignParameter& parameter : study.design.parameters)
+      names.push_back(parameter.name);
+    for (std::string& name : design_quantities(study.design)) names.push_back(std::move(name));
+    return names;
   }
   if (study.kind != StudyKind::sensitivity) {
     names.push_back(study.critical.parameter);
@@ -114,10 +91,11 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
     std::string lost;
     for (const SpecialPoint& point : path.points) {
-      auto rates = rates_of(curves, base, point, columns);
-      if (std::isnan(rates.front())) lost += (lost.empty() ? "" : ", ") + point.label;
+      const auto rates = rates_at_special(curves, base, point, column_values(columns));
+      if (!rates || std::isnan((*rates)[0])) lost += (lost.empty() ? "" : ", ") + point.label;
       auto& values = path.branch.samples[point.row].values;
-      values.insert(values.end(), rates.begin(), rates.end());
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        values.push_back(rates ? (*rates)[static_cast<Index>(i)] : undefined);
     }
     for (SpecialPoint& point : path.points)
       for (Event& event : path.branch.events)
