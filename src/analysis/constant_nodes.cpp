@@ -20,31 +20,32 @@ double mean_weight(Index k) {
   return (k == 0 || k == parts ? 0.5 : 1.0) * sum / static_cast<double>(parts);
 }
 
+/// Node k on [-1, 1].
+double place(double k) { return -std::cos(std::numbers::pi * k / parts); }
+
 }  // namespace
+
+Vector range_weights(double row) {
+  Vector weights = Vector::Zero(parts + 1);
+  const double x = place(row / finer);
+  for (Index k = 0; k <= parts; ++k) {
+    const double distance = x - place(static_cast<double>(k));
+    if (distance == 0) return Vector::Unit(parts + 1, k);
+    const double end = k == 0 || k == parts ? 0.5 : 1.0;
+    weights[k] = (k % 2 == 0 ? end : -end) / distance;
+  }
+  return weights / weights.sum();
+}
 
 RangeNodes range_nodes(double low, double high) {
   RangeNodes range{Vector(parts + 1), Vector(parts + 1), Matrix::Zero(finer * parts + 1, parts + 1)};
-  const auto place = [](double k) { return -std::cos(std::numbers::pi * k / parts); };
   for (Index k = 0; k <= parts; ++k) {
     const double x = place(static_cast<double>(k));
     range.nodes[k] = k == 0 ? low : k == parts ? high : 0.5 * (low + high) + 0.5 * (high - low) * x;
     range.mean[k] = mean_weight(k);
   }
-  for (Index i = 0; i <= finer * parts; ++i) {
-    if (i % finer == 0) {
-      range.inside(i, i / finer) = 1;
-      continue;
-    }
-    const double x = place(static_cast<double>(i) / finer);
-    double sum = 0;
-    for (Index k = 0; k <= parts; ++k) {
-      const double end = k == 0 || k == parts ? 0.5 : 1.0;
-      const double weight = (k % 2 == 0 ? end : -end) / (x - place(static_cast<double>(k)));
-      range.inside(i, k) = weight;
-      sum += weight;
-    }
-    range.inside.row(i) /= sum;
-  }
+  for (Index i = 0; i <= finer * parts; ++i)
+    range.inside.row(i) = range_weights(static_cast<double>(i)).transpose();
   return range;
 }
 

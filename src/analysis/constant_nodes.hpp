@@ -15,4 +15,7 @@ struct RangeNodes {
 /// @pre low < high
 RangeNodes range_nodes(double low, double high);
 
+/// The same weights at a place between the rows of `inside`: 2.5 lies at the angle half-way between rows 2 and 3.
+Vector range_weights(double row);
+
 }  // namespace springfold::analysis

@@ -1,6 +1,7 @@
 #include "design_requirements.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,25 @@ CriticalPointSettings unwanted_of(const CriticalRequirement& requirement) {
   settings.unwanted = requirement.unwanted;
   settings.stability = requirement.stability;
   return settings;
+}
+
+/// Weights of the places at which a range is judged: rows of its interpolation, those at local maxima moved there.
+std::vector<Vector> peaks(const RangeNodes& range, const Vector& values) {
+  const Vector inside = range.inside * values;
+  std::vector<Vector> all;
+  for (Index i = 0; i < inside.size(); ++i) {
+    all.emplace_back(range.inside.row(i).transpose());
+    const bool is_peak = i > 0 && i + 1 < inside.size() && inside[i] > inside[i - 1] &&
+                         inside[i] >= inside[i + 1];
+    if (!is_peak) continue;
+    const auto below = [&](double row) { return -range_weights(row).dot(values); };
+    constexpr int bits = 26;  // half of the digits: a maximum is not better known from values
+    const auto place = static_cast<double>(i);
+    const auto [row, value] =
+        boost::math::tools::brent_find_minima(below, place - 1, place + 1, bits);
+    if (-value > inside[i]) all.back() = range_weights(row);
+  }
+  return all;
 }
 
 }  // namespace
@@ -215,17 +235,16 @@ bool Requirements::add_constant(const DesignPath& path, Sheet& sheet) const {
   if (std::isfinite(wanted))
     sheet.add((wanted - mean) / scale_of(wanted), -dmean / scale_of(wanted));
 
-  const Vector inside = range.inside * values;
-  const Matrix drates = range.inside * rates;
   const double size = std::abs(mean);
-  sheet.begin(blank[at + 1],
-              size > 0 ? (inside.array() - mean).abs().maxCoeff() / size : infinite);
   const Vector dsize = (mean < 0 ? -1.0 : 1.0) * dmean;
-  for (Index i = 0; i < inside.size(); ++i)
-    for (const double side : {1.0, -1.0}) {
-      const double off = side * (inside[i] - mean) / size;
-      const Vector doff = (side * (drates.row(i).transpose() - dmean) - off * dsize) / size;
+  sheet.begin(blank[at + 1], 0);
+  for (const double side : {1.0, -1.0})
+    for (const Vector& weights : peaks(range, side * values)) {
+      const double off = side * (weights.dot(values) - mean) / size;
+      const Vector doff = (side * (rates.transpose() * weights - dmean) - off * dsize) / size;
       sheet.add(off / constant.within - 1, doff / constant.within);
+      double& deviation = sheet.requirements.back().after;
+      deviation = std::max(deviation, off);
     }
   return true;
 }
