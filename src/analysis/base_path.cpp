@@ -101,6 +101,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     if (hit != nullptr && event.kind != EventKind::end_of_range)
       path.points.push_back({event.label, event.kind, event.row, *hit});
   }
+  path.forward = forward;
   return path;
 }
 

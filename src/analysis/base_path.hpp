@@ -17,6 +17,7 @@ struct SpecialPoint {
 struct BasePath {
   Branch branch{};
   std::vector<SpecialPoint> points{};  ///< in the order of the branch
+  continuation::Curve forward{};       ///< the engine's curve towards growing lambda
   std::string problem{};               ///< why there is no path; empty: there is one
 };
 

@@ -88,6 +88,8 @@ StudyResult run_critical(const Study& study, const Observer& observer) {
   result.study = study.name;
   if (study.kind == StudyKind::sensitivity) {
     run_sensitivity(study, observer, result);
+  } else if (study.kind == StudyKind::design) {
+    run_design(study, observer, result);
   } else {
     const auto& names = study.critical.cases->names;
     const auto number = static_cast<std::size_t>(

@@ -45,6 +45,10 @@ std::vector<std::string> problems_of_critical(const Study& study,
   if (study.path == Path::davidenko)
     problems.push_back(
         "path: this kind needs path = \"arc_length\", which finds all special points");
+  if (study.kind == StudyKind::design) {
+    if (problems.empty()) problems = problems_of_design(study, mechanism);
+    return problems;
+  }
   if (study.kind == StudyKind::sensitivity) {
     for (const std::string& name : s.parameters)
       check_parameter(s, key + ".parameters", name, problems);

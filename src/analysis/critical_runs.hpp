@@ -13,6 +13,7 @@ void run_threshold(const CaseCurves& curves, const Study& study, const Observer&
                    StudyResult& result);
 void run_critical_load(const CaseCurves& curves, const Study& study, const Observer& observer,
                        StudyResult& result);
+void run_design(const Study& study, const Observer& observer, StudyResult& result);
 void run_sensitivity(const Study& study, const Observer& observer, StudyResult& result);
 
 }  // namespace springfold::analysis

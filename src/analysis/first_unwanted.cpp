@@ -1,7 +1,6 @@
 #include "first_unwanted.hpp"
 
 namespace springfold::analysis {
-namespace {
 
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point) {
@@ -28,8 +27,6 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
       return false;
   }
 }
-
-}  // namespace
 
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
                              const Observer& observer) {

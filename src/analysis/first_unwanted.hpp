@@ -14,6 +14,10 @@ struct FirstUnwanted {
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
                              const Observer& observer);
 
+/// Is this special point of the path one of those that are not wanted?
+bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
+                 const SpecialPoint& point);
+
 /// Does the critical curve turn back in the parameter there, or is the point another one behind?
 bool ends_piece(continuation::Degeneracy kind);
 

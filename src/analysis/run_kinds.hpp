@@ -17,9 +17,10 @@ StudyResult run_map(const model::Mechanism& mechanism, const Study& study, const
 StudyResult run_workspace(const model::Mechanism& mechanism, const Study& study,
                           const Observer& observer);
 
-/// Kinds `critical_curve`, `threshold` and `sensitivity`: special points in a second parameter.
+/// Kinds of critical points: special points in further parameters.
 StudyResult run_critical(const Study& study, const Observer& observer);
 std::vector<std::string> critical_columns(const Study& study, const model::Mechanism& mechanism);
+std::vector<std::string> problems_of_design(const Study& study, const model::Mechanism& mechanism);
 std::vector<std::string> problems_of_critical(const Study& study,
                                               const model::Mechanism& mechanism);
 

@@ -3,11 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base_path.hpp"
 #include "critical_runs.hpp"
 #include "imperfection.hpp"
 #include "run_kinds.hpp"
-#include "springfold/core/differences.hpp"
+#include "special_rates.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -33,34 +32,6 @@ std::vector<std::string> parameters_of(const Study& study) {
 
 /// A worst combination is one of named parameters: all of the case have no common unit.
 bool has_worst(const Study& study) { return !study.critical.parameters.empty(); }
-
-/// Total derivatives of the columns by the parameter of `curves`; NaN where the point has none.
-std::vector<double> rates_of(const CaseCurves& curves, const Member& base,
-                             const SpecialPoint& point, const std::vector<std::size_t>& columns) {
-  std::vector<double> rates(columns.size(), undefined);
-  std::string why;
-  const auto start = critical_start(curves, base, point, why);
-  if (!start) return rates;
-  const auto rate = critical_rate(curves.family(), *start);
-  if (!rate) return rates;
-  const auto along = [&](double t) -> std::optional<Vector> {
-    const Member* member = curves.at(start->mu + t);
-    if (member == nullptr) return std::nullopt;
-    const continuation::CurvePoint there{.x = rate->x + t * rate->dx,
-                                         .lambda = rate->lambda + t * rate->dlambda,
-                                         .piece = start->piece};
-    Vector values(static_cast<Index>(columns.size()));
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      values[static_cast<Index>(i)] =
-          member->evaluator->value(member->quantities[columns[i]], there);
-    return values;
-  };
-  const double size = std::max({1.0, rate->dx.lpNorm<Eigen::Infinity>(), std::abs(rate->dlambda)});
-  const auto found = six_point_derivative(along, 0, 0x1p-9 / size);
-  for (std::size_t i = 0; found && i < columns.size(); ++i)
-    rates[i] = (*found)[static_cast<Index>(i)] / curves.scale();
-  return rates;
-}
 
 void say_lost(const std::string& labels, const std::string& parameter, BasePath& path) {
   for (const SpecialPoint& point : path.points)
@@ -103,6 +74,12 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
   for (const auto& q : quantities_of(as_curve(study), system, {}, 1, Unit::none)) {
     names.push_back(q.name);
     if (is_rated(q, system)) rated.push_back(q.name);
+  }
+  if (study.kind == StudyKind::design) {
+    for (const DesignParameter& parameter : study.design.parameters)
+      names.push_back(parameter.name);
+    for (std::string& name : design_quantities(study.design)) names.push_back(std::move(name));
+    return names;
   }
   if (study.kind != StudyKind::sensitivity) {
     names.push_back(study.critical.parameter);
@@ -150,11 +127,12 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
     std::string lost;
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const SpecialPoint& point = path.points[k];
-      auto rates = rates_of(curves, base, point, columns);
-      laws[k].enter(curves, rates[lambda]);
-      if (std::isnan(rates.front())) lost += (lost.empty() ? "" : ", ") + point.label;
+      const auto rates = rates_at_special(curves, base, point, column_values(columns));
+      laws[k].enter(curves, rates ? (*rates)[static_cast<Index>(lambda)] : undefined);
+      if (!rates || std::isnan((*rates)[0])) lost += (lost.empty() ? "" : ", ") + point.label;
       auto& values = path.branch.samples[point.row].values;
-      values.insert(values.end(), rates.begin(), rates.end());
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        values.push_back(rates ? (*rates)[static_cast<Index>(i)] : undefined);
     }
     say_lost(lost, parameter, path);
   }

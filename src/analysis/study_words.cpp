@@ -25,6 +25,8 @@ std::string_view to_string(StudyKind kind) {
       return "sensitivity";
     case StudyKind::critical_load:
       return "critical_load";
+    case StudyKind::design:
+      return "design";
   }
   return "";
 }

@@ -71,6 +71,7 @@ io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted)
   std::erase_if(the_case.plots, [](const io::PlotSpec& plot) { return plot.curves.empty(); });
   for (auto& plot : the_case.map_plots) std::erase_if(plot.panels, is_left_out);
   std::erase_if(the_case.map_plots, [](const auto& plot) { return plot.panels.empty(); });
+  std::erase_if(the_case.tornados, is_left_out);
   if (the_case.expected.values.empty()) the_case.expected.notes.clear();
   return the_case;
 }

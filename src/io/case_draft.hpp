@@ -31,6 +31,11 @@ struct MapPlotDraft {
   NamedPlace quantity{};
 };
 
+struct TornadoDraft {
+  TornadoSpec spec{};
+  NamedPlace quantity{};
+};
+
 struct CaseDraft {
   std::string title{};
   UnitLabels units{};
@@ -40,6 +45,7 @@ struct CaseDraft {
   std::vector<StudyDraft> studies{};
   std::vector<PlotDraft> plots{};
   std::vector<MapPlotDraft> map_plots{};
+  std::vector<TornadoDraft> tornados{};
   std::vector<ExpectedDraft> expected{};
   std::vector<std::string> notes{};
 };

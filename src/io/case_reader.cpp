@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "case_draft.hpp"
 #include "mechanism_reader.hpp"
@@ -13,7 +14,8 @@ constexpr std::size_t most_parameters = 1000;
 
 const std::vector<std::string> case_keys{
     "title", "include", "units", "parameters", "gravity", "template", "body",     "node",
-    "chain", "spring",  "bar",   "load",       "study",   "plot",     "map_plot", "expected"};
+    "chain", "spring",  "bar",   "load",       "study",   "plot",     "map_plot", "expected",
+    "tornado"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
@@ -34,7 +36,7 @@ void check_included(const Document& document, Problems& problems) {
   if (!document.included) return;
   for (const NodeEntry& entry : document.root.entries)
     if (entry.key == "study" || entry.key == "plot" || entry.key == "map_plot" ||
-        entry.key == "expected")
+        entry.key == "tornado" || entry.key == "expected")
       problems.add(entry.place, entry.key,
                    "belongs into the case file itself, not into an included file");
 }
@@ -181,6 +183,11 @@ CaseDraft read_case(const std::vector<Document>& documents,
   draft.plots = read_plots(plots, draft.studies, reading);
   draft.map_plots = read_map_plots(tables_of(documents, "map_plot", reading), draft.studies,
                                    draft.plots, reading);
+  std::set<std::string> taken;
+  for (const PlotDraft& plot : draft.plots) taken.insert(plot.spec.name);
+  for (const MapPlotDraft& plot : draft.map_plots) taken.insert(plot.spec.name);
+  draft.tornados =
+      read_tornados(tables_of(documents, "tornado", reading), draft.studies, taken, reading);
   read_expectations(expected_file, draft, reading);
   return draft;
 }

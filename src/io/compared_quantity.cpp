@@ -7,6 +7,7 @@
 
 #include "jump_access.hpp"
 #include "result_access.hpp"
+#include "springfold/analysis/design.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/statics/system.hpp"
@@ -288,6 +289,8 @@ double found_value(const ExpectedValue& expected, const StudyResult& result) {
   if (is_jump_place(expected.at)) return jump_value(expected, result);
   if (quantity.starts_with(count_prefix))
     return result.start.found ? count_of(result, quantity.substr(count_prefix.size())) : nothing;
+  if (result.design)
+    if (const auto value = analysis::design_value(*result.design, quantity)) return *value;
   const auto found = point_of(expected, result);
   if (!found) return nothing;
   const std::optional<Point> point = on_side(*found, expected.side, quantity);

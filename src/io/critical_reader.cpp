@@ -54,7 +54,7 @@ std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, Numbe
 }  // namespace
 
 std::vector<std::string> critical_keys() {
-  return {"critical_curve", "threshold", "sensitivity", "critical_load"};
+  return {"critical_curve", "threshold", "sensitivity", "critical_load", "design"};
 }
 
 CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, NumberTable& numbers,
@@ -65,7 +65,7 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
     if (const Node* node = study.find(other); node != nullptr && other != name)
       reading.problems.add(node->place, study.key_of(other),
                            "has no meaning here, need kind = \"" + other + "\" with it");
-  if (!analysis::is_of_critical_points(kind)) return draft;
+  if (!analysis::is_of_critical_points(kind) || kind == StudyKind::design) return draft;
   static const Node nothing;
   const bool needed = kind != StudyKind::sensitivity;
   const Node* node = needed ? study.require(name, example(kind)) : study.find(name);

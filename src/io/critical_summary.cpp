@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design_summary.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -69,6 +70,12 @@ std::string rate_table(const StudyResult& result, const Branch& branch) {
   return text;
 }
 
+std::string doubts_of(const StudyResult& result) {
+  std::string text;
+  for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
+  return text;
+}
+
 }  // namespace
 
 std::string critical_lines(const PlannedRun& planned, const StudyResult& result) {
@@ -77,6 +84,7 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
   if (result.threshold)
     text += line("threshold", result.threshold->message +
                                   (result.threshold->verified ? "; traced again beside it" : ""));
+  if (result.design) return design_lines(*result.design) + doubts_of(result);
   const std::string& parameter = planned.plan.critical.parameter;
   const bool is_curve = planned.plan.kind != analysis::StudyKind::sensitivity;
   for (const Branch& branch : result.branches) {
@@ -89,8 +97,7 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
     for (const auto* stop : {&branch.backward, &branch.forward})
       if (!stop->complete) text += line("STOPPED", stop->reason);
   }
-  for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
-  return text;
+  return text + doubts_of(result);
 }
 
 }  // namespace springfold::io

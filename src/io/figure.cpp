@@ -140,6 +140,15 @@ void number_branches(Figure& figure, std::size_t first) {
   }
 }
 
+/// The branches of a design: the path of the case, and that of the answer.
+void name_design(Figure& figure, std::size_t first) {
+  constexpr const char* names[] = {"before", "after"};
+  for (std::size_t i = first; i < std::min(first + 2, figure.curves.size()); ++i) {
+    std::string& text = figure.curves[i].label.text;
+    text += (text.empty() ? "" : ": ") + std::string{names[i - first]};
+  }
+}
+
 /// Equilibria that a search found: stable ones ("ES") are filled, all others ("EU") are not.
 void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result) {
   if (!result.equilibria) return;
@@ -193,7 +202,10 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
   for (std::size_t b = 0; b < result.branches.size(); ++b)
     add_branch(figure, axes, result, result.branches[b], b == 0 ? label : FigureText{},
                is_diagram ? static_cast<int>(b) + 1 : 0);
-  if (is_diagram) number_branches(figure, first_curve);
+  if (is_diagram && result.design)
+    name_design(figure, first_curve);
+  else if (is_diagram)
+    number_branches(figure, first_curve);
   add_equilibria(figure, axes, result);
   add_jumps(figure, axes, result);
   if (result.branches.empty()) return;

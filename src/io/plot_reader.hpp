@@ -21,6 +21,11 @@ std::vector<MapPlotDraft> read_map_plots(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies,
                                          const std::vector<PlotDraft>& plots, Reading& reading);
 
+/// [[tornado]] tables. @param taken  names of other plots
+std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
+                                        const std::vector<StudyDraft>& studies,
+                                        std::set<std::string> taken, Reading& reading);
+
 /// Reports a name that cannot be a file name, or that another plot has already.
 void check_plot_name(const TableReader& table, const std::string& name,
                      const std::set<std::string>& taken, Reading& reading);

@@ -17,6 +17,7 @@
 #include "map_figure.hpp"
 #include "sha256.hpp"
 #include "text.hpp"
+#include "tornado_figure.hpp"
 #include "transition_access.hpp"
 
 namespace springfold::io {
@@ -49,6 +50,7 @@ struct Templates {
   std::string style{};
   std::string figure{};
   std::string map{};
+  std::string tornado{};
 };
 
 fs::path template_folder(const fs::path& wanted) {
@@ -65,10 +67,11 @@ fs::path template_folder(const fs::path& wanted) {
                            ", " SPRINGFOLD_INSTALLED_PLOTS " and " SPRINGFOLD_SOURCE_PLOTS};
 }
 
-Templates read_templates(const fs::path& wanted, bool with_maps) {
+Templates read_templates(const fs::path& wanted, bool with_maps, bool with_tornados) {
   const fs::path folder = template_folder(wanted);
   return {read_file(folder / "style.gp"), read_file(folder / "force-deflection.gp"),
-          with_maps ? read_file(folder / "map.gp") : std::string{}};
+          with_maps ? read_file(folder / "map.gp") : std::string{},
+          with_tornados ? read_file(folder / "tornado.gp") : std::string{}};
 }
 
 std::string assignment(const std::string& name, double value) {
@@ -293,11 +296,13 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
     const auto figures = figures_of(the_case, results, outcome.warnings);
     draw_graphs(folder, results, options, outcome);
     const auto maps = map_figures_of(the_case, results, outcome.warnings);
-    if (figures.empty() && maps.empty()) return outcome;
+    const auto tornados = tornado_figures_of(the_case, results, outcome.warnings);
+    if (figures.empty() && maps.empty() && tornados.empty()) return outcome;
     for (const auto& figure : figures) expect_pictures(figure.name, outcome);
     for (const auto& figure : maps) expect_pictures(figure.name, outcome);
+    for (const auto& figure : tornados) expect_pictures(figure.name, outcome);
     if (options.stop_requested && options.stop_requested()) return outcome;
-    const Templates templates = read_templates(options.templates, !maps.empty());
+    const Templates templates = read_templates(options.templates, !maps.empty(), !tornados.empty());
     const auto gnuplot = find_executable(options.gnuplot);
     make_folder(folder / "plots");
     const auto draw_one = [&](const std::string& name, const auto& write) {
@@ -310,6 +315,10 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
     for (const auto& figure : maps)
       draw_one(figure.name, [&](const fs::path& file) {
         write_file(file, map_script(figure, templates.style, templates.map));
+      });
+    for (const auto& figure : tornados)
+      draw_one(figure.name, [&](const fs::path& file) {
+        write_file(file, tornado_script(figure, templates.style, templates.tornado));
       });
   } catch (const std::exception& error) {
     outcome.warnings.push_back(std::string{"no further figures: "} + error.what());

@@ -100,6 +100,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
   for (const LimitDraft& limit : draft.box)
     study.search.box.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
   build_critical(draft.critical, numbers, study.critical);
+  build_design(draft.design, numbers, study.design);
   study.snap = build_snap(draft.snap, numbers);
   build_commands(draft.commands, space, numbers, study);
   return study;

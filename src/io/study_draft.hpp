@@ -7,6 +7,7 @@
 
 #include "command_draft.hpp"
 #include "critical_draft.hpp"
+#include "design_draft.hpp"
 #include "history_draft.hpp"
 #include "mechanism_draft.hpp"
 #include "snap_reader.hpp"
@@ -82,7 +83,8 @@ struct StudyDraft {
   std::vector<MarkDraft> marks{};
   SnapDraft snap{};
   CommandDraft commands{};        ///< kinds control, map and workspace
-  CriticalPointDraft critical{};  ///< kinds critical_curve, threshold and sensitivity
+  CriticalPointDraft critical{};  ///< kinds critical_curve, threshold, sensitivity, critical_load
+  DesignDraft design{};           ///< kind design
   Redefinitions set{};
   std::optional<VaryDraft> vary{};
   bool runs_known = true;  ///< false: `vary` is there but unusable

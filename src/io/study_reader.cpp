@@ -18,7 +18,7 @@ using analysis::StudyKind;
 const std::vector<std::string> kind_words{
     "force_deflection", "equilibrium",    "equilibria",    "control",     "map",
     "workspace",        "critical_curve", "threshold",     "sensitivity", "critical_load",
-    snap_kind,          cycle_kind,       transitions_kind};
+    "design",           snap_kind,          cycle_kind,       transitions_kind};
 const std::array kinds{StudyKind::force_deflection,
                        StudyKind::equilibrium,
                        StudyKind::equilibria,
@@ -29,6 +29,7 @@ const std::array kinds{StudyKind::force_deflection,
                        StudyKind::threshold,
                        StudyKind::sensitivity,
                        StudyKind::critical_load,
+                       StudyKind::design,
                        StudyKind::force_deflection,  // the last three with jumps
                        StudyKind::force_deflection,
                        StudyKind::force_deflection};
@@ -42,7 +43,7 @@ const std::vector<std::string> study_keys{
     "loads",      "start",          "until",     "mark",        "actuators", "parameter",
     "set",        "vary",           "path",      "trace",       "branches",  "search",
     "prescribed", "critical_curve", "threshold", "sensitivity", "snap",      "critical_load",
-    "cycle",      "transitions"};
+    "cycle",      "transitions",    "design"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {
@@ -117,6 +118,7 @@ class StudyReader {
     read_branches();
     read_search();
     draft_.critical = read_critical(draft_.kind, table_, draft_.numbers, reading_);
+    draft_.design = read_design(draft_.kind, table_, draft_.numbers, reading_);
     return std::move(draft_);
   }
 

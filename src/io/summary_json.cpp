@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison_text.hpp"
+#include "design_summary.hpp"
 #include "json_text.hpp"
 #include "jump_access.hpp"
 #include "result_access.hpp"
@@ -236,6 +237,7 @@ Json json_of(const StudyResult& result, const PlannedRun* planned, const UnitLab
   json["searches"] = json_of(result.searches);
   json["equilibria"] = equilibria_json(result, equilibria_file);
   json["threshold"] = threshold_json(result);
+  if (result.design) json["design"] = design_json(*result.design);
   if (result.snap) json["snap"] = jumps_json(result);
   json["ways_not_followed"] = analysis::ways_not_followed(result);
   json["doubts"] = result.doubts;

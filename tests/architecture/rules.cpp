@@ -50,6 +50,7 @@ const std::vector<Library>& libraries() {
        std::regex{"(kinsol|cvode|nvector|sundials|sunlinsol|sunmatrix)/.*"},
        {"statics", "analysis"},
        true},
+      {"NLopt", std::regex{"nlopt\\.h(pp)?"}, {"analysis"}, true},
       {"Boost.Odeint", std::regex{"boost/numeric/odeint.*"}, {"continuation"}, true},
       {"Boost", std::regex{"boost/.*"}, {"continuation", "model", "analysis"}},
       {"toml++", std::regex{"toml\\+\\+/.*|toml\\.hpp"}, {"io"}, true},

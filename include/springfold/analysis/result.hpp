@@ -12,7 +12,8 @@
 
 namespace springfold::analysis {
 
-struct SnapReport;  // springfold/analysis/snap.hpp
+struct SnapReport;    // springfold/analysis/snap.hpp
+struct DesignReport;  // springfold/analysis/design.hpp
 
 /// Dimension of a quantity, for labels.
 enum class Unit {
@@ -304,6 +305,7 @@ struct StudyResult {
   std::vector<std::string> doubts{};             ///< what may be missing in the diagram, in words
   std::optional<EquilibriaReport> equilibria{};  ///< kind equilibria; it has no branches
   std::optional<ThresholdReport> threshold{};    ///< kind threshold
+  std::shared_ptr<const DesignReport> design{};  ///< kind design; its branches: before, after
   std::shared_ptr<const SnapReport> snap{};      ///< if the study asks for jumps; otherwise null
   std::shared_ptr<const SweepRow> row{};  ///< curves are not kept: all there is; otherwise null
   double seconds = 0;                     ///< CPU time used; never part of reproducible output

@@ -12,6 +12,7 @@
 
 #include "springfold/analysis/control.hpp"
 #include "springfold/analysis/critical.hpp"
+#include "springfold/analysis/design.hpp"
 #include "springfold/analysis/map.hpp"
 #include "springfold/analysis/situation.hpp"
 #include "springfold/analysis/snap_settings.hpp"
@@ -32,6 +33,7 @@ enum class StudyKind {
   threshold,         ///< the value of a parameter from which on nothing unwanted happens
   sensitivity,       ///< how special points move with the parameters of the case
   critical_load,     ///< the first critical load of the path, for every value of a parameter
+  design,            ///< the least changes of parameters with which requirements are met
 };
 
 /// Is it a study of commands and poses, not a curve or a point of one? These have settings and
@@ -40,10 +42,11 @@ constexpr bool is_of_commands(StudyKind kind) {
   return kind == StudyKind::control || kind == StudyKind::map || kind == StudyKind::workspace;
 }
 
-/// Does it look at the special points of a branch in a second parameter?
+/// Does it look at the special points of a branch in further parameters?
 constexpr bool is_of_critical_points(StudyKind kind) {
   return kind == StudyKind::critical_curve || kind == StudyKind::threshold ||
-         kind == StudyKind::sensitivity || kind == StudyKind::critical_load;
+         kind == StudyKind::sensitivity || kind == StudyKind::critical_load ||
+         kind == StudyKind::design;
 }
 
 /// What lambda is.
@@ -164,6 +167,7 @@ struct Study {
   MapSettings map{};                 ///< kind map
   WorkspaceSettings workspace{};     ///< kind workspace
   CriticalPointSettings critical{};  ///< kinds of critical points
+  DesignSettings design{};           ///< kind design
 };
 
 /// A mechanism with a study, as a case gives them for some values of its parameters.

@@ -150,6 +150,18 @@ struct MapPlotSpec {
   std::vector<MapPanelSpec> panels{};
 };
 
+/// A figure of relative sensitivities of one special point, largest first.
+struct TornadoSpec {
+  std::string name{};  ///< file name without ending
+  std::string title{};
+  std::string study{};  ///< of kind sensitivity
+  int run = 1;
+  std::string at{};                 ///< label of the special point: "LP1"
+  std::string quantity = "lambda";  ///< whose sensitivities
+  std::string label{};              ///< below the bars; empty: made from the quantity
+  bool markup = false;              ///< as PlotSpec::markup
+};
+
 struct Expectations {
   std::vector<ExpectedValue> values{};
   std::vector<std::string> notes{};  ///< printed below the table
@@ -170,6 +182,7 @@ struct Case {
   std::vector<SweepTable> sweeps{};
   std::vector<PlotSpec> plots{};
   std::vector<MapPlotSpec> map_plots{};
+  std::vector<TornadoSpec> tornados{};
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};

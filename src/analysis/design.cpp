@@ -1,0 +1,244 @@
+// The study kind `design`: the least changes of parameters with which requirements are met.
+#include "springfold/analysis/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "critical_runs.hpp"
+#include "design_search.hpp"
+#include "number_text.hpp"
+#include "run_kinds.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// How far inside of its limits a design is traced again, if it is bounded by the birth of limit points: on the limit
+/// they are one point to rounding.
+constexpr double beside = 1e-6;
+/// Rows of the traced path may miss a range by this much, relative: it is known between nodes by interpolation.
+constexpr double between_nodes = 1e-6;
+constexpr int digits = 10;
+
+std::string bound_text(const FoundParameter& parameter) {
+  return parameter.name + " at its " +
+         (parameter.bound == BoundState::at_low ? "lower bound " + rounded(parameter.low, digits)
+                                                : "upper bound " + rounded(parameter.high, digits));
+}
+
+class Design {
+ public:
+  Design(const Study& study, const Observer& observer, StudyResult& result)
+      : study_{study}, observer_{observer}, result_{result}, search_{study, observer} {}
+
+  void run() {
+    const DesignPath before(path_case(), search_.values(Vector::Zero(count())));
+    result_.start = before.base().report;
+    if (!before.has_start()) return;
+    const FoundDesign found = search_.run();
+    report_.status = found.status;
+    report_.change = search_.size_of(found.changes);
+    report_.optimality = found.optimality;
+    add_parameters(found);
+    add_requirements(found);
+    verify(found);
+    say(found);
+    report_.designs = search_.designs();
+    add_columns(before.base());
+    draw(search_.values(Vector::Zero(count())));
+    draw(search_.values(found.changes));
+    label();
+    if (found.status == DesignStatus::unresolved) result_.doubts.push_back(report_.message);
+    result_.design = std::make_shared<const DesignReport>(std::move(report_));
+  }
+
+ private:
+  Index count() const { return std::ssize(study_.design.parameters); }
+  /// The study without the marks of its requirements.
+  DesignCase path_case() const {
+    DesignCase plain = search_.requirements().designs();
+    plain.study.marks = study_.marks;
+    return plain;
+  }
+
+  void add_parameters(const FoundDesign& found) {
+    const Vector before = search_.values(Vector::Zero(count()));
+    const Vector after = search_.values(found.changes);
+    for (Index i = 0; i < count(); ++i) {
+      const DesignParameter& of = study_.design.parameters[static_cast<std::size_t>(i)];
+      FoundParameter parameter{.name = of.name,
+                               .before = before[i],
+                               .after = std::clamp(after[i], of.low, of.high),
+                               .low = of.low,
+                               .high = of.high,
+                               .change = found.changes[i]};
+      if (!found.bounds.empty()) parameter.bound = found.bounds[static_cast<std::size_t>(i)];
+      report_.parameters.push_back(parameter);
+    }
+  }
+
+  void add_requirements(const FoundDesign& found) {
+    const auto first = search_.first_ways();
+    const auto before = search_.assess(Vector::Zero(count()), first);
+    const auto after = search_.assess(found.changes, first);
+    report_.requirements =
+        after ? after->requirements : search_.requirements().unknown();
+    for (std::size_t i = 0; i < report_.requirements.size(); ++i)
+      report_.requirements[i].before =
+          before ? before->requirements[i].after : std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < found.limiting.size(); ++i) {
+      FoundRequirement& one = report_.requirements[found.limiting[i]];
+      one.limits = true;
+      one.multiplier = found.multipliers[i];
+      report_.limits.push_back(one.name);
+    }
+    for (const FoundParameter& parameter : report_.parameters)
+      if (parameter.bound != BoundState::free) report_.limits.push_back(bound_text(parameter));
+  }
+
+  bool all_hold(const std::vector<FoundRequirement>& requirements) const {
+    return std::all_of(requirements.begin(), requirements.end(),
+                       [](const FoundRequirement& one) { return one.holds; });
+  }
+
+  /// The path of the answer is traced again; where limit points are born there, the one a little inside too.
+  void verify(const FoundDesign& found) {
+    if (found.status != DesignStatus::met && found.status != DesignStatus::met_at_start) return;
+    report_.verified = all_hold(report_.requirements);
+    const bool climbs =
+        std::any_of(found.limiting.begin(), found.limiting.end(), [&](std::size_t i) {
+          return i < found.ways.size() && found.ways[i] == Way::climbing;
+        });
+    const bool jumps = found.status == DesignStatus::met && !(found.optimality < 1);
+    if (climbs && !jumps) {
+      const auto inside = search_.assess(found.changes + search_.inwards(found, beside),
+                                         search_.first_ways());
+      const auto outside = search_.assess(found.changes - search_.inwards(found, beside),
+                                          search_.first_ways());
+      report_.verified = inside && outside && all_hold(inside->requirements) &&
+                         !all_hold(outside->requirements);
+      // On the limit itself whether the merging points are seen is rounding.
+      for (const std::size_t i : found.limiting)
+        if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
+    }
+    check_rows(found);
+    if (!report_.verified)
+      result_.doubts.push_back("traced again, the path does not confirm the design");
+  }
+
+  static FoundRequirement merged(FoundRequirement on, const Assessment& inside, std::size_t i) {
+    on.holds = true;
+    on.after = inside.requirements[i].after;
+    return on;
+  }
+
+  /// Every row of the traced path within the range, against the mean.
+  void check_rows(const FoundDesign& found) {
+    if (!study_.design.constant) return;
+    const ConstantRequirement& wanted = *study_.design.constant;
+    double mean = 0;
+    for (const FoundRequirement& one : report_.requirements)
+      if (one.name == "constant.mean") mean = one.after;
+    DesignPath path(search_.requirements().designs(), search_.values(found.changes));
+    path.trace(observer_);
+    const auto& quantities = path.base().quantities;
+    const auto along = static_cast<std::size_t>(path.base().quantity(wanted.along) - quantities.data());
+    const auto of = static_cast<std::size_t>(path.base().quantity(wanted.quantity) - quantities.data());
+    for (const Sample& row : path.path().branch.samples) {
+      const double x = row.values[along];
+      if (!(wanted.from <= x && x <= wanted.to)) continue;
+      if (std::abs(row.values[of] - mean) > (wanted.within + between_nodes) * std::abs(mean))
+        report_.verified = false;
+      if (x >= wanted.to) break;  // only the first passage counts
+    }
+  }
+
+  void say(const FoundDesign& found) {
+    std::string limits;
+    for (const std::string& one : report_.limits) limits += (limits.empty() ? "" : ", ") + one;
+    switch (found.status) {
+      case DesignStatus::met_at_start:
+        report_.message = "the case meets all requirements as it is";
+        return;
+      case DesignStatus::met:
+        report_.message = "met with changes of " + rounded(report_.change, digits) +
+                          (limits.empty() ? "" : ", decided by: " + limits);
+        if (limits.empty()) report_.message += ", where a requirement jumps";
+        return;
+      case DesignStatus::cannot_be_met:
+        report_.message = "no design within the bounds was found that meets all requirements; "
+                          "at the nearest miss it is limited by: " + limits;
+        return;
+      case DesignStatus::unresolved:
+        report_.message = "unresolved: " + found.why;
+        return;
+    }
+  }
+
+  void add_columns(const Member& base) {
+    for (const QuantityDefinition& q : base.quantities)
+      result_.quantities.push_back({q.name, q.unit});
+    for (const DesignParameter& parameter : study_.design.parameters)
+      result_.quantities.push_back({parameter.name, Unit::none});
+    result_.lambda_unit = lambda_unit_of(base.study, base.setup.system);
+  }
+
+  /// The whole path of a design as a branch, both ways from its start.
+  void draw(const Vector& values) {
+    const DesignPath path(path_case(), values);
+    if (!path.has_start()) return;
+    BasePath traced = base_path(path.base(), false, observer_);
+    if (!traced.problem.empty()) {
+      result_.doubts.push_back(traced.problem);
+      return;
+    }
+    for (Sample& sample : traced.branch.samples)
+      sample.values.insert(sample.values.end(), values.begin(), values.end());
+    for (Event& event : traced.branch.events)
+      for (auto* rates : {&event.rates_before, &event.rates_after})
+        rates->resize(result_.quantities.size(), 0);
+    result_.branches.push_back(std::move(traced.branch));
+  }
+
+  /// Special points are counted over both branches.
+  void label() {
+    std::map<std::string, int> counts;
+    for (Branch& branch : result_.branches)
+      for (Event& event : branch.events) {
+        const std::string code = code_of(event.kind);
+        const std::string old = event.label;
+        event.label = code + std::to_string(++counts[code]);
+        for (std::size_t row = event.row; row < std::min(event.row + 2, branch.samples.size()); ++row)
+          if (branch.samples[row].event == old) branch.samples[row].event = event.label;
+      }
+  }
+
+  const Study& study_;
+  const Observer& observer_;
+  StudyResult& result_;
+  DesignSearch search_;
+  DesignReport report_{};
+};
+
+}  // namespace
+
+std::string_view to_string(DesignStatus status) {
+  switch (status) {
+    case DesignStatus::met_at_start:
+      return "met at the start";
+    case DesignStatus::met:
+      return "met";
+    case DesignStatus::cannot_be_met:
+      return "cannot be met";
+    case DesignStatus::unresolved:
+      return "unresolved";
+  }
+  return "";
+}
+
+void run_design(const Study& study, const Observer& observer, StudyResult& result) {
+  Design(study, observer, result).run();
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,141 @@
+#include "design_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "path_slope.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+/// A mark this near to the value at the start is the start, in units of the column.
+constexpr double at_start_itself = 1e-12;
+/// Part of a limit by which it is moved away from a mark that lies on it: both are then met.
+constexpr double beyond_mark = 1e-3;
+
+/// Marks on a limit of the study would end the path before they are located.
+void make_room(Study& study) {
+  for (Limit& limit : study.until)
+    for (const Mark& mark : study.marks) {
+      if (mark.quantity != limit.quantity) continue;
+      const double width = limit.high - limit.low;
+      const double room = beyond_mark * (std::isfinite(width) ? width : std::abs(mark.value) + 1);
+      if (std::abs(mark.value - limit.high) <= room) limit.high = mark.value + room;
+      if (std::abs(mark.value - limit.low) <= room) limit.low = mark.value - room;
+    }
+}
+
+/// The family of the design's neighbours: other parameters are those of the design.
+std::shared_ptr<const CaseFamily> neighbours(const DesignCase& of, const Vector& values,
+                                             const Vector& pose) {
+  const std::shared_ptr<const CaseFamily>& all = of.study.critical.cases;
+  auto family = std::make_shared<CaseFamily>();
+  family->names = all->names;
+  family->values = all->values;
+  for (std::size_t i = 0; i < of.numbers.size(); ++i)
+    family->values[of.numbers[i]] = values[static_cast<Index>(i)];
+  family->at = [all, numbers = of.numbers, values, pose,
+                marks = of.study.marks](const std::vector<std::pair<std::size_t, double>>& changes) {
+    std::vector<std::pair<std::size_t, double>> together;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      together.emplace_back(numbers[i], values[static_cast<Index>(i)]);
+    for (const auto& [number, value] : changes) {
+      const auto same = std::find_if(together.begin(), together.end(), [n = number](const auto& one) {
+        return one.first == n;
+      });
+      if (same != together.end())
+        same->second = value;
+      else
+        together.emplace_back(number, value);
+    }
+    Variant variant = all->at(together);
+    variant.study.marks = marks;
+    if (pose.size() > 0) variant.study.start.pose = pose;
+    make_room(variant.study);
+    return variant;
+  };
+  return family;
+}
+
+}  // namespace
+
+DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose) {
+  Study study = of.study;
+  study.critical.cases = neighbours(of, values, pose);
+  for (std::size_t i = 0; i < of.numbers.size(); ++i) {
+    // The family's unit of the parameter is that on which the case varies with it.
+    study.critical.parameter = study.critical.cases->names[of.numbers[i]];
+    study.critical.low = 0;
+    study.critical.high = of.sizes[i];
+    families_.push_back(std::make_unique<CaseCurves>(study, of.numbers[i]));
+    if (!families_.back()->base().report.found) break;
+  }
+}
+
+void DesignPath::trace(const Observer& observer) { path_ = base_path(base(), true, observer); }
+
+std::string DesignPath::doubt() const {
+  if (!path_.problem.empty()) return path_.problem;
+  return path_.branch.forward.complete ? "" : path_.branch.forward.reason;
+}
+
+std::size_t DesignPath::column(const std::string& name) const {
+  return static_cast<std::size_t>(base().quantity(name) - base().quantities.data());
+}
+
+Measure DesignPath::with_rates(
+    double value, const std::function<std::optional<Vector>(const CaseCurves&)>& of) const {
+  Measure measure{value, Vector(static_cast<Index>(families_.size()))};
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const auto rate = of(*families_[i]);
+    measure.rates[static_cast<Index>(i)] = rate ? (*rate)[0] : undefined;
+  }
+  return measure;
+}
+
+std::optional<Measure> DesignPath::at_start(const std::string& name) const {
+  const StateValues values = column_values({column(name)});
+  const auto value = values(base(), base().start());
+  if (!value || std::isnan((*value)[0])) return std::nullopt;
+  return with_rates((*value)[0],
+                    [&](const CaseCurves& curves) { return rates_at_start(curves, values); });
+}
+
+std::optional<Measure> DesignPath::at_point(const SpecialPoint& point,
+                                            const std::string& name) const {
+  const StateValues values = column_values({column(name)});
+  const auto value = values(base(), point.hit.point);
+  if (!value || std::isnan((*value)[0])) return std::nullopt;
+  return with_rates((*value)[0], [&](const CaseCurves& curves) {
+    return rates_at_special(curves, curves.base(), point, values);
+  });
+}
+
+std::optional<Measure> DesignPath::at_value(const std::string& name, const std::string& along,
+                                            double value) const {
+  const QuantityDefinition& quantity = base().quantities[column(along)];
+  const double at_start = base().evaluator->value(quantity, base().start());
+  if (std::abs(at_start - value) <= at_start_itself * std::max(quantity.scale, std::abs(value)))
+    return this->at_start(name);
+  for (const SpecialPoint& point : path_.points) {
+    if (point.kind != EventKind::user_value || point.hit.name != along) continue;
+    const double there = base().evaluator->value(quantity, point.hit.point);
+    constexpr double same = 1e-8;  // marks are located far better, and lie farther apart
+    if (std::abs(there - value) <= same * std::max(quantity.scale, std::abs(value)))
+      return at_point(point, name);
+  }
+  return std::nullopt;
+}
+
+std::optional<Measure> DesignPath::least_slope(const std::string& quantity, double end) const {
+  const auto least = analysis::least_slope(base(), path_, quantity, end);
+  if (!least) return std::nullopt;
+  return with_rates(least->value, [&](const CaseCurves& curves) -> std::optional<Vector> {
+    const auto rate = rate_of(curves, curves.base(), *least);
+    return rate ? std::optional<Vector>{Vector::Constant(1, *rate)} : std::nullopt;
+  });
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,60 @@
+// The path of one design: values at its special points, each with its rates by the design's parameters. Private to
+// analysis.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base_path.hpp"
+
+namespace springfold::analysis {
+
+/// A value and its rates by the parameters of the design [units of the case]; NaN where they are not known.
+struct Measure {
+  double value = 0;
+  Vector rates{};
+};
+
+/// The case as a function of its parameters, those of the design having other values.
+struct DesignCase {
+  Study study{};                      ///< marks are those that the requirements need
+  std::vector<std::size_t> numbers{}; ///< of the design's parameters among those of the case
+  std::vector<double> sizes{};        ///< on which the case varies with each of them
+};
+
+/// The curves of one design, one family for every parameter. The case must outlive it.
+class DesignPath {
+ public:
+  /// Solves the start. @param pose  in place of start.pose; empty: the study's own
+  DesignPath(const DesignCase& of, const Vector& values, const Vector& pose = {});
+  /// Traces the path towards growing lambda.
+  void trace(const Observer& observer);
+
+  bool has_start() const { return families_.front()->base().report.found; }
+  const Member& base() const { return families_.front()->base(); }
+  const BasePath& path() const { return path_; }
+  /// Why the path is not known to its end; empty: it is.
+  std::string doubt() const;
+
+  std::optional<Measure> at_start(const std::string& column) const;
+  /// At the first passage of `along` through `value`, which is a mark of the case, or the start.
+  std::optional<Measure> at_value(const std::string& column, const std::string& along,
+                                  double value) const;
+  std::optional<Measure> at_point(const SpecialPoint& point, const std::string& column) const;
+
+  /// The least slope of the path before `quantity` passes `end`: d(lambda)/ds, under displacement control that of the
+  /// force, dimensionless. The path turns back where it is negative.
+  std::optional<Measure> least_slope(const std::string& quantity, double end) const;
+
+ private:
+  std::size_t column(const std::string& name) const;
+  Measure with_rates(double value, const std::function<std::optional<Vector>(const CaseCurves&)>& of)
+      const;
+
+  std::vector<std::unique_ptr<CaseCurves>> families_{};
+  BasePath path_{};
+};
+
+}  // namespace springfold::analysis

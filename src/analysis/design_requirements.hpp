@@ -1,0 +1,53 @@
+// Requirements as inequalities g <= 0 with their derivatives. Private to analysis.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design_path.hpp"
+#include "springfold/analysis/design.hpp"
+
+namespace springfold::analysis {
+
+/// How a critical requirement is met: the unwanted point comes late enough, or the path climbs all the way. The union
+/// of both is what is asked; each alone is smooth.
+enum class Way { late, climbing };
+
+/// What the requirements say of one design.
+struct Assessment {
+  std::vector<FoundRequirement> requirements{};  ///< reached values in `after`; `holds` is set
+  Vector g{};                                    ///< scaled: <= 0 holds
+  Matrix dg{};                                   ///< by the parameters [1/unit of the case]
+  std::vector<std::size_t> of{};                 ///< per inequality: its requirement
+};
+
+/// Violations up to this are rounding, in the scale of each requirement.
+inline constexpr double design_tolerance = 1e-9;
+
+/// The requirements of a study for its designs.
+class Requirements {
+ public:
+  explicit Requirements(const Study& study);
+
+  const DesignCase& designs() const { return case_; }
+  /// Traces the path of a design and judges it. @param ways  one per critical requirement
+  /// @returns nothing where it cannot be judged: `why` says it
+  std::optional<Assessment> assess(const Vector& values, const std::vector<Way>& ways,
+                                   const Observer& observer, std::string& why) const;
+  /// Names and wanted values, nothing reached.
+  std::vector<FoundRequirement> unknown() const;
+
+ private:
+  struct Sheet;
+  bool add_critical(const DesignPath& path, const std::vector<Way>& ways, Sheet& sheet) const;
+  bool add_curve(const DesignPath& path, Sheet& sheet) const;
+  bool add_constant(const DesignPath& path, Sheet& sheet) const;
+  bool add_stiffness(const DesignPath& path, const Vector& values, Sheet& sheet) const;
+
+  const DesignSettings settings_;
+  DesignCase case_{};
+  bool needs_path_ = false;
+};
+
+}  // namespace springfold::analysis

@@ -1,0 +1,68 @@
+// The search for the design with the least changes. Private to analysis.
+#pragma once
+
+#include "design_requirements.hpp"
+#include "least_change.hpp"
+#include "springfold/analysis/run.hpp"
+
+namespace springfold::analysis {
+
+struct FoundDesign {
+  DesignStatus status = DesignStatus::unresolved;
+  Vector changes{};              ///< in units of the parameters
+  std::vector<Way> ways{};       ///< in which the critical requirements are met
+  double violation = 0;          ///< the largest of the scaled requirements, if they cannot be met
+  double optimality = 0;         ///< as DesignReport::optimality
+  std::vector<std::size_t> limiting{};  ///< requirements that decide, with their multipliers
+  std::vector<double> multipliers{};
+  std::vector<BoundState> bounds{};     ///< per parameter: at which it is held
+  std::string why{};             ///< unresolved: why
+  bool stopped = false;
+};
+
+/// Designs are counted by their changes u: parameter = value in the case + unit * u.
+class DesignSearch {
+ public:
+  DesignSearch(const Study& study, const Observer& observer);
+
+  FoundDesign run();
+  Vector values(const Vector& changes) const { return values_ + units_.cwiseProduct(changes); }
+  double size_of(const Vector& changes) const;
+  const Requirements& requirements() const { return requirements_; }
+  int designs() const { return designs_; }
+  /// The requirements at a design; nothing where they cannot be judged.
+  std::optional<Assessment> assess(const Vector& changes, const std::vector<Way>& ways);
+  std::vector<Way> first_ways() const;
+  /// Changes that lead away from what limits a design, of length `size`, within the bounds.
+  Vector inwards(const FoundDesign& design, double size);
+
+ private:
+  /// What is searched for: u = combine * v. For the sum of changes v are what grows and what falls, both >= 0.
+  struct Variables {
+    Matrix combine{};
+    Vector low{}, high{};
+    bool is_sum = false;
+  };
+  std::vector<std::vector<Way>> all_ways() const;
+  std::vector<Vector> starts() const;
+  Vector to_variables(const Vector& changes) const;
+  InequalityValues values_at(const Assessment& at, const Vector& v) const;
+  Vector least_changes(const std::vector<Way>& ways, const Vector& from);
+  Vector least_violation(const std::vector<Way>& ways, const Vector& from);
+  bool meets(const Vector& changes);
+  Vector drawn_back(Vector changes);
+  /// Looks for a design from one start, and keeps it if it is better.
+  void try_from(const std::vector<Way>& ways, const Vector& from, FoundDesign& best);
+  void conditions(FoundDesign& design);
+
+  const Study& study_;
+  Observer observer_{};
+  Requirements requirements_;
+  Vector values_{}, units_{}, low_{}, high_{};  ///< bounds of the changes
+  Variables variables_{};
+  bool stopped_ = false;
+  int designs_ = 0;
+  std::string why_{};
+};
+
+}  // namespace springfold::analysis

@@ -1,0 +1,103 @@
+#include "least_change.hpp"
+
+#include <nlopt.h>
+
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <vector>
+
+namespace springfold::analysis {
+namespace {
+
+/// Where steps or violations are as small as this, nothing but rounding is left.
+constexpr double rounding = 1e-13;
+constexpr double allowed_violation = 1e-11;
+/// Evaluations of one search; a smooth problem takes a few dozen.
+constexpr int most_evaluations = 250;
+
+/// Objective and inequalities are asked for one after the other at the same place.
+struct Memory {
+  const InequalityProblem& problem;
+  nlopt_opt search;
+  Vector x{};
+  std::optional<InequalityValues> values{};
+  std::exception_ptr thrown{};  ///< C code is left before it goes on
+
+  const std::optional<InequalityValues>& at(unsigned n, const double* where) {
+    const Vector wanted = Eigen::Map<const Vector>(where, static_cast<Index>(n));
+    if (x.size() == wanted.size() && x == wanted) return values;
+    x = wanted;
+    values.reset();
+    try {
+      if (problem.stopped && problem.stopped())
+        nlopt_force_stop(search);
+      else
+        values = problem.at(x);
+    } catch (...) {
+      thrown = std::current_exception();
+      nlopt_force_stop(search);
+    }
+    return values;
+  }
+};
+
+double objective(unsigned n, const double* x, double* gradient, void* data) {
+  const auto& values = static_cast<Memory*>(data)->at(n, x);
+  if (!values) return HUGE_VAL;
+  if (gradient != nullptr) Eigen::Map<Vector>(gradient, static_cast<Index>(n)) = values->df;
+  return values->f;
+}
+
+void inequalities(unsigned m, double* result, unsigned n, const double* x, double* gradient,
+                  void* data) {
+  const auto& values = static_cast<Memory*>(data)->at(n, x);
+  const auto rows = static_cast<Index>(m);
+  Eigen::Map<Vector> g(result, rows);
+  if (!values) {
+    g.setOnes();
+    return;
+  }
+  g = values->g;
+  if (gradient != nullptr)  // row by row
+    Eigen::Map<Matrix>(gradient, static_cast<Index>(n), rows) = values->dg.transpose();
+}
+
+}  // namespace
+
+Vector search_minimum(const InequalityProblem& problem, const Vector& start) {
+  const auto n = static_cast<unsigned>(start.size());
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search{nlopt_create(NLOPT_LD_SLSQP, n),
+                                                                 &nlopt_destroy};
+  Memory memory{problem, search.get()};
+  nlopt_set_lower_bounds(search.get(), problem.low.data());
+  nlopt_set_upper_bounds(search.get(), problem.high.data());
+  nlopt_set_min_objective(search.get(), objective, &memory);
+  const std::vector<double> tolerances(static_cast<std::size_t>(problem.inequalities),
+                                       allowed_violation);
+  if (problem.inequalities > 0)
+    nlopt_add_inequality_mconstraint(search.get(), static_cast<unsigned>(problem.inequalities),
+                                     inequalities, &memory, tolerances.data());
+  nlopt_set_xtol_rel(search.get(), rounding);
+  nlopt_set_xtol_abs1(search.get(), rounding);
+  nlopt_set_maxeval(search.get(), most_evaluations);
+  Vector x = start;
+  double f = 0;
+  // What it returns says why it stopped, not whether the point is a minimum.
+  static_cast<void>(nlopt_optimize(search.get(), x.data(), &f));
+  if (memory.thrown) std::rethrow_exception(memory.thrown);
+  return x;
+}
+
+Vector multipliers(const Vector& df, const Matrix& active) {
+  const Index n = active.rows();
+  if (n == 0) return {};
+  InequalityProblem nearest{.low = Vector::Zero(n), .high = Vector::Constant(n, HUGE_VAL)};
+  nearest.at = [&](const Vector& m) {
+    const Vector rest = df + active.transpose() * m;
+    return InequalityValues{0.5 * rest.squaredNorm(), active * rest, Vector{}, Matrix{}};
+  };
+  return search_minimum(nearest, Vector::Zero(n));
+}
+
+}  // namespace springfold::analysis
