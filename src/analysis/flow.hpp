@@ -26,6 +26,7 @@ struct Motion {
 struct FlowOptions {
   double relative = 1e-8, absolute = 1e-11;  ///< error of a step
   int most_steps = 20000;
+  std::function<bool()> goes_on{};  ///< asked now and then; false: the motion is given up
 };
 
 struct Flow {

@@ -241,6 +241,13 @@ void report_start(const Evaluator& evaluator, const CurvePoint& start, StartRepo
   report.chain_stiffnesses = evaluator.chain_stiffnesses(start);
 }
 
+/// Has the unit of lambda judged by how steep the curve is at the start; where several curves leave it, none is asked.
+void watch_lambda(const Tracing& t, const CurvePoint& start) {
+  const auto rays =
+      rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
+  if (rays.rays.size() == 2 && rays.complete) t.crawl.begin(rays.rays.front().tangent);
+}
+
 /// @param setup    begins at the start
 /// @param largest  factor by which the unit of lambda may still grow
 /// @returns by which factor it should grow: then the result is worthless; 1: all is done
@@ -265,6 +272,7 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
     result.start.situation = situation_of(tracing, start, {});
     result.branches.push_back(single_point(start, evaluator, quantities, problem));
   } else if (begun.trace_by) {
+    watch_lambda(tracing, start);
     begun.trace_by(tracing, setup.scales, start, result);
   } else {
     trace_study(tracing, start, result);

@@ -11,6 +11,7 @@ namespace springfold::analysis {
 struct Loss {
   std::size_t branch = 0, event = 0;
   int loading = 1;  ///< +1: lambda grows towards it on the stable side
+  std::size_t stable_row = 0;  ///< the branch's row beside it on the stable side
 };
 
 /// Every special point with a stable side and an unstable one; points where branches meet once.

@@ -176,16 +176,29 @@ struct Transition {
 /// A saddle with one unstable mode and the two minima beside it, at one lambda.
 struct Barrier {
   double lambda = 0;
-  int first = 0, second = 0;               ///< states, from 1
+  int first = 0;   ///< state, from 1
+  int second = 0;  ///< state; 0: a way without end, or out of the study's range
   double from_first = 0, from_second = 0;  ///< energy of the saddle above theirs
+  /// The same of the lowest way between both, over other states and saddles if that is lower: its highest saddle.
+  double lowest_from_first = std::numeric_limits<double>::quiet_NaN();
+  double lowest_from_second = std::numeric_limits<double>::quiet_NaN();
   SnapState saddle{};
+};
+
+/// The lowest saddle by which a state is left, at one lambda.
+struct Escape {
+  double lambda = 0;
+  int state = 0;      ///< from 1
+  int to = 0;         ///< state behind the saddle; 0 as in Barrier
+  double energy = 0;  ///< of the saddle above the state's
 };
 
 /// All stable states that were found, and where each is left to.
 struct TransitionReport {
   std::vector<StableState> states{};
   std::vector<Transition> transitions{};
-  std::vector<Barrier> barriers{};  ///< for each pair of states the lowest
+  std::vector<Barrier> barriers{};  ///< for each pair of states beside one saddle the lowest one
+  std::vector<Escape> escapes{};    ///< of each state that a saddle was found beside
   bool limit_reached = false;       ///< ended because so many were found
   bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
   enum class Memory {
