@@ -196,9 +196,8 @@ std::optional<Index> index_on_cones(const Landscape& landscape, const Ground& at
     if (!terrain.problem.derivatives(at.x, terrain.lambda, piece, A, b)) return std::nullopt;
     return A;
   };
-  const auto decided =
-      resting_index(matrix, at.piece, resting, *coordinates,
-                    static_cast<Index>(landscape.multipliers().size()));
+  const auto decided = resting_index(matrix, at.piece, resting, *coordinates,
+                                     static_cast<Index>(landscape.multipliers().size()));
   if (!decided || decided->verdict == Definiteness::undecided) return std::nullopt;
   return static_cast<Index>(decided->index());
 }

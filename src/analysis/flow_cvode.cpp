@@ -150,7 +150,9 @@ class Integrator {
       flow_.time = t;
       flow_.dissipated = state[state.size() - 1];
       if (flag == CV_ROOT_RETURN && !pass_root(cvode, y, t)) return;
-      if (!observe(state)) return;
+      const bool goes_on = observe(state);
+      if (options_.keep_way) flow_.way.emplace_back(t, data_.x);
+      if (!goes_on) return;
     }
   }
 

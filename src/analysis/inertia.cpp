@@ -131,8 +131,7 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
   const auto there = overdamped == nullptr
                          ? std::nullopt
                          : frozen.landscape().ground_on(overdamped->x, overdamped->piece);
-  const bool is_massive =
-      there && massless(frozen, *there, masses.along_motions(*there)).empty();
+  const bool is_massive = there && massless(frozen, *there, masses.along_motions(*there)).empty();
   if (!settings.damping.empty()) {
     terrain.damping = named_dampers(frozen, scales, time, settings.damping);
   } else {
@@ -144,10 +143,10 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
   const Landscape landscape(std::move(terrain));
   FlowOptions options{.goes_on = goes_on};
   if (is_massive)
-    options.most_steps = steps_until_rest(there->hessian, masses.along_motions(*there),
-                                          landscape.damping(*there));
-  const Flow flow = flow_by_cvode(
-      {landscape, [&masses](const Vector& x) { return masses.at(x); }}, from, options);
+    options.most_steps =
+        steps_until_rest(there->hessian, masses.along_motions(*there), landscape.damping(*there));
+  const Flow flow = flow_by_cvode({landscape, [&masses](const Vector& x) { return masses.at(x); }},
+                                  from, options);
   InertialMotion& motion = result.motion;
   motion.end = end_of(flow.end);
   if (flow.end == Flow::End::rest) result.landing = flow.state;

@@ -119,8 +119,7 @@ std::optional<Ground> Landscape::softest_ground(const Vector& x) const {
   for (const Piece& piece : pieces_beside(x)) {
     auto at = ground_on(x, piece);
     if (!at) continue;
-    const double stiffness =
-        at->hessian.size() > 0 ? symmetric_eigenvalues(at->hessian)[0] : least;
+    const double stiffness = at->hessian.size() > 0 ? symmetric_eigenvalues(at->hessian)[0] : least;
     // Pieces that differ by rounding are alike: the first one stands.
     if (softest && !(stiffness < least - at_threshold * std::max(1.0, std::abs(least)))) continue;
     least = stiffness;

@@ -11,6 +11,7 @@
 #include "equilibria.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
+#include "parameter_rules.hpp"
 #include "run_kinds.hpp"
 #include "run_traced.hpp"
 #include "settle_units.hpp"
@@ -229,6 +230,7 @@ namespace {
 struct Begun {
   const model::Mechanism& mechanism;
   const Study& study;
+  const ParameterFamily* family;
   const Observer& observer;
   const TraceBy& trace_by;
   const statics::FirstEquilibrium& first;
@@ -277,6 +279,8 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   } else {
     trace_study(tracing, start, result);
   }
+  if (begun.family != nullptr && study.control == ControlMode::parameter && crawl.factor() == 1)
+    doubt_broken_rules(study, *begun.family, quantities, result);
   if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
   return crawl.factor();
 }
@@ -302,7 +306,7 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const Begun begun{mechanism, study, observer, trace_by, first};
+    const Begun begun{mechanism, study, family, observer, trace_by, first};
     double largest = largest_change_of_lambda_unit;
     for (;;) {
       StudyResult attempt = result;

@@ -48,7 +48,7 @@ class Jumper {
     const Landscape& landscape = frozen.landscape();
     Vector critical = frozen.reduced(unknowns_in(at, t_.quantities, size_));
     if (!landscape.close(critical)) return doubt(event, "its closures do not hold");
-    const Departures ways = 
+    const Departures ways =
         departures(landscape, critical, pieces_beside(frozen, branch, event, critical));
     if (ways.is_flat)
       doubt(event, "the energy is flat there to rounding: whether it jumps is not decided");
@@ -78,7 +78,7 @@ class Jumper {
         search(book, energy, StateSearch{}.maximum);
         down = fall(book, way, energy);
       }
-      settle(frozen, event, way, down, book);
+      settle(frozen, event, way, down, book, jump);
       write(frozen, state_of(frozen, branch, loss.stable_row), down, book, jump);
       if (settings_.inertia) move_with_masses(frozen, event, way, down, book, jump);
       findings_.report.jumps.push_back(std::move(jump));
@@ -102,9 +102,12 @@ class Jumper {
   /// Where several states may be reached, the landing is that of the overdamped motion; where one, that
   /// motion has to confirm it.
   void settle(const Frozen& frozen, const Event& event, const Departure& way, Fall& down,
-              StateBook& book) {
+              StateBook& book, Jump& jump) {
     if (!down.landing) return;
-    const Flow flow = flow_by_cvode({frozen.landscape()}, way.x, {.goes_on = goes_on()});
+    const bool keep_way = !settings_.transitions;
+    const Flow flow =
+        flow_by_cvode({frozen.landscape()}, way.x, {.keep_way = keep_way, .goes_on = goes_on()});
+    if (keep_way) keep_motion(frozen, flow, jump);
     if (flow.end != Flow::End::rest) {
       if (down.verdict == SnapVerdict::unambiguous)
         doubt(event, "the overdamped motion was not integrated to a state of rest");
@@ -119,11 +122,33 @@ class Jumper {
     down.landing = reached;
   }
 
+  /// Moments of the motion at even lengths of way, both ends among them.
+  void keep_motion(const Frozen& frozen, const Flow& flow, Jump& jump) const {
+    constexpr double parts = 60;
+    const auto& moving = frozen.landscape().moving();
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < flow.way.size(); ++i)
+      lengths.push_back(i == 0 ? 0
+                               : lengths.back() +
+                                     (flow.way[i].second - flow.way[i - 1].second)(moving).norm());
+    double next = 0;
+    for (std::size_t i = 0; i < flow.way.size(); ++i) {
+      if (lengths[i] < next && i + 1 < flow.way.size()) continue;
+      next = lengths[i] + lengths.back() / parts;
+      const auto at = frozen.landscape().ground(flow.way[i].second);
+      if (!at) continue;
+      const double energy = frozen.landscape().energy(at->x);
+      jump.motion.push_back({flow.way[i].first, lengths[i],
+                             written(frozen, {.x = at->x, .piece = at->piece, .energy = energy})});
+    }
+  }
+
   /// The motion with masses; where the answer is unambiguous it has to end at the landing.
   void move_with_masses(const Frozen& frozen, const Event& event, const Departure& way,
                         const Fall& down, StateBook& book, Jump& jump) {
     const RestState* landing = down.landing ? &book.states()[*down.landing] : nullptr;
-    Inertial inertial = inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing, goes_on());
+    Inertial inertial =
+        inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing, goes_on());
     if (inertial.landing) {
       inertial.motion.landing = written(frozen, *inertial.landing);
       inertial.motion.released = jump.critical.energy - inertial.motion.landing.energy;

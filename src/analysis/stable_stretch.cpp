@@ -26,8 +26,7 @@ bool ends_at_a_kink(const continuation::Curve& curve) {
 }  // namespace
 
 bool is_stable(const Tracing& t, const CurvePoint& point) {
-  if (const auto decided =
-          t.evaluator.resting_index_of(QuantityDefinition::Kind::index, point))
+  if (const auto decided = t.evaluator.resting_index_of(QuantityDefinition::Kind::index, point))
     return decided->verdict == Definiteness::positive;
   return !point.negative || *point.negative == t.problem.closures();
 }

@@ -129,8 +129,8 @@ std::vector<RestState> Stretches::taking_over(int number, int direction) const {
   const auto b = static_cast<std::size_t>(number - 1);
   const Frozen beside = frozen(end_of(number, direction) + direction * beyond_end);
   const Landscape& landscape = beside.landscape();
-  Vector x = beside.reduced(unknowns_in(result_.branches[b].samples[end_row(b, direction)].values,
-                                        t_.quantities, size_));
+  Vector x = beside.reduced(
+      unknowns_in(result_.branches[b].samples[end_row(b, direction)].values, t_.quantities, size_));
   const auto at = landscape.close(x) ? landscape.softest_ground(x) : std::nullopt;
   if (!at || at->hessian.size() == 0) return list;
   const Vector mode = symmetric_eigen(at->hessian).vectors.col(0);

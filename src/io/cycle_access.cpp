@@ -31,13 +31,14 @@ double column_value(const StudyResult& result, const analysis::SnapState& state,
 }
 
 std::string step_text(const StudyResult& result, const CycleStep& step, const std::string& energy) {
-  const std::string lambda = "lambda = " + rounded(column_value(result, step.at, "lambda"), summary_digits);
+  const std::string lambda =
+      "lambda = " + rounded(column_value(result, step.at, "lambda"), summary_digits);
   const std::string place = ", on branch " + std::to_string(step.at.branch);
   if (step.jump == 0)
     return summary_line(step.level == 0 ? "start" : level_word + std::to_string(step.level),
-                lambda + place);
+                        lambda + place);
   return summary_line("", "jump J" + std::to_string(step.jump) + " at " + lambda + ", released " +
-                      rounded(step.released, summary_digits) + energy + place);
+                              rounded(step.released, summary_digits) + energy + place);
 }
 
 }  // namespace
@@ -83,16 +84,18 @@ std::string cycle_lines(const StudyResult& result, const UnitLabels& units) {
   std::string text;
   for (const CycleStep& step : cycle->steps) text += step_text(result, step, energy);
   if (cycle->end != LoadCycle::End::complete)
-    text += summary_line("cycle", "NOT COMPLETE, on the way to level " + std::to_string(cycle->level) +
-                              ": " + to_string(cycle->end));
+    text += summary_line("cycle", "NOT COMPLETE, on the way to level " +
+                                      std::to_string(cycle->level) + ": " + to_string(cycle->end));
   if (cycle->closed_with >= 0)
-    text += summary_line("loop", rounded(cycle->loop, summary_digits) + energy + ", released by its jumps " +
-                             rounded(cycle->loop_released, summary_digits) + energy + ", difference " +
-                             rounded(cycle->loop - cycle->loop_released, 2) + energy);
-  text += summary_line("cycle", std::to_string(cycle->jumps) + " jumps released " +
-                            rounded(cycle->released, summary_digits) + energy + ", Pi changed by " +
-                            rounded(cycle->energy_change, summary_digits) + energy + "; area less both " +
-                            rounded(cycle->gap, 2) + energy);
+    text += summary_line(
+        "loop", rounded(cycle->loop, summary_digits) + energy + ", released by its jumps " +
+                    rounded(cycle->loop_released, summary_digits) + energy + ", difference " +
+                    rounded(cycle->loop - cycle->loop_released, 2) + energy);
+  text +=
+      summary_line("cycle", std::to_string(cycle->jumps) + " jumps released " +
+                                rounded(cycle->released, summary_digits) + energy +
+                                ", Pi changed by " + rounded(cycle->energy_change, summary_digits) +
+                                energy + "; area less both " + rounded(cycle->gap, 2) + energy);
   return text;
 }
 

@@ -19,7 +19,6 @@ using analysis::Jump;
 using analysis::SnapState;
 using analysis::StudyResult;
 
-
 double value_of(const StudyResult& result, const SnapState& state, std::string_view name) {
   const auto column = column_of(result, name);
   return column && *column < state.values.size() ? state.values[*column]
@@ -60,14 +59,15 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
                            const std::string& energy) {
   if (motion.end == InertialMotion::End::no_mass)
     return summary_line("", "with masses: REFUSED, nothing with a mass moves" +
-                        (motion.massless.empty() ? "" : " with " + motion.massless));
+                                (motion.massless.empty() ? "" : " with " + motion.massless));
   if (motion.end == InertialMotion::End::no_end)
     return summary_line("", "with masses: not integrated to a state of rest");
-  std::string text = motion.end == InertialMotion::End::runs_away
-                         ? summary_line("", "with masses it runs away")
-                         : summary_line("", "with masses it lands " + place_of(motion.landing) + ": " +
-                                        pose_text(result, motion.landing) + ", released " +
-                                        rounded(motion.released, summary_digits) + energy);
+  std::string text =
+      motion.end == InertialMotion::End::runs_away
+          ? summary_line("", "with masses it runs away")
+          : summary_line("", "with masses it lands " + place_of(motion.landing) + ": " +
+                                 pose_text(result, motion.landing) + ", released " +
+                                 rounded(motion.released, summary_digits) + energy);
   constexpr int few = 4;  // of what a motion of a certain push says
   text += summary_line(
       "", "peak speed " + rounded(motion.peak_speed, few) +
@@ -81,20 +81,21 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
 
 std::string lines_of(const StudyResult& result, const Jump& jump, const std::string& energy) {
   const double lambda = value_of(result, jump.critical, "lambda");
-  std::string text =
-      summary_line(jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
-                           ", lambda = " + rounded(lambda, summary_digits) +
-                           (jump.loading > 0 ? " (rising): " : " (falling): ") +
-                           to_string(jump.verdict));
+  std::string text = summary_line(
+      jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
+                      ", lambda = " + rounded(lambda, summary_digits) +
+                      (jump.loading > 0 ? " (rising): " : " (falling): ") +
+                      to_string(jump.verdict));
   if (!jump.landing.values.empty()) {
-    text += summary_line("", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
+    text += summary_line(
+        "", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
     text += summary_line("", "released " + rounded(jump.released, summary_digits) + energy +
-                         ", overdamped time scale " + rounded(jump.time_scale, 4));
+                                 ", overdamped time scale " + rounded(jump.time_scale, 4));
   }
   for (const SnapState& other : jump.others)
-    text +=
-        summary_line("", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
-                     rounded(jump.critical.energy - other.energy, summary_digits) + energy);
+    text += summary_line(
+        "", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
+                rounded(jump.critical.energy - other.energy, summary_digits) + energy);
   if (jump.may_run_away && jump.verdict == analysis::SnapVerdict::depends)
     text += summary_line("", "or it runs away");
   if (jump.inertial) text += inertial_lines(result, *jump.inertial, energy);
@@ -102,13 +103,14 @@ std::string lines_of(const StudyResult& result, const Jump& jump, const std::str
   for (const auto& warning : jump.warnings) text += summary_line("", warning_text(warning));
   if (jump.back > 0) {
     const Jump& back = result.snap->jumps[static_cast<std::size_t>(jump.back - 1)];
-    text +=
-        summary_line("", "leaves it again at " + back.from +
-                     ", lambda = " + rounded(value_of(result, back.critical, "lambda"), summary_digits) +
-                     " (" + back.label + ")" +
-                     (std::isnan(jump.loop) ? ""
-                                            : "; the loop closes, " + rounded(jump.loop, summary_digits) +
-                                                  energy + " lost in each"));
+    text += summary_line(
+        "",
+        "leaves it again at " + back.from +
+            ", lambda = " + rounded(value_of(result, back.critical, "lambda"), summary_digits) +
+            " (" + back.label + ")" +
+            (std::isnan(jump.loop) ? ""
+                                   : "; the loop closes, " + rounded(jump.loop, summary_digits) +
+                                         energy + " lost in each"));
   }
   return text;
 }
@@ -188,14 +190,16 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
   const analysis::SnapReport& report = *result.snap;
   const std::string energy = " " + unit_label(analysis::Unit::energy, result.lambda_unit, units);
   std::string text;
-  for (const std::string& refusal : report.refusals) text += summary_line("jumps", "REFUSED: " + refusal);
+  for (const std::string& refusal : report.refusals)
+    text += summary_line("jumps", "REFUSED: " + refusal);
   if (report.jumps.empty() && report.refusals.empty())
     text += summary_line("jumps", "none: stability is nowhere lost to a jump");
   for (const Jump& jump : report.jumps) text += lines_of(result, jump, energy);
   for (const auto& handover : report.handovers)
-    text += summary_line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
-                                  " hands over to branch " + std::to_string(handover.next) +
-                                  (handover.towards.empty() ? "" : ", " + handover.towards));
+    text +=
+        summary_line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
+                                      " hands over to branch " + std::to_string(handover.next) +
+                                      (handover.towards.empty() ? "" : ", " + handover.towards));
   return text + cycle_lines(result, units) + transition_lines(result, units);
 }
 

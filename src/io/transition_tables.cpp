@@ -20,7 +20,6 @@ using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
 
-
 const TransitionReport* report_of(const StudyResult& result) {
   return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
 }
@@ -56,11 +55,12 @@ std::string state_line(const TransitionReport& report, std::size_t i) {
   const auto end = [&](int loading, bool is_limit) {
     return is_limit ? std::string{"the range ends"} : exits(report, number, loading);
   };
-  return summary_line(s.label, "lambda " + rounded(s.low, summary_digits) + " to " + rounded(s.high, summary_digits) +
-                           "; down: " + end(-1, s.low_is_limit) +
-                           ", up: " + end(1, s.high_is_limit) +
-                           (s.is_garden_of_eden ? "; Garden of Eden: nothing leads here" : "") +
-                           (s.reached ? "" : "; not reached from S1"));
+  return summary_line(s.label,
+                      "lambda " + rounded(s.low, summary_digits) + " to " +
+                          rounded(s.high, summary_digits) + "; down: " + end(-1, s.low_is_limit) +
+                          ", up: " + end(1, s.high_is_limit) +
+                          (s.is_garden_of_eden ? "; Garden of Eden: nothing leads here" : "") +
+                          (s.reached ? "" : "; not reached from S1"));
 }
 
 std::string common(const StudyResult& result) {
@@ -110,8 +110,7 @@ Json json_of(const StudyResult& result, const Barrier& b) {
 /// Both heights of a barrier; the state beyond may be none.
 std::string heights(double from_first, double from_second, const std::string& energy) {
   return rounded(from_first, summary_digits) + energy +
-         (std::isnan(from_second) ? ""
-                                  : " and " + rounded(from_second, summary_digits) + energy);
+         (std::isnan(from_second) ? "" : " and " + rounded(from_second, summary_digits) + energy);
 }
 
 std::string barrier_line(const Barrier& b, const std::string& energy) {
@@ -147,24 +146,25 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
   const auto alternatives = std::count_if(report->transitions.begin(), report->transitions.end(),
                                           [](const Transition& t) { return t.is_alternative; });
   const auto own = std::ssize(report->transitions) - alternatives;
-  std::string text =
-      summary_line("states", "at least " + std::to_string(report->states.size()) + " stable, " +
-                         count(&StableState::reached) + " reached from S1, " +
-                         count(&StableState::is_garden_of_eden) + " to which nothing leads; " +
-                         std::to_string(own) + " transitions");
+  std::string text = summary_line(
+      "states", "at least " + std::to_string(report->states.size()) + " stable, " +
+                    count(&StableState::reached) + " reached from S1, " +
+                    count(&StableState::is_garden_of_eden) + " to which nothing leads; " +
+                    std::to_string(own) + " transitions");
   if (alternatives > 0)
     text += summary_line(
         "", std::to_string(alternatives) + " more may take place with other damping or masses");
-  text += summary_line("", report->is_closed ? "every transition within the range leads to one of them"
-                                     : "NOT CLOSED: a transition leads nowhere that is known");
+  text +=
+      summary_line("", report->is_closed ? "every transition within the range leads to one of them"
+                                         : "NOT CLOSED: a transition leads nowhere that is known");
   if (report->limit_reached) text += summary_line("", "NOT COMPLETE: as many states as allowed");
   text += summary_line("memory", "return-point memory " + memory_word(report->memory) + ", " +
-                             std::to_string(report->loops) + " loops gone through");
+                                     std::to_string(report->loops) + " loops gone through");
   for (std::size_t i = 0; i < std::min(most_lines, report->states.size()); ++i)
     text += state_line(*report, i);
   if (report->states.size() > most_lines)
-    text +=
-        summary_line("", "and " + std::to_string(report->states.size() - most_lines) + " more: states.csv");
+    text += summary_line(
+        "", "and " + std::to_string(report->states.size() - most_lines) + " more: states.csv");
   for (std::size_t i = 0; i < std::min(most_lines, report->barriers.size()); ++i)
     text += barrier_line(report->barriers[i], energy);
   for (std::size_t i = 0; i < std::min(most_lines, report->escapes.size()); ++i)

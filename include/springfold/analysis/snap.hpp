@@ -73,6 +73,14 @@ struct InertialMotion {
 /// "at rest", "runs away", "without mass", "no end".
 std::string to_string(InertialMotion::End end);
 
+/// A moment of a motion.
+struct SnapMoment {
+  double time = 0;  ///< since the push; overdamped: in units of the dampers
+  double way =
+      0;  ///< length in the space of all coordinates, as arc length: radians, sizes of the mechanism
+  SnapState state{};  ///< `energy` falls from moment to moment
+};
+
 /// One jump: from a loss of stability to where the mechanism comes to rest, at one lambda.
 struct Jump {
   std::string label{};  ///< "J1"
@@ -97,6 +105,9 @@ struct Jump {
       switches{};  ///< springs that act at the landing and not before, or conversely
   std::vector<SnapWarning> warnings{};
   std::optional<InertialMotion> inertial{};  ///< if it was asked for
+  /// The overdamped motion from the push to the landing, at even lengths of way; none in a graph of all states. Forces
+  /// in closed chains are those that balance best: nothing is at rest there.
+  std::vector<SnapMoment> motion{};
   /// Where lambda goes back from the landing and stability is lost again: number of that jump, from 1;
   /// 0: none within the range.
   int back = 0;
