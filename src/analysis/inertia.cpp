@@ -45,7 +45,7 @@ double critical_factor(const Matrix& K, const Matrix& M, const Matrix& D) {
 /// the fastest one swings on. Stiffness, masses and dampers along all motions.
 int steps_until_rest(const Matrix& K, const Matrix& M, const Matrix& D) {
   constexpr double steps_of_a_period = 400;  // backward differentiation at 1e-8 takes half of it
-  constexpr double fading = 14;              // logarithm of the amplitude over that of near rest
+  constexpr double faded = 14;               // logarithm of the amplitude over that of near rest
   constexpr double least = 20000, most = 5e6;
   const SymmetricEigen mass = symmetric_eigen(M);
   const Matrix root =
@@ -58,7 +58,7 @@ int steps_until_rest(const Matrix& K, const Matrix& M, const Matrix& D) {
     slowest = std::min(slowest, std::min(damping / 2, modes.values[i] / damping));
   }
   const double fastest = std::sqrt(std::max(0.0, modes.values.maxCoeff()));
-  const double periods = fading / slowest * fastest / (2 * std::numbers::pi);
+  const double periods = faded / slowest * fastest / (2 * std::numbers::pi);
   return static_cast<int>(periods > 0 ? std::clamp(steps_of_a_period * periods, least, most)
                                       : most);
 }

@@ -92,8 +92,8 @@ TEST(LowestWay, GoesOverOtherStatesWhereTheirSaddlesAreLower) {
   EXPECT_EQ(report.escapes[2].to, 2);
 }
 
-/// The bar of a von Mises truss hardens by many orders of magnitude once it is pushed through.
-class HardeningCurve : public io::CaseFiles {};
+/// A slide whose spring hardens by nine orders of magnitude within the range of its load.
+using HardeningCurve = io::CaseFiles;
 
 const std::string hardening = R"(
 [[body]]
@@ -153,7 +153,8 @@ load = [0.1, 0]
 )";
   const auto run = [&](const std::string& until) {
     const io::Case c = load(text + until);
-    return run_study(c.runs.at(0).mechanism, c.runs.at(0).plan, c.runs.at(0).family_or_none());
+    const io::PlannedRun& planned = c.runs.at(0);
+    return run_study(planned.mechanism, planned.plan, &planned.family.value());
   };
   EXPECT_TRUE(complete(run("until = { lambda = [0.5, 2] }\n")));
   const StudyResult falling = run("until = { lambda = [-1, 2] }\n");
