@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "resting.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -144,6 +145,95 @@ class Walk {
   Descent result_{};
 };
 
+/// What the modes of one piece say of a state of rest.
+struct PieceModes {
+  Index index = 0;
+  double softest = 0;
+  bool is_clear = true;
+};
+
+PieceModes modes_on(const Ground& ground) {
+  if (ground.hessian.size() == 0) return {};
+  const Vector k_i = symmetric_eigenvalues(ground.hessian);
+  const double stiffest = k_i.cwiseAbs().maxCoeff();
+  const double zero =
+      zero_part * std::clamp(stiffest, least_unit, largest_unit) + rounding_part * stiffest;
+  return {(k_i.array() < -zero).count(), k_i[0], (k_i.array().abs() > zero).all()};
+}
+
+/// Numbers of the unknowns that the switches are but for a constant; nothing where one is none.
+std::optional<std::vector<Index>> coordinates_of(const Terrain& terrain, const Vector& x,
+                                                 const std::vector<std::size_t>& resting) {
+  Matrix dg;
+  Vector dg_dlambda;
+  if (!terrain.problem.switch_gradients(x, terrain.lambda, dg, dg_dlambda)) return std::nullopt;
+  std::vector<Index> list;
+  for (const std::size_t j : resting) {
+    const auto row = dg.row(static_cast<Index>(j));
+    if ((row.array() != 0).count() != 1) return std::nullopt;
+    Index i = 0;
+    row.cwiseAbs().maxCoeff(&i);
+    if (row[i] != 1) return std::nullopt;
+    list.push_back(i);
+  }
+  return list;
+}
+
+/// All pieces beside a state at which springs rest, together; nothing where they do not decide it.
+std::optional<Index> index_on_cones(const Landscape& landscape, const Ground& at,
+                                    const std::vector<Piece>& pieces) {
+  const Terrain& terrain = landscape.terrain();
+  std::vector<std::size_t> resting;
+  for (std::size_t j = 0; j < at.piece.size(); ++j)
+    if (std::any_of(pieces.begin(), pieces.end(),
+                    [&](const Piece& other) { return other[j] != at.piece[j]; }))
+      resting.push_back(j);
+  const auto coordinates = coordinates_of(terrain, at.x, resting);
+  if (!coordinates) return std::nullopt;
+  const auto matrix = [&](const Piece& piece) -> std::optional<Matrix> {
+    Matrix A;
+    Vector b;
+    if (!terrain.problem.derivatives(at.x, terrain.lambda, piece, A, b)) return std::nullopt;
+    return A;
+  };
+  const auto decided = resting_index(matrix, at.piece, resting, *coordinates,
+                                     static_cast<Index>(landscape.multipliers().size()));
+  if (!decided || decided->verdict == Definiteness::undecided) return std::nullopt;
+  return static_cast<Index>(decided->index());
+}
+
+/// Modes of a state of rest. Where springs rest at their thresholds it is a minimum only if the energy rises in every
+/// piece beside it; a saddle then stands on the piece with most unstable modes.
+std::optional<RestState> judged(const Landscape& landscape, const Vector& x,
+                                const std::vector<Piece>& pieces) {
+  std::optional<RestState> state;
+  std::optional<Ground> first;
+  for (const Piece& piece : pieces) {
+    const auto ground = landscape.ground_on(x, piece);
+    if (!ground) return std::nullopt;
+    if (!first) first = ground;
+    const PieceModes modes = modes_on(*ground);
+    if (!state) {
+      state = RestState{x, piece, landscape.energy(x), modes.index, modes.softest, modes.is_clear};
+      continue;
+    }
+    if (modes.index > state->index) {
+      state->index = modes.index;
+      state->piece = piece;
+    }
+    state->softest = std::min(state->softest, modes.softest);
+    state->is_clear &= modes.is_clear;
+  }
+  if (!state || pieces.size() == 1 || (state->index == 0 && state->is_clear)) return state;
+  // Pieces that are no minima may have no room beside the state for their unstable modes.
+  if (const auto index = index_on_cones(landscape, *first, pieces)) {
+    state->index = *index;
+    state->is_clear = true;
+    if (*index == 0) state->piece = pieces.front();
+  }
+  return state;
+}
+
 }  // namespace
 
 std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) {
@@ -162,29 +252,14 @@ std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) 
     if (!converged(solved)) return std::nullopt;
     if ((solved.x - at->x)(landscape.moving()).lpNorm<Eigen::Infinity>() > polishing_reach)
       return std::nullopt;
-    const auto there = landscape.piece_at(solved.x);
-    if (!there) return std::nullopt;
-    Vector g;
-    const bool on_surface = terrain.problem.switches(solved.x, terrain.lambda, g) && g.size() > 0 &&
-                            g.cwiseAbs().minCoeff() < 1e-10;
-    if (*there != piece && !on_surface) {
-      piece = *there;
+    const std::vector<Piece> there = landscape.pieces_beside(solved.x);
+    if (there.empty()) return std::nullopt;
+    if (std::find(there.begin(), there.end(), piece) == there.end()) {
+      piece = there.front();
       from = solved.x;
       continue;
     }
-    const auto ground = landscape.ground_on(solved.x, *there);
-    if (!ground) return std::nullopt;
-    RestState state{solved.x, *there, landscape.energy(solved.x), 0, 0, true};
-    if (ground->hessian.size() > 0) {
-      const Vector k_i = symmetric_eigenvalues(ground->hessian);
-      const double stiffest = k_i.cwiseAbs().maxCoeff();
-      const double zero =
-          zero_part * std::clamp(stiffest, least_unit, largest_unit) + rounding_part * stiffest;
-      state.index = (k_i.array() < -zero).count();
-      state.softest = k_i[0];
-      state.is_clear = (k_i.array().abs() > zero).all();
-    }
-    return state;
+    return judged(landscape, solved.x, there);
   }
   return std::nullopt;
 }

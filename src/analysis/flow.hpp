@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "descent.hpp"
@@ -26,6 +27,8 @@ struct Motion {
 struct FlowOptions {
   double relative = 1e-8, absolute = 1e-11;  ///< error of a step
   int most_steps = 20000;
+  bool keep_way = false;
+  std::function<bool()> goes_on{};  ///< asked now and then; false: the motion is given up
 };
 
 struct Flow {
@@ -45,6 +48,8 @@ struct Flow {
   double closure = 0;          ///< largest gap of the closures on the way
   std::vector<Index> switched{};  ///< switches that changed side, in order
   int steps = 0;
+  std::vector<std::pair<double, Vector>>
+      way{};  ///< times and states of all steps, if they are wanted
 };
 
 /// Right-hand side of x' = f(x), or of (x, v)' with masses, on one piece.

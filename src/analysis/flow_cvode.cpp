@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
 
 #include "flow.hpp"
+#include "springfold/core/c_handles.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -88,29 +87,6 @@ int root_callback(double, N_Vector y, double* g, void* user) {
 
 void ignore_messages(int, const char*, const char*, char*, void*) {}
 
-template <class T, class Free>
-auto owned(T* pointer, Free free) {
-  return std::unique_ptr<std::remove_pointer_t<T*>, Free>(pointer, free);
-}
-
-/// What could not be made for want of memory; the library itself would go on with nothing.
-template <class T>
-T* made(T* pointer) {
-  if (pointer == nullptr) throw std::bad_alloc{};
-  return pointer;
-}
-
-/// Calls that prepare fail for want of memory only.
-void prepared(int flag) {
-  if (flag < 0) throw std::bad_alloc{};
-}
-
-/// SUNDIALS does not look whether there is memory for a context, so there must be.
-void require_room() {
-  constexpr std::size_t context = 1U << 16U;
-  ::operator delete(::operator new(context));
-}
-
 N_Vector cloned(N_Vector vector) { return made(N_VClone_Serial(vector)); }
 SUNMatrix cloned_matrix(SUNMatrix matrix) { return made(SUNMatClone_Dense(matrix)); }
 
@@ -136,7 +112,7 @@ class Integrator {
       return flow_;
     }
     SUNContext context = nullptr;
-    require_room();
+    require_room_for_context();
     prepared(SUNContext_Create(nullptr, &context) == 0 ? 0 : -1);
     const auto holder = owned(context, [](SUNContext c) { SUNContext_Free(&c); });
     const auto n = static_cast<sunindextype>(data_.size());
@@ -164,15 +140,19 @@ class Integrator {
  private:
   void integrate(void* cvode, N_Vector y) {
     constexpr double far = 1e12;
+    constexpr int now_and_then = 64;
     double t = 0;
     for (flow_.steps = 0; flow_.steps < options_.most_steps; ++flow_.steps) {
+      if (options_.goes_on && flow_.steps % now_and_then == 0 && !options_.goes_on()) return;
       const int flag = CVode(cvode, far, y, &t, CV_ONE_STEP);
       if (flag < 0) return;
       const Vector state = view(y);
       flow_.time = t;
       flow_.dissipated = state[state.size() - 1];
       if (flag == CV_ROOT_RETURN && !pass_root(cvode, y, t)) return;
-      if (!observe(state)) return;
+      const bool goes_on = observe(state);
+      if (options_.keep_way) flow_.way.emplace_back(t, data_.x);
+      if (!goes_on) return;
     }
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "springfold/core/decompositions.hpp"
 
@@ -37,6 +39,28 @@ double critical_factor(const Matrix& K, const Matrix& M, const Matrix& D) {
   const SymmetricEigen modes = symmetric_eigen(Matrix(root * K * root));
   const Vector v = root * modes.vectors.col(0);
   return 2 * std::sqrt(modes.values[0]) / v.dot(D * v);
+}
+
+/// Steps that the integration may take: what a motion near the landing needs until its slowest mode has faded, while
+/// the fastest one swings on. Stiffness, masses and dampers along all motions.
+int steps_until_rest(const Matrix& K, const Matrix& M, const Matrix& D) {
+  constexpr double steps_of_a_period = 400;  // backward differentiation at 1e-8 takes half of it
+  constexpr double faded = 14;               // logarithm of the amplitude over that of near rest
+  constexpr double least = 20000, most = 5e6;
+  const SymmetricEigen mass = symmetric_eigen(M);
+  const Matrix root =
+      mass.vectors * mass.values.cwiseSqrt().cwiseInverse().asDiagonal() * mass.vectors.transpose();
+  const SymmetricEigen modes = symmetric_eigen(Matrix(root * K * root));
+  double slowest = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < modes.values.size(); ++i) {
+    const Vector v = root * modes.vectors.col(i);
+    const double damping = v.dot(D * v);
+    slowest = std::min(slowest, std::min(damping / 2, modes.values[i] / damping));
+  }
+  const double fastest = std::sqrt(std::max(0.0, modes.values.maxCoeff()));
+  const double periods = faded / slowest * fastest / (2 * std::numbers::pi);
+  return static_cast<int>(periods > 0 ? std::clamp(steps_of_a_period * periods, least, most)
+                                      : most);
 }
 
 /// The dampers that are named, and no others, of the moving unknowns.
@@ -89,7 +113,7 @@ InertialMotion::End end_of(Flow::End end) {
 
 Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
                          const InertialSettings& settings, const Vector& from,
-                         const RestState* overdamped) {
+                         const RestState* overdamped, const std::function<bool()>& goes_on) {
   Inertial result;
   const Masses masses(frozen);
   const auto at = frozen.landscape().ground(from);
@@ -104,20 +128,25 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
   }
   const double time = std::sqrt(masses.largest() * scales.length / scales.force);
   Terrain terrain = frozen.landscape().terrain();
+  const auto there = overdamped == nullptr
+                         ? std::nullopt
+                         : frozen.landscape().ground_on(overdamped->x, overdamped->piece);
+  const bool is_massive = there && massless(frozen, *there, masses.along_motions(*there)).empty();
   if (!settings.damping.empty()) {
     terrain.damping = named_dampers(frozen, scales, time, settings.damping);
   } else {
-    const auto there = overdamped == nullptr
-                           ? std::nullopt
-                           : frozen.landscape().ground_on(overdamped->x, overdamped->piece);
-    if (!there || !massless(frozen, *there, masses.along_motions(*there)).empty()) return result;
+    if (!is_massive) return result;
     terrain.damping *=
         settings.damping_ratio * critical_factor(there->hessian, masses.along_motions(*there),
                                                  frozen.landscape().damping(*there));
   }
   const Landscape landscape(std::move(terrain));
-  const Flow flow =
-      flow_by_cvode({landscape, [&masses](const Vector& x) { return masses.at(x); }}, from);
+  FlowOptions options{.goes_on = goes_on};
+  if (is_massive)
+    options.most_steps =
+        steps_until_rest(there->hessian, masses.along_motions(*there), landscape.damping(*there));
+  const Flow flow = flow_by_cvode({landscape, [&masses](const Vector& x) { return masses.at(x); }},
+                                  from, options);
   InertialMotion& motion = result.motion;
   motion.end = end_of(flow.end);
   if (flow.end == Flow::End::rest) result.landing = flow.state;

@@ -38,8 +38,9 @@ struct Inertial {
 
 /// @param from  after the push, at rest
 /// @param overdamped  the landing whose softest mode sets the damping; null: none
+/// @param goes_on     asked now and then; false: the motion is given up
 Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
                          const InertialSettings& settings, const Vector& from,
-                         const RestState* overdamped);
+                         const RestState* overdamped, const std::function<bool()>& goes_on = {});
 
 }  // namespace springfold::analysis

@@ -1,6 +1,7 @@
 #include "landscape.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "springfold/core/decompositions.hpp"
 
@@ -11,6 +12,10 @@ namespace {
 constexpr double closed = 1e-13;
 /// Two states of one equilibrium, both polished to about 1e-12, are much nearer than this.
 constexpr double near = 1e-7;
+/// A switch nearer to zero than this rests at its threshold: both are solved to about 1e-12. As for special points.
+constexpr double at_threshold = 1e-10;
+/// Where more springs rest at once, their pieces are too many to be looked at.
+constexpr std::size_t most_resting = 6;
 
 }  // namespace
 
@@ -27,6 +32,26 @@ std::optional<Piece> Landscape::piece_at(const Vector& x) const {
   for (Index j = 0; j < g.size(); ++j)
     if (g[j] < 0) piece[static_cast<std::size_t>(j)] = -1;
   return piece;
+}
+
+std::vector<Piece> Landscape::pieces_beside(const Vector& x) const {
+  Vector g;
+  if (!terrain_.problem.switches(x, terrain_.lambda, g)) return {};
+  Piece own(static_cast<std::size_t>(g.size()), std::int8_t{1});
+  std::vector<std::size_t> resting;
+  for (Index j = 0; j < g.size(); ++j) {
+    if (g[j] < 0) own[static_cast<std::size_t>(j)] = -1;
+    if (std::abs(g[j]) <= at_threshold) resting.push_back(static_cast<std::size_t>(j));
+  }
+  std::vector<Piece> pieces{own};
+  if (resting.empty() || resting.size() > most_resting) return pieces;
+  for (std::size_t sides = 0; sides < (std::size_t{1} << resting.size()); ++sides) {
+    Piece piece = own;
+    for (std::size_t k = 0; k < resting.size(); ++k)
+      piece[resting[k]] = static_cast<std::int8_t>((sides >> k & 1U) != 0 ? 1 : -1);
+    if (piece != own) pieces.push_back(std::move(piece));
+  }
+  return pieces;
 }
 
 bool Landscape::close(Vector& x) const {
@@ -86,6 +111,21 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
   at.hessian = at.motions.transpose() * H * at.motions;
   at.hessian = (at.hessian + at.hessian.transpose()).eval() / 2;
   return at;
+}
+
+std::optional<Ground> Landscape::softest_ground(const Vector& x) const {
+  std::optional<Ground> softest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_beside(x)) {
+    auto at = ground_on(x, piece);
+    if (!at) continue;
+    const double stiffness = at->hessian.size() > 0 ? symmetric_eigenvalues(at->hessian)[0] : least;
+    // Pieces that differ by rounding are alike: the first one stands.
+    if (softest && !(stiffness < least - at_threshold * std::max(1.0, std::abs(least)))) continue;
+    least = stiffness;
+    softest = std::move(at);
+  }
+  return softest;
 }
 
 bool Landscape::same(const Vector& a, const Vector& b) const {

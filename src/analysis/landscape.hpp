@@ -45,6 +45,9 @@ class Landscape {
 
   /// Signs of the switches; zero counts as above.
   std::optional<Piece> piece_at(const Vector& x) const;
+  /// All pieces that meet in a state, that of `piece_at` first: of up to 2^6 where springs rest at their thresholds.
+  /// Empty outside of the domain.
+  std::vector<Piece> pieces_beside(const Vector& x) const;
   double energy(const Vector& x) const { return terrain_.energy(x); }
   /// Nearest state that obeys the closures to rounding, by Newton's method of least norm.
   /// @returns false where there is none near
@@ -53,6 +56,8 @@ class Landscape {
   std::optional<Ground> ground(const Vector& x) const;
   /// The same on a piece that is named, whatever the signs of the switches are.
   std::optional<Ground> ground_on(const Vector& x, const Piece& piece) const;
+  /// The same on that piece of those beside the state that has the softest mode.
+  std::optional<Ground> softest_ground(const Vector& x) const;
   bool same(const Vector& a, const Vector& b) const;
   /// x moved by `step` along the motions of `at`, closed again.
   std::optional<Vector> moved(const Ground& at, const Vector& step) const;

@@ -11,6 +11,7 @@
 #include "equilibria.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
+#include "parameter_rules.hpp"
 #include "put_to_rest.hpp"
 #include "run_kinds.hpp"
 #include "run_traced.hpp"
@@ -230,6 +231,7 @@ namespace {
 struct Begun {
   const model::Mechanism& mechanism;
   const Study& study;
+  const ParameterFamily* family;
   const Observer& observer;
   const TraceBy& trace_by;
   const statics::FirstEquilibrium& first;
@@ -240,6 +242,13 @@ void report_start(const Evaluator& evaluator, const CurvePoint& start, StartRepo
   report.compliance = evaluator.rigid_compliance(start);
   report.sides = sides_of_start(evaluator, start);
   report.chain_stiffnesses = evaluator.chain_stiffnesses(start);
+}
+
+/// Has the unit of lambda judged by how steep the curve is at the start; where several curves leave it, none is asked.
+void watch_lambda(const Tracing& t, const CurvePoint& start) {
+  const auto rays =
+      rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
+  if (rays.rays.size() == 2 && rays.complete) t.crawl.begin(rays.rays.front().tangent);
 }
 
 /// @param setup    begins at the start
@@ -266,10 +275,13 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
     result.start.situation = situation_of(tracing, start, {});
     result.branches.push_back(single_point(start, evaluator, quantities, problem));
   } else if (begun.trace_by) {
+    watch_lambda(tracing, start);
     begun.trace_by(tracing, setup.scales, start, result);
   } else {
     trace_study(tracing, start, result);
   }
+  if (begun.family != nullptr && study.control == ControlMode::parameter && crawl.factor() == 1)
+    doubt_broken_rules(study, *begun.family, quantities, result);
   if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
   return crawl.factor();
 }
@@ -294,7 +306,7 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const Begun begun{mechanism, study, observer, trace_by, first};
+    const Begun begun{mechanism, study, family, observer, trace_by, first};
     double largest = largest_change_of_lambda_unit;
     for (;;) {
       StudyResult attempt = result;

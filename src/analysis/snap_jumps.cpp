@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "branch_rows.hpp"
 #include "fall.hpp"
@@ -15,6 +14,7 @@
 #include "springfold/analysis/event_rows.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "start.hpp"
+#include "switched_springs.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -25,20 +25,6 @@ using Kind = QuantityDefinition::Kind;
 /// Between very many states a jump asks only whether there is more than one landing: the search ends with as many
 /// states of rest, and goes on only where they do not answer that.
 constexpr int few_states = 12;
-
-bool may_lose_stability(const Event& event) {
-  switch (event.kind) {
-    case EventKind::limit_point:
-    case EventKind::branch_point:
-    case EventKind::switching:
-    case EventKind::corner_limit_point:
-    case EventKind::branching_kink:
-    case EventKind::touch:
-      return true;
-    default:
-      return false;
-  }
-}
 
 /// States of rest of all traced branches at one lambda.
 class Jumper {
@@ -62,7 +48,8 @@ class Jumper {
     const Landscape& landscape = frozen.landscape();
     Vector critical = frozen.reduced(unknowns_in(at, t_.quantities, size_));
     if (!landscape.close(critical)) return doubt(event, "its closures do not hold");
-    const Departures ways = departures(landscape, critical, pieces_beside(frozen, branch, event));
+    const Departures ways =
+        departures(landscape, critical, pieces_beside(frozen, branch, event, critical));
     if (ways.is_flat)
       doubt(event, "the energy is flat there to rounding: whether it jumps is not decided");
     if (ways.list.empty()) return;
@@ -91,8 +78,8 @@ class Jumper {
         search(book, energy, StateSearch{}.maximum);
         down = fall(book, way, energy);
       }
-      settle(frozen, event, way, down, book);
-      write(frozen, critical, down, book, jump);
+      settle(frozen, event, way, down, book, jump);
+      write(frozen, state_of(frozen, branch, loss.stable_row), down, book, jump);
       if (settings_.inertia) move_with_masses(frozen, event, way, down, book, jump);
       findings_.report.jumps.push_back(std::move(jump));
     }
@@ -104,6 +91,10 @@ class Jumper {
         {.starts = settings_.starts, .seed = settings_.seed, .maximum = maximum, .bound = energy});
   }
 
+  std::function<bool()> goes_on() const {
+    return [this] { return !t_.observer || t_.observer(0, 0); };
+  }
+
   void doubt(const Event& event, const std::string& why) {
     findings_.doubts.push_back("the jump from " + event.label + ": " + why);
   }
@@ -111,9 +102,12 @@ class Jumper {
   /// Where several states may be reached, the landing is that of the overdamped motion; where one, that
   /// motion has to confirm it.
   void settle(const Frozen& frozen, const Event& event, const Departure& way, Fall& down,
-              StateBook& book) {
+              StateBook& book, Jump& jump) {
     if (!down.landing) return;
-    const Flow flow = flow_by_cvode({frozen.landscape()}, way.x);
+    const bool keep_way = !settings_.transitions;
+    const Flow flow =
+        flow_by_cvode({frozen.landscape()}, way.x, {.keep_way = keep_way, .goes_on = goes_on()});
+    if (keep_way) keep_motion(frozen, flow, jump);
     if (flow.end != Flow::End::rest) {
       if (down.verdict == SnapVerdict::unambiguous)
         doubt(event, "the overdamped motion was not integrated to a state of rest");
@@ -128,11 +122,33 @@ class Jumper {
     down.landing = reached;
   }
 
+  /// Moments of the motion at even lengths of way, both ends among them.
+  void keep_motion(const Frozen& frozen, const Flow& flow, Jump& jump) const {
+    constexpr double parts = 60;
+    const auto& moving = frozen.landscape().moving();
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < flow.way.size(); ++i)
+      lengths.push_back(i == 0 ? 0
+                               : lengths.back() +
+                                     (flow.way[i].second - flow.way[i - 1].second)(moving).norm());
+    double next = 0;
+    for (std::size_t i = 0; i < flow.way.size(); ++i) {
+      if (lengths[i] < next && i + 1 < flow.way.size()) continue;
+      next = lengths[i] + lengths.back() / parts;
+      const auto at = frozen.landscape().ground(flow.way[i].second);
+      if (!at) continue;
+      const double energy = frozen.landscape().energy(at->x);
+      jump.motion.push_back({flow.way[i].first, lengths[i],
+                             written(frozen, {.x = at->x, .piece = at->piece, .energy = energy})});
+    }
+  }
+
   /// The motion with masses; where the answer is unambiguous it has to end at the landing.
   void move_with_masses(const Frozen& frozen, const Event& event, const Departure& way,
                         const Fall& down, StateBook& book, Jump& jump) {
     const RestState* landing = down.landing ? &book.states()[*down.landing] : nullptr;
-    Inertial inertial = inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing);
+    Inertial inertial =
+        inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing, goes_on());
     if (inertial.landing) {
       inertial.motion.landing = written(frozen, *inertial.landing);
       inertial.motion.released = jump.critical.energy - inertial.motion.landing.energy;
@@ -145,38 +161,30 @@ class Jumper {
     jump.inertial = std::move(inertial.motion);
   }
 
-  std::vector<Piece> pieces_beside(const Frozen& frozen, const Branch& branch,
-                                   const Event& event) const {
+  Vector state_of(const Frozen& frozen, const Branch& branch, std::size_t row) const {
+    return frozen.reduced(unknowns_in(branch.samples[row].values, t_.quantities, size_));
+  }
+
+  /// The pieces that meet in a special point, those of the branch's rows beside it first. The rows of a switching lie
+  /// on its surface: their own signs are rounding.
+  std::vector<Piece> pieces_beside(const Frozen& frozen, const Branch& branch, const Event& event,
+                                   const Vector& critical) const {
     std::vector<Piece> pieces;
-    const auto add = [&](std::size_t row) {
-      if (row >= branch.samples.size()) return;
-      const Vector x =
-          frozen.reduced(unknowns_in(branch.samples[row].values, t_.quantities, size_));
-      if (const auto piece = frozen.landscape().piece_at(x);
-          piece && std::find(pieces.begin(), pieces.end(), *piece) == pieces.end())
-        pieces.push_back(*piece);
+    const std::vector<Piece> meeting = frozen.landscape().pieces_beside(critical);
+    const auto add = [&](const Piece& piece) {
+      if (std::find(pieces.begin(), pieces.end(), piece) == pieces.end()) pieces.push_back(piece);
     };
-    if (!has_two_rows(branch, event)) {
-      add(event.row);
-      return pieces;
+    const auto add_row = [&](std::size_t row) {
+      if (row >= branch.samples.size()) return;
+      const auto piece = frozen.landscape().piece_at(state_of(frozen, branch, row));
+      // A row may lie beyond other switchings too.
+      if (piece && std::find(meeting.begin(), meeting.end(), *piece) != meeting.end()) add(*piece);
+    };
+    if (has_two_rows(branch, event)) {
+      if (event.row > 0) add_row(event.row - 1);
+      add_row(event.row + 2);
     }
-    // The rows of the switching itself lie on the surface: its neighbours tell the sides.
-    if (event.row > 0) add(event.row - 1);
-    add(event.row + 2);
-    if (pieces.size() == 1) {
-      // Branches that end there: the other side has the active switches' signs changed.
-      const Vector x =
-          frozen.reduced(unknowns_in(branch.samples[event.row].values, t_.quantities, size_));
-      Vector g;
-      Piece other = pieces.front();
-      if (frozen.problem().switches(x, 0, g))
-        for (Index j = 0; j < g.size(); ++j)
-          if (std::abs(g[j]) < 1e-9) {
-            auto& sign = other[static_cast<std::size_t>(j)];
-            sign = static_cast<std::int8_t>(-sign);
-          }
-      pieces.push_back(other);
-    }
+    for (const Piece& piece : meeting) add(piece);
     return pieces;
   }
 
@@ -253,7 +261,8 @@ class Jumper {
     return result;
   }
 
-  void write(const Frozen& frozen, const Vector& critical, const Fall& fall, const StateBook& book,
+  /// @param before  a state on the stable side of the point that is left
+  void write(const Frozen& frozen, const Vector& before, const Fall& fall, const StateBook& book,
              Jump& jump) {
     jump.verdict = fall.verdict;
     jump.may_run_away = fall.may_run_away;
@@ -266,10 +275,7 @@ class Jumper {
     jump.landing = written(frozen, landing);
     jump.released = jump.critical.energy - jump.landing.energy;
     jump.time_scale = time_scale(frozen, landing);
-    const auto before = frozen.landscape().piece_at(critical);
-    for (std::size_t j = 0; before && j < landing.piece.size(); ++j)
-      if ((*before)[j] != landing.piece[j])
-        jump.switches.push_back(t_.problem.switch_name(static_cast<Index>(j)));
+    jump.switches = switched_springs(t_.problem, frozen, before, landing);
     const Vector start =
         unknowns_in(result_.branches.front().samples[result_.branches.front().start_row].values,
                     t_.quantities, size_);
@@ -305,39 +311,6 @@ class Jumper {
 };
 
 }  // namespace
-
-std::vector<Loss> losses_of(const StudyResult& result,
-                            const std::vector<QuantityDefinition>& quantities) {
-  const std::size_t index = column_of(Kind::index, quantities);
-  const std::size_t lambda = column_of(Kind::lambda, quantities);
-  std::vector<Loss> losses;
-  std::set<std::string> seen;
-  for (std::size_t b = 0; b < result.branches.size(); ++b) {
-    const Branch& branch = result.branches[b];
-    const auto value = [&](std::size_t row, std::size_t column) {
-      return row < branch.samples.size() ? branch.samples[row].values[column]
-                                         : std::numeric_limits<double>::quiet_NaN();
-    };
-    for (std::size_t e = 0; e < branch.events.size(); ++e) {
-      const Event& event = branch.events[e];
-      if (!may_lose_stability(event) || event.row == 0) continue;
-      const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
-      const double before = value(event.row - 1, index), after = value(last + 1, index);
-      const bool ends = last + 1 >= branch.samples.size();
-      const bool from_before = before == 0 && (after > 0 || ends);
-      const bool from_after = after == 0 && before > 0;
-      if (!from_before && !from_after) continue;
-      const double here = value(event.row, lambda);
-      const double stable = from_before ? value(event.row - 1, lambda) : value(last + 1, lambda);
-      const bool is_junction = event.kind == EventKind::branch_point ||
-                               event.kind == EventKind::branching_kink ||
-                               event.kind == EventKind::touch;
-      if (is_junction && !seen.insert(event.label).second) continue;
-      losses.push_back({b, e, here >= stable ? 1 : -1});
-    }
-  }
-  return losses;
-}
 
 void find_jumps_from(const std::vector<Loss>& losses, const Tracing& tracing, const Scales& scales,
                      const SnapSettings& settings, const StudyResult& result,

@@ -10,7 +10,8 @@ namespace springfold::analysis {
 /// A place on a traced branch at which stability under the study's control ends.
 struct Loss {
   std::size_t branch = 0, event = 0;
-  int loading = 1;  ///< +1: lambda grows towards it on the stable side
+  int loading = 1;             ///< +1: lambda grows towards it on the stable side
+  std::size_t stable_row = 0;  ///< the branch's row beside it on the stable side
 };
 
 /// Every special point with a stable side and an unstable one; points where branches meet once.

@@ -3,11 +3,33 @@
 #include <utility>
 
 #include "limits.hpp"
+#include "resting.hpp"
 #include "springfold/continuation/trace.hpp"
 
 namespace springfold::analysis {
 
 using continuation::CurvePoint;
+using continuation::StopReason;
+
+namespace {
+
+/// No limit of the study is met.
+bool ends(const continuation::Curve& curve) { return curve.stop != StopReason::event; }
+
+/// At a kink the curve goes on in several ways or in none, or it is no curve of its own beyond: what happens there is a
+/// matter of jumps and of handing over.
+bool ends_at_a_kink(const continuation::Curve& curve) {
+  return curve.stop == StopReason::observer || curve.stop == StopReason::several_ways ||
+         curve.stop == StopReason::no_way_out;
+}
+
+}  // namespace
+
+bool is_stable(const Tracing& t, const CurvePoint& point) {
+  if (const auto decided = t.evaluator.resting_index_of(QuantityDefinition::Kind::index, point))
+    return decided->verdict == Definiteness::positive;
+  return !point.negative || *point.negative == t.problem.closures();
+}
 
 std::optional<StableStretch> trace_stable(const Tracing& t,
                                           const continuation::DiagramStart& from) {
@@ -19,8 +41,8 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   const auto events = events_of(t.study, t.evaluator, t.quantities);
   const auto goes_on = [&t](double sign) {
     return [&t, sign](const CurvePoint& point) {
-      const bool stable = !point.negative || *point.negative == t.problem.closures();
-      return stable && sign * point.tangent.dlambda > 0;
+      if (t.crawl.sees(point) || (t.observer && !t.observer(0, sign * point.s))) return false;
+      return is_stable(t, point) && sign * point.tangent.dlambda > 0;
     };
   };
   CurvePoint start;
@@ -38,15 +60,11 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   source.backward = follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
-  const Stop ends{"a stable stretch ends: it is followed no further", true};
-  if (source.forward.stop == continuation::StopReason::observer) {
-    source.forward_stop = ends;
-    stretch.ends_high = true;
-  }
-  if (source.backward.stop == continuation::StopReason::observer) {
-    source.backward_stop = ends;
-    stretch.ends_low = true;
-  }
+  const Stop over{"a stable stretch ends: it is followed no further", true};
+  stretch.ends_high = ends(source.forward);
+  stretch.ends_low = ends(source.backward);
+  if (ends_at_a_kink(source.forward)) source.forward_stop = over;
+  if (ends_at_a_kink(source.backward)) source.backward_stop = over;
   stretch.rows = join(std::move(source), t.evaluator, t.quantities, t.problem);
   return stretch;
 }

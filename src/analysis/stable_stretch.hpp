@@ -7,8 +7,12 @@ namespace springfold::analysis {
 
 struct StableStretch {
   BranchRows rows{};
-  bool ends_low = false, ends_high = false;  ///< stability or the growth of lambda ends there
+  /// Stability, the growth of lambda or the curve itself ends there, and not the study's range.
+  bool ends_low = false, ends_high = false;
 };
+
+/// No unstable mode; where springs rest at their thresholds, in no piece beside the state.
+bool is_stable(const Tracing& tracing, const continuation::CurvePoint& point);
 
 /// Traces from a stable state. Beyond each end there is one row more.
 /// @returns nothing where not one curve leads through the state

@@ -53,6 +53,7 @@ WaysDown StateBook::ways_down(const Vector& x, int depth) {
 void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
+  // Where springs rest the modes of one piece may lead into another one, where the energy rises: energies decide.
   bool is_left = false;
   const SymmetricEigen modes = symmetric_eigen(at->hessian);
   for (Index i = 0; i < std::max<Index>(1, state.index); ++i)

@@ -116,12 +116,20 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
           ->type_name("LABEL");
   const auto to =
       animate.add_option("--to", arguments.film_to, "End at this one")->type_name("LABEL");
+  const auto mode =
+      animate
+          .add_option("--mode", arguments.film_mode,
+                      "To and fro in the mode of this limit point instead of along the curve")
+          ->type_name("LABEL")
+          ->excludes(from)
+          ->excludes(to);
   animate
-      .add_option("--mode", arguments.film_mode,
-                  "To and fro in the mode of this limit point instead of along the curve")
+      .add_option("--jump", arguments.film_jump,
+                  "The jump of this label to its landing instead of along the curve")
       ->type_name("LABEL")
       ->excludes(from)
-      ->excludes(to);
+      ->excludes(to)
+      ->excludes(mode);
   constexpr int fewest = 2, most = 100;  // more make large files that look the same
   animate.add_option("--frames", arguments.frames, "At most as many pictures (60)")
       ->type_name("N")

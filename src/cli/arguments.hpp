@@ -32,6 +32,7 @@ struct Arguments {
   int run_number = 1;                                   ///< draw, animate: --run
   std::string film_from{}, film_to{};                   ///< animate: --from, --to
   std::string film_mode{};                              ///< animate: --mode
+  std::string film_jump{};                              ///< animate: --jump
   int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
   bool prints_csv = false;                     ///< verify only

@@ -24,20 +24,32 @@ std::optional<double> number_in(std::string_view field) {
   return value;
 }
 
-}  // namespace
-
-std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems) {
-  std::vector<CsvPoint> points;
+/// A line with something on it, without what follows a `#`.
+struct ContentLine {
+  std::string_view whole{}, content{};
   int number = 0;
-  bool first = true;
-  const std::string_view text{file.text};
+};
+
+std::vector<ContentLine> content_lines(std::string_view text) {
+  std::vector<ContentLine> lines;
+  int number = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = text.substr(at, end - at);
     at = end + 1;
     ++number;
     const std::string_view content = trimmed(line.substr(0, line.find('#')));
-    if (content.empty()) continue;
+    if (!content.empty()) lines.push_back({line, content, number});
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems) {
+  std::vector<CsvPoint> points;
+  bool first = true;
+  for (const auto& [line, content, number] : content_lines(file.text)) {
     const bool may_be_words = first;
     first = false;
     const std::size_t comma = content.find(',');
@@ -53,6 +65,21 @@ std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems) 
     }
   }
   return points;
+}
+
+std::vector<CsvNumber> read_csv_numbers(const TextFile& file, const std::string& what,
+                                        Problems& problems) {
+  std::vector<CsvNumber> numbers;
+  bool first = true;
+  for (const auto& [line, content, number] : content_lines(file.text)) {
+    const bool may_be_words = first && content.find(',') == std::string_view::npos;
+    first = false;
+    if (const auto value = number_in(content))
+      numbers.push_back({*value, number});
+    else if (!may_be_words)
+      problems.add({file.shown_name, number, 1}, "", "need one number: " + what);
+  }
+  return numbers;
 }
 
 }  // namespace springfold::io

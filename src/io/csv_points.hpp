@@ -1,6 +1,7 @@
-// Pairs of numbers in a file of comma-separated values.
+// Numbers, and pairs of them, in a file of comma-separated values.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "table_reader.hpp"
@@ -15,5 +16,14 @@ struct CsvPoint {
 /// One pair per line; blank lines and what follows a `#` do not count, nor a first line of words. Reports other
 /// lines.
 std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems);
+
+struct CsvNumber {
+  double value = 0;
+  int line = 0;
+};
+
+/// One number per line, otherwise as above. @param what  that the numbers are, in messages
+std::vector<CsvNumber> read_csv_numbers(const TextFile& file, const std::string& what,
+                                        Problems& problems);
 
 }  // namespace springfold::io

@@ -6,6 +6,7 @@
 
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -17,8 +18,6 @@ using analysis::LoadCycle;
 using analysis::StudyResult;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr int digits = 10;
-constexpr std::size_t label_width = 14;  // of the label column of the summary
 const std::string level_word = "level ";
 
 const LoadCycle* cycle_of(const StudyResult& result) {
@@ -31,19 +30,15 @@ double column_value(const StudyResult& result, const analysis::SnapState& state,
   return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max(label.size(), label_width), ' ');
-  return "    " + label + text + "\n";
-}
-
 std::string step_text(const StudyResult& result, const CycleStep& step, const std::string& energy) {
-  const std::string lambda = "lambda = " + rounded(column_value(result, step.at, "lambda"), digits);
+  const std::string lambda =
+      "lambda = " + rounded(column_value(result, step.at, "lambda"), summary_digits);
   const std::string place = ", on branch " + std::to_string(step.at.branch);
   if (step.jump == 0)
-    return line(step.level == 0 ? "start" : level_word + std::to_string(step.level),
-                lambda + place);
-  return line("", "jump J" + std::to_string(step.jump) + " at " + lambda + ", released " +
-                      rounded(step.released, digits) + energy + place);
+    return summary_line(step.level == 0 ? "start" : level_word + std::to_string(step.level),
+                        lambda + place);
+  return summary_line("", "jump J" + std::to_string(step.jump) + " at " + lambda + ", released " +
+                              rounded(step.released, summary_digits) + energy + place);
 }
 
 }  // namespace
@@ -89,16 +84,18 @@ std::string cycle_lines(const StudyResult& result, const UnitLabels& units) {
   std::string text;
   for (const CycleStep& step : cycle->steps) text += step_text(result, step, energy);
   if (cycle->end != LoadCycle::End::complete)
-    text += line("cycle", "NOT COMPLETE, on the way to level " + std::to_string(cycle->level) +
-                              ": " + to_string(cycle->end));
+    text += summary_line("cycle", "NOT COMPLETE, on the way to level " +
+                                      std::to_string(cycle->level) + ": " + to_string(cycle->end));
   if (cycle->closed_with >= 0)
-    text += line("loop", rounded(cycle->loop, digits) + energy + ", released by its jumps " +
-                             rounded(cycle->loop_released, digits) + energy + ", difference " +
-                             rounded(cycle->loop - cycle->loop_released, 2) + energy);
-  text += line("cycle", std::to_string(cycle->jumps) + " jumps released " +
-                            rounded(cycle->released, digits) + energy + ", Pi changed by " +
-                            rounded(cycle->energy_change, digits) + energy + "; area less both " +
-                            rounded(cycle->gap, 2) + energy);
+    text += summary_line(
+        "loop", rounded(cycle->loop, summary_digits) + energy + ", released by its jumps " +
+                    rounded(cycle->loop_released, summary_digits) + energy + ", difference " +
+                    rounded(cycle->loop - cycle->loop_released, 2) + energy);
+  text +=
+      summary_line("cycle", std::to_string(cycle->jumps) + " jumps released " +
+                                rounded(cycle->released, summary_digits) + energy +
+                                ", Pi changed by " + rounded(cycle->energy_change, summary_digits) +
+                                energy + "; area less both " + rounded(cycle->gap, 2) + energy);
   return text;
 }
 

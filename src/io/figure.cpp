@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "label_layout.hpp"
+#include "motion_figure.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "stability_parts.hpp"
@@ -308,6 +309,12 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
       figures.push_back(std::move(figure));
     else if (is_wanted)
       problems.push_back("figure '" + spec.name + "': there is no point to draw");
+  }
+  for (const StudyResult& result : results) {
+    Figure figure = motion_figure(the_case, result);
+    if (figure.curves.empty() || !fit_axes(figure, false)) continue;
+    figure.name = names.make(figure.name);
+    figures.push_back(std::move(figure));
   }
   return figures;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/postures.hpp"
 
 namespace springfold::io {
@@ -185,6 +186,45 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitL
   return {.film = std::move(film)};
 }
 
+std::string jumps_of(const StudyResult& result) {
+  std::string list;
+  for (const analysis::Jump& jump : result.snap->jumps)
+    if (!jump.motion.empty()) list += (list.empty() ? "" : ", ") + jump.label;
+  return list.empty() ? "none" : list;
+}
+
+/// The motion after a loss of stability, with its energy over the length of its way.
+FilmOutcome jump(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
+                 const FilmWish& wish) {
+  if (!result.snap)
+    return {.problem =
+                result.study + " has no jumps: it needs kind = \"snap_through\" or snap = true"};
+  const auto& jumps = result.snap->jumps;
+  const auto found = std::find_if(jumps.begin(), jumps.end(), [&](const analysis::Jump& j) {
+    return j.label == wish.jump && !j.motion.empty();
+  });
+  if (found == jumps.end())
+    return {.problem = "there is no jump \"" + wish.jump + "\" with a motion to its landing in " +
+                       result.study + "; there are: " + jumps_of(result)};
+  const std::string energy = unit_label(analysis::Unit::energy, result.lambda_unit, units);
+  Film film{.heading = heading_of(result),
+            .diagram = {.x_name = "length of way",
+                        .y_name = "energy" + (energy.empty() ? "" : " [" + energy + "]")}};
+  constexpr std::size_t held = 7;
+  for (const analysis::SnapMoment& moment : found->motion) {
+    film.diagram.points.push_back({.x = moment.way, .y = moment.state.energy});
+    const analysis::Sample row{.values = moment.state.values, .piece = moment.state.piece};
+    auto panel = scenes.panel_of(row, wish.jump + " from " + found->from, units);
+    if (!panel) continue;
+    film.order.push_back(film.frames.size());
+    film.frames.push_back({std::move(*panel), film.diagram.points.size() - 1});
+  }
+  if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
+  film.order.insert(film.order.begin(), held, 0);
+  film.order.insert(film.order.end(), held, film.frames.size() - 1);
+  return {.film = std::move(film)};
+}
+
 }  // namespace
 
 FilmOutcome film_of(const PlannedRun& planned, const StudyResult& result, const UnitLabels& units,
@@ -194,11 +234,13 @@ FilmOutcome film_of(const PlannedRun& planned, const StudyResult& result, const 
     return {.problem = result.study +
                        ": a study of this kind has no branch of postures; "
                        "try springfold draw"};
+  if (!wish.jump.empty()) return jump(scenes, result, units, wish);
   return wish.mode.empty() ? way(scenes, result, units, wish) : mode(scenes, result, units, wish);
 }
 
 PlannedRun with_rows_for(const FilmWish& wish, PlannedRun planned, const StudyResult& result) {
-  if (result.branches.empty() || result.branches.front().samples.size() < 2) return planned;
+  if (!wish.jump.empty() || result.branches.empty() || result.branches.front().samples.size() < 2)
+    return planned;
   const Branch& branch = result.branches.front();
   const auto from = row_of(branch, wish.from, 0);
   const auto to = row_of(branch, wish.to, branch.samples.size() - 1);

@@ -33,4 +33,7 @@ nlohmann::ordered_json jumps_json(const analysis::StudyResult& result);
 /// All jumps of all runs, one row each.
 std::string jumps_csv(const std::vector<analysis::StudyResult>& results);
 
+/// All moments of the motions of all jumps, one row each; empty if there are none.
+std::string motions_csv(const std::vector<analysis::StudyResult>& results);
+
 }  // namespace springfold::io

@@ -6,6 +6,7 @@
 #include "jump_access.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
 
@@ -17,14 +18,6 @@ using analysis::InertialMotion;
 using analysis::Jump;
 using analysis::SnapState;
 using analysis::StudyResult;
-
-constexpr int digits = 10;
-constexpr std::size_t label_width = 14;  // of the label column of the summary
-
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max(label.size(), label_width), ' ');
-  return "    " + label + text + "\n";
-}
 
 double value_of(const StudyResult& result, const SnapState& state, std::string_view name) {
   const auto column = column_of(result, name);
@@ -44,7 +37,7 @@ std::string pose_text(const StudyResult& result, const SnapState& state) {
                         coordinates.end())
       continue;
     text += (text.empty() ? "" : ", ") + name + " = " +
-            rounded(shown_value(result, state.values, i), digits);
+            rounded(shown_value(result, state.values, i), summary_digits);
   }
   return text;
 }
@@ -55,7 +48,7 @@ std::string place_of(const SnapState& state) {
 
 std::string warning_text(const analysis::SnapWarning& warning) {
   constexpr double degree = 0.017453292519943295;
-  const std::string angle = rounded(warning.angle / degree, digits) + " degrees";
+  const std::string angle = rounded(warning.angle / degree, summary_digits) + " degrees";
   return warning.kind == analysis::SnapWarning::Kind::dead_point
              ? "WARNING: leg " + warning.coordinate + " lands at a dead point: " + angle
              : "WARNING: leg " + warning.coordinate + " lands beyond 90 degrees: " + angle;
@@ -65,17 +58,18 @@ std::string warning_text(const analysis::SnapWarning& warning) {
 std::string inertial_lines(const StudyResult& result, const InertialMotion& motion,
                            const std::string& energy) {
   if (motion.end == InertialMotion::End::no_mass)
-    return line("", "with masses: REFUSED, nothing with a mass moves" +
-                        (motion.massless.empty() ? "" : " with " + motion.massless));
+    return summary_line("", "with masses: REFUSED, nothing with a mass moves" +
+                                (motion.massless.empty() ? "" : " with " + motion.massless));
   if (motion.end == InertialMotion::End::no_end)
-    return line("", "with masses: not integrated to a state of rest");
-  std::string text = motion.end == InertialMotion::End::runs_away
-                         ? line("", "with masses it runs away")
-                         : line("", "with masses it lands " + place_of(motion.landing) + ": " +
-                                        pose_text(result, motion.landing) + ", released " +
-                                        rounded(motion.released, digits) + energy);
+    return summary_line("", "with masses: not integrated to a state of rest");
+  std::string text =
+      motion.end == InertialMotion::End::runs_away
+          ? summary_line("", "with masses it runs away")
+          : summary_line("", "with masses it lands " + place_of(motion.landing) + ": " +
+                                 pose_text(result, motion.landing) + ", released " +
+                                 rounded(motion.released, summary_digits) + energy);
   constexpr int few = 4;  // of what a motion of a certain push says
-  text += line(
+  text += summary_line(
       "", "peak speed " + rounded(motion.peak_speed, few) +
               (motion.peak_force_of.empty() ? ""
                                             : ", peak force " + rounded(motion.peak_force, few) +
@@ -87,34 +81,36 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
 
 std::string lines_of(const StudyResult& result, const Jump& jump, const std::string& energy) {
   const double lambda = value_of(result, jump.critical, "lambda");
-  std::string text =
-      line(jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
-                           ", lambda = " + rounded(lambda, digits) +
-                           (jump.loading > 0 ? " (rising): " : " (falling): ") +
-                           to_string(jump.verdict));
+  std::string text = summary_line(
+      jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
+                      ", lambda = " + rounded(lambda, summary_digits) +
+                      (jump.loading > 0 ? " (rising): " : " (falling): ") +
+                      to_string(jump.verdict));
   if (!jump.landing.values.empty()) {
-    text += line("", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
-    text += line("", "released " + rounded(jump.released, digits) + energy +
-                         ", overdamped time scale " + rounded(jump.time_scale, 4));
+    text += summary_line(
+        "", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
+    text += summary_line("", "released " + rounded(jump.released, summary_digits) + energy +
+                                 ", overdamped time scale " + rounded(jump.time_scale, 4));
   }
   for (const SnapState& other : jump.others)
-    text +=
-        line("", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
-                     rounded(jump.critical.energy - other.energy, digits) + energy);
+    text += summary_line(
+        "", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
+                rounded(jump.critical.energy - other.energy, summary_digits) + energy);
   if (jump.may_run_away && jump.verdict == analysis::SnapVerdict::depends)
-    text += line("", "or it runs away");
+    text += summary_line("", "or it runs away");
   if (jump.inertial) text += inertial_lines(result, *jump.inertial, energy);
-  for (const std::string& name : jump.switches) text += line("", "switches: " + name);
-  for (const auto& warning : jump.warnings) text += line("", warning_text(warning));
+  for (const std::string& name : jump.switches) text += summary_line("", "switches: " + name);
+  for (const auto& warning : jump.warnings) text += summary_line("", warning_text(warning));
   if (jump.back > 0) {
     const Jump& back = result.snap->jumps[static_cast<std::size_t>(jump.back - 1)];
-    text +=
-        line("", "leaves it again at " + back.from +
-                     ", lambda = " + rounded(value_of(result, back.critical, "lambda"), digits) +
-                     " (" + back.label + ")" +
-                     (std::isnan(jump.loop) ? ""
-                                            : "; the loop closes, " + rounded(jump.loop, digits) +
-                                                  energy + " lost in each"));
+    text += summary_line(
+        "",
+        "leaves it again at " + back.from +
+            ", lambda = " + rounded(value_of(result, back.critical, "lambda"), summary_digits) +
+            " (" + back.label + ")" +
+            (std::isnan(jump.loop) ? ""
+                                   : "; the loop closes, " + rounded(jump.loop, summary_digits) +
+                                         energy + " lost in each"));
   }
   return text;
 }
@@ -194,14 +190,16 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
   const analysis::SnapReport& report = *result.snap;
   const std::string energy = " " + unit_label(analysis::Unit::energy, result.lambda_unit, units);
   std::string text;
-  for (const std::string& refusal : report.refusals) text += line("jumps", "REFUSED: " + refusal);
+  for (const std::string& refusal : report.refusals)
+    text += summary_line("jumps", "REFUSED: " + refusal);
   if (report.jumps.empty() && report.refusals.empty())
-    text += line("jumps", "none: stability is nowhere lost to a jump");
+    text += summary_line("jumps", "none: stability is nowhere lost to a jump");
   for (const Jump& jump : report.jumps) text += lines_of(result, jump, energy);
   for (const auto& handover : report.handovers)
-    text += line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
-                                  " hands over to branch " + std::to_string(handover.next) +
-                                  (handover.towards.empty() ? "" : ", " + handover.towards));
+    text +=
+        summary_line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
+                                      " hands over to branch " + std::to_string(handover.next) +
+                                      (handover.towards.empty() ? "" : ", " + handover.towards));
   return text + cycle_lines(result, units) + transition_lines(result, units);
 }
 

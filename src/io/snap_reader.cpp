@@ -1,5 +1,7 @@
 #include "snap_reader.hpp"
 
+#include "csv_points.hpp"
+
 namespace springfold::io {
 namespace {
 
@@ -60,19 +62,48 @@ void read_inertia(const TableReader& snap, NumberTable& numbers, Reading& readin
         "goes with the dampers of the overdamped motion, need either it or damping");
 }
 
+/// Levels in a file, one per line.
+std::vector<NumberId> read_level_file(const TableReader& table, NumberTable& numbers,
+                                      Reading& reading) {
+  std::vector<NumberId> levels;
+  const auto name = table.required_text("file", "the name of a file beside the case");
+  const Node* node = table.find("file");
+  if (!name || !reading.files) return levels;
+  const auto text = reading.files(*name, node->place, table.key_of("file"));
+  if (!text) return levels;
+  const std::size_t before = reading.problems.size();
+  for (const CsvNumber& level : read_csv_numbers(*text, "a level of lambda", reading.problems))
+    levels.push_back(numbers.add({.constant = level.value,
+                                  .shown = "",
+                                  .place = {text->shown_name, level.line, 1},
+                                  .key = table.key_of("file")},
+                                 {Range::finite, ""}));
+  if (levels.empty() && reading.problems.size() == before)
+    reading.problems.add(node->place, table.key_of("file"),
+                         "has no levels, need one number per line");
+  return levels;
+}
+
 void read_levels(const TableReader& study, NumberTable& numbers, Reading& reading,
                  SnapDraft& draft) {
   const std::string example = "a table such as { levels = [1, -1], times = 2 }";
-  const TableReader table =
-      table_of(study, "cycle", draft.is_cycle, cycle_kind, example, {"levels", "times"}, reading);
+  const TableReader table = table_of(study, "cycle", draft.is_cycle, cycle_kind, example,
+                                     {"levels", "file", "times"}, reading);
   const std::string need = "a list of values of lambda";
-  draft.levels = read_numbers(table.list("levels", need), {}, numbers, reading);
+  if (table.has("levels") && table.has("file"))
+    reading.problems.add(table.find("file")->place, table.key_of("file"),
+                         "either levels or file, not both");
+  if (table.has("file"))
+    draft.levels = read_level_file(table, numbers, reading);
+  else
+    draft.levels = read_numbers(table.list("levels", need), {}, numbers, reading);
   draft.times =
       table.number("times", {Range::small_count, ""}, numbers, analysis::CycleSettings{}.times);
   if (draft.is_cycle && !study.has("cycle") && !study.is_misspelt("cycle"))
     study.require("cycle", example);
-  else if (draft.is_cycle && study.has("cycle") && draft.levels.empty() && !table.has("levels"))
-    table.require("levels", need);
+  else if (draft.is_cycle && study.has("cycle") && draft.levels.empty() && !table.has("levels") &&
+           !table.has("file"))
+    table.require("levels", need + ", or file");
 }
 
 void read_transitions(const TableReader& study, NumberTable& numbers, Reading& reading,

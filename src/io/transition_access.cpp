@@ -65,7 +65,7 @@ double whole_value(const TransitionReport& report, const std::string& quantity) 
   if (quantity == "lowest_barrier") {
     double lowest = nothing;
     for (const Barrier& b : report.barriers)
-      lowest = std::fmin(lowest, std::min(b.from_first, b.from_second));
+      lowest = std::fmin(lowest, std::fmin(b.from_first, b.from_second));
     return lowest;
   }
   return nothing;
@@ -102,7 +102,7 @@ double barrier_between(const TransitionReport& report, int from, int to, const B
   const double lambda = report.barriers.front().lambda;
   std::vector<const Barrier*> list;
   for (const Barrier& b : report.barriers)
-    if (b.lambda == lambda) list.push_back(&b);
+    if (b.lambda == lambda && b.second > 0) list.push_back(&b);
   std::stable_sort(list.begin(), list.end(), [](const Barrier* a, const Barrier* b) {
     return a->saddle.energy < b->saddle.energy;
   });

@@ -5,6 +5,7 @@
 
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
 
@@ -13,24 +14,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using analysis::Barrier;
+using analysis::Escape;
 using analysis::StableState;
 using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
-
-constexpr int digits = 10;
-constexpr std::size_t label_width = 14;  // of the label column of the summary
-
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max(label.size(), label_width), ' ');
-  return "    " + label + text + "\n";
-}
 
 const TransitionReport* report_of(const StudyResult& result) {
   return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
 }
 
 std::string name_of(int state) { return state > 0 ? "S" + std::to_string(state) : ""; }
+
+Json name_or_null(int state) { return state > 0 ? Json(name_of(state)) : Json(nullptr); }
 
 std::string memory_word(TransitionReport::Memory memory) {
   switch (memory) {
@@ -59,11 +55,12 @@ std::string state_line(const TransitionReport& report, std::size_t i) {
   const auto end = [&](int loading, bool is_limit) {
     return is_limit ? std::string{"the range ends"} : exits(report, number, loading);
   };
-  return line(s.label, "lambda " + rounded(s.low, digits) + " to " + rounded(s.high, digits) +
-                           "; down: " + end(-1, s.low_is_limit) +
-                           ", up: " + end(1, s.high_is_limit) +
-                           (s.is_garden_of_eden ? "; Garden of Eden: nothing leads here" : "") +
-                           (s.reached ? "" : "; not reached from S1"));
+  return summary_line(s.label,
+                      "lambda " + rounded(s.low, summary_digits) + " to " +
+                          rounded(s.high, summary_digits) + "; down: " + end(-1, s.low_is_limit) +
+                          ", up: " + end(1, s.high_is_limit) +
+                          (s.is_garden_of_eden ? "; Garden of Eden: nothing leads here" : "") +
+                          (s.reached ? "" : "; not reached from S1"));
 }
 
 std::string common(const StudyResult& result) {
@@ -100,9 +97,39 @@ Json json_of(const StudyResult& result, const Barrier& b) {
   Json values = Json::object();
   for (std::size_t i = 0; i < std::min(b.saddle.values.size(), result.quantities.size()); ++i)
     values[result.quantities[i].name] = b.saddle.values[i];
-  return {{"lambda", b.lambda},           {"first", name_of(b.first)},
-          {"second", name_of(b.second)},  {"from_first", b.from_first},
-          {"from_second", b.from_second}, {"saddle", values}};
+  return {{"lambda", b.lambda},
+          {"first", name_of(b.first)},
+          {"second", name_or_null(b.second)},
+          {"from_first", b.from_first},
+          {"from_second", b.from_second},
+          {"lowest_from_first", b.lowest_from_first},
+          {"lowest_from_second", b.lowest_from_second},
+          {"saddle", values}};
+}
+
+/// Both heights of a barrier; the state beyond may be none.
+std::string heights(double from_first, double from_second, const std::string& energy) {
+  return rounded(from_first, summary_digits) + energy +
+         (std::isnan(from_second) ? "" : " and " + rounded(from_second, summary_digits) + energy);
+}
+
+std::string barrier_line(const Barrier& b, const std::string& energy) {
+  std::string text = "barrier at lambda = " + rounded(b.lambda, summary_digits) + ": " +
+                     heights(b.from_first, b.from_second, energy);
+  // Not by rounding alone.
+  constexpr double clearly = 1e-9;
+  if (b.lowest_from_first < b.from_first * (1 - clearly))
+    text += "; the lowest way, over other states: " +
+            heights(b.lowest_from_first, b.lowest_from_second, energy);
+  return summary_line(name_of(b.first) + "-" + (b.second > 0 ? name_of(b.second) : "outside"),
+                      text);
+}
+
+std::string escape_line(const Escape& e, const std::string& energy) {
+  return summary_line(name_of(e.state),
+                      "escapes at lambda = " + rounded(e.lambda, summary_digits) + " over " +
+                          rounded(e.energy, summary_digits) + energy +
+                          (e.to > 0 ? " to " + name_of(e.to) : " to no state of the list"));
 }
 
 }  // namespace
@@ -119,42 +146,41 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
   const auto alternatives = std::count_if(report->transitions.begin(), report->transitions.end(),
                                           [](const Transition& t) { return t.is_alternative; });
   const auto own = std::ssize(report->transitions) - alternatives;
-  std::string text =
-      line("states", "at least " + std::to_string(report->states.size()) + " stable, " +
-                         count(&StableState::reached) + " reached from S1, " +
-                         count(&StableState::is_garden_of_eden) + " to which nothing leads; " +
-                         std::to_string(own) + " transitions");
+  std::string text = summary_line(
+      "states", "at least " + std::to_string(report->states.size()) + " stable, " +
+                    count(&StableState::reached) + " reached from S1, " +
+                    count(&StableState::is_garden_of_eden) + " to which nothing leads; " +
+                    std::to_string(own) + " transitions");
   if (alternatives > 0)
-    text += line(
+    text += summary_line(
         "", std::to_string(alternatives) + " more may take place with other damping or masses");
-  text += line("", report->is_closed ? "every transition within the range leads to one of them"
-                                     : "NOT CLOSED: a transition leads nowhere that is known");
-  if (report->limit_reached) text += line("", "NOT COMPLETE: as many states as allowed");
-  text += line("memory", "return-point memory " + memory_word(report->memory) + ", " +
-                             std::to_string(report->loops) + " loops gone through");
+  text +=
+      summary_line("", report->is_closed ? "every transition within the range leads to one of them"
+                                         : "NOT CLOSED: a transition leads nowhere that is known");
+  if (report->limit_reached) text += summary_line("", "NOT COMPLETE: as many states as allowed");
+  text += summary_line("memory", "return-point memory " + memory_word(report->memory) + ", " +
+                                     std::to_string(report->loops) + " loops gone through");
   for (std::size_t i = 0; i < std::min(most_lines, report->states.size()); ++i)
     text += state_line(*report, i);
   if (report->states.size() > most_lines)
-    text +=
-        line("", "and " + std::to_string(report->states.size() - most_lines) + " more: states.csv");
-  for (std::size_t i = 0; i < std::min(most_lines, report->barriers.size()); ++i) {
-    const Barrier& b = report->barriers[i];
-    text += line(name_of(b.first) + "-" + name_of(b.second),
-                 "barrier at lambda = " + rounded(b.lambda, digits) + ": " +
-                     rounded(b.from_first, digits) + energy + " and " +
-                     rounded(b.from_second, digits) + energy);
-  }
+    text += summary_line(
+        "", "and " + std::to_string(report->states.size() - most_lines) + " more: states.csv");
+  for (std::size_t i = 0; i < std::min(most_lines, report->barriers.size()); ++i)
+    text += barrier_line(report->barriers[i], energy);
+  for (std::size_t i = 0; i < std::min(most_lines, report->escapes.size()); ++i)
+    text += escape_line(report->escapes[i], energy);
   return text;
 }
 
 Json transitions_json(const StudyResult& result) {
   const TransitionReport* report = report_of(result);
   if (report == nullptr) return nullptr;
-  Json states = Json::array(), transitions = Json::array(), barriers = Json::array();
+  Json states = Json::array(), transitions = Json::array(), barriers = Json::array(),
+       escapes = Json::array();
   for (const StableState& s : report->states) states.push_back(json_of(s));
   for (const Transition& t : report->transitions)
     transitions.push_back({{"from", name_of(t.from)},
-                           {"to", t.to > 0 ? Json(name_of(t.to)) : Json(nullptr)},
+                           {"to", name_or_null(t.to)},
                            {"loading", t.loading},
                            {"lambda", t.lambda},
                            {"jump", t.jump},
@@ -162,9 +188,15 @@ Json transitions_json(const StudyResult& result) {
                            {"released", t.released},
                            {"alternative", t.is_alternative}});
   for (const Barrier& b : report->barriers) barriers.push_back(json_of(result, b));
+  for (const Escape& e : report->escapes)
+    escapes.push_back({{"lambda", e.lambda},
+                       {"state", name_of(e.state)},
+                       {"to", name_or_null(e.to)},
+                       {"energy", e.energy}});
   return {{"states", states},
           {"transitions", transitions},
           {"barriers", barriers},
+          {"escapes", escapes},
           {"is_closed", report->is_closed},
           {"limit_reached", report->limit_reached},
           {"memory", memory_word(report->memory)},
@@ -198,12 +230,13 @@ std::string transitions_csv(const std::vector<StudyResult>& results) {
 
 std::string barriers_csv(const std::vector<StudyResult>& results) {
   return with_rows(
-      "lambda,first,second,from_first,from_second", results,
+      "lambda,first,second,from_first,from_second,lowest_from_first,lowest_from_second", results,
       [](const StudyResult& result, const TransitionReport& report, std::string& rows) {
         for (const Barrier& b : report.barriers)
           rows += common(result) + csv_number(b.lambda) + "," + name_of(b.first) + "," +
                   name_of(b.second) + "," + csv_number(b.from_first) + "," +
-                  csv_number(b.from_second) + "\n";
+                  csv_number(b.from_second) + "," + csv_number(b.lowest_from_first) + "," +
+                  csv_number(b.lowest_from_second) + "\n";
       });
 }
 

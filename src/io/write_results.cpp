@@ -61,7 +61,8 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   files.push_back({"events.csv", events_csv(results)});
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
     files.push_back({"jumps.csv", jumps_csv(results)});
-  for (const auto& [path, bytes] : {std::pair{"cycles.csv", cycles_csv(results)},
+  for (const auto& [path, bytes] : {std::pair{"motions.csv", motions_csv(results)},
+                                    {"cycles.csv", cycles_csv(results)},
                                     {"states.csv", states_csv(results)},
                                     {"transitions.csv", transitions_csv(results)},
                                     {"barriers.csv", barriers_csv(results)}})

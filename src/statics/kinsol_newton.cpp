@@ -6,8 +6,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include <memory>
-#include <new>
+#include "springfold/core/c_handles.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -40,29 +39,6 @@ int jacobian_callback(N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N
 
 void ignore_messages(int, const char*, const char*, char*, void*) {}
 
-template <class T, class Free>
-auto owned(T* pointer, Free free) {
-  return std::unique_ptr<std::remove_pointer_t<T*>, Free>(pointer, free);
-}
-
-/// What could not be made for want of memory; the library itself would go on with nothing.
-template <class T>
-T* made(T* pointer) {
-  if (pointer == nullptr) throw std::bad_alloc{};
-  return pointer;
-}
-
-/// Calls that prepare fail for want of memory only.
-void prepared(int flag) {
-  if (flag < 0) throw std::bad_alloc{};
-}
-
-/// SUNDIALS does not look whether there is memory for a context, so there must be.
-void require_room() {
-  constexpr std::size_t context = 1U << 16U;
-  ::operator delete(::operator new(context));
-}
-
 N_Vector cloned(N_Vector vector) { return made(N_VClone_Serial(vector)); }
 
 }  // namespace
@@ -71,7 +47,7 @@ KinsolResult solve_by_kinsol(const SquareSystem& system, const Vector& start, do
                              double largest_step) {
   KinsolResult result{false, start, 0};
   SUNContext raw_context = nullptr;
-  require_room();
+  require_room_for_context();
   prepared(SUNContext_Create(nullptr, &raw_context) == 0 ? 0 : -1);
   const auto context = owned(raw_context, [](SUNContext c) { SUNContext_Free(&c); });
   const auto n = static_cast<sunindextype>(system.size);

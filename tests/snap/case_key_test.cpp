@@ -79,6 +79,23 @@ TEST_F(SnapKey, TakesLevelsOfALoadCycle) {
   EXPECT_EQ(messages(bar + "cycle = { levels = [1] }\n").size(), 1u);
 }
 
+TEST_F(SnapKey, TakesLevelsFromAFile) {
+  const std::string kind = bar + "kind = \"load_cycle\"\n";
+  write("levels.csv", "load\n1.5\n0.5  # back\n\n+1.25\n");
+  const Case c = load(kind + "cycle = { file = \"levels.csv\", times = 2 }\n");
+  const analysis::CycleSettings& cycle = c.runs[0].plan.snap.value().cycle.value();
+  EXPECT_EQ(cycle.levels, (std::vector<double>{1.5, 0.5, 1.25}));
+  EXPECT_EQ(cycle.times, 2);
+  EXPECT_EQ(messages(kind + "cycle = { file = \"levels.csv\", levels = [1] }\n").size(), 1u);
+  EXPECT_EQ(messages(kind + "cycle = { file = \"nothing.csv\" }\n").size(), 1u);
+  write("empty.csv", "# none\n");
+  EXPECT_EQ(messages(kind + "cycle = { file = \"empty.csv\" }\n").size(), 1u);
+  write("words.csv", "1\nmore\n1, 2\n");
+  EXPECT_EQ(messages(kind + "cycle = { file = \"words.csv\" }\n").size(), 2u);
+  write("far.csv", "3\n");
+  EXPECT_EQ(messages(kind + "cycle = { file = \"far.csv\" }\n").size(), 1u);
+}
+
 TEST_F(SnapKey, TakesWhereStatesAreSearchedFor) {
   const std::string kind = bar + "kind = \"transitions\"\n";
   const Case c =

@@ -152,6 +152,22 @@ TEST(SnapThrough, OfTwoTrussesInSeriesDependsOnDampingAndMasses) {
   EXPECT_NEAR(jump->landing.energy - jump->others[0].energy, 0.53854642672776, tight);
 }
 
+TEST(SnapThrough, KeepsTheMotionAlongWhichTheEnergyFalls) {
+  const SnapResult result = run("truss");
+  const Jump* jump = jump_at(result, 0.26502825343741, 1);
+  ASSERT_NE(jump, nullptr);
+  ASSERT_GT(jump->motion.size(), 30u);
+  EXPECT_LT(jump->motion.size(), 70u);
+  for (std::size_t i = 1; i < jump->motion.size(); ++i) {
+    EXPECT_LE(jump->motion[i].state.energy, jump->motion[i - 1].state.energy + 1e-12);
+    EXPECT_GT(jump->motion[i].time, jump->motion[i - 1].time);
+    EXPECT_GT(jump->motion[i].way, jump->motion[i - 1].way);
+  }
+  EXPECT_NEAR(jump->motion.back().state.energy, jump->landing.energy, 1e-10);
+  EXPECT_NEAR(value(result, jump->motion.back().state, "apex.y"),
+              value(result, jump->landing, "apex.y"), 1e-4);
+}
+
 TEST(SnapThrough, UnderAFollowerForceIsRefusedWithTheReason) {
   const io::Case c =
       io::load_case(std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/ziegler-column/case.toml");

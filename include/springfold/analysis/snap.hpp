@@ -73,6 +73,14 @@ struct InertialMotion {
 /// "at rest", "runs away", "without mass", "no end".
 std::string to_string(InertialMotion::End end);
 
+/// A moment of a motion.
+struct SnapMoment {
+  double time = 0;  ///< since the push; overdamped: in units of the dampers
+  double way =
+      0;  ///< length in the space of all coordinates, as arc length: radians, sizes of the mechanism
+  SnapState state{};  ///< `energy` falls from moment to moment
+};
+
 /// One jump: from a loss of stability to where the mechanism comes to rest, at one lambda.
 struct Jump {
   std::string label{};  ///< "J1"
@@ -97,6 +105,9 @@ struct Jump {
       switches{};  ///< springs that act at the landing and not before, or conversely
   std::vector<SnapWarning> warnings{};
   std::optional<InertialMotion> inertial{};  ///< if it was asked for
+  /// The overdamped motion from the push to the landing, at even lengths of way; none in a graph of all states. Forces
+  /// in closed chains are those that balance best: nothing is at rest there.
+  std::vector<SnapMoment> motion{};
   /// Where lambda goes back from the landing and stability is lost again: number of that jump, from 1;
   /// 0: none within the range.
   int back = 0;
@@ -176,16 +187,29 @@ struct Transition {
 /// A saddle with one unstable mode and the two minima beside it, at one lambda.
 struct Barrier {
   double lambda = 0;
-  int first = 0, second = 0;               ///< states, from 1
+  int first = 0;   ///< state, from 1
+  int second = 0;  ///< state; 0: a way without end, or out of the study's range
   double from_first = 0, from_second = 0;  ///< energy of the saddle above theirs
+  /// The same of the lowest way between both, over other states and saddles if that is lower: its highest saddle.
+  double lowest_from_first = std::numeric_limits<double>::quiet_NaN();
+  double lowest_from_second = std::numeric_limits<double>::quiet_NaN();
   SnapState saddle{};
+};
+
+/// The lowest saddle by which a state is left, at one lambda.
+struct Escape {
+  double lambda = 0;
+  int state = 0;      ///< from 1
+  int to = 0;         ///< state behind the saddle; 0 as in Barrier
+  double energy = 0;  ///< of the saddle above the state's
 };
 
 /// All stable states that were found, and where each is left to.
 struct TransitionReport {
   std::vector<StableState> states{};
   std::vector<Transition> transitions{};
-  std::vector<Barrier> barriers{};  ///< for each pair of states the lowest
+  std::vector<Barrier> barriers{};  ///< for each pair of states beside one saddle the lowest one
+  std::vector<Escape> escapes{};    ///< of each state that a saddle was found beside
   bool limit_reached = false;       ///< ended because so many were found
   bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
   enum class Memory {

@@ -1,0 +1,186 @@
+#include "barriers.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "branch_rows.hpp"
+#include "number_text.hpp"
+#include "start.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CurvePoint;
+
+/// Looks at every saddle of one lambda.
+class Barriers {
+ public:
+  Barriers(const Stretches& stretches, const Tracing& t, const Scales& scales, const Frozen& frozen,
+           StudyResult& result, TransitionReport& found)
+      : stretches_{stretches},
+        t_{t},
+        unit_{scales.moment()},
+        frozen_{frozen},
+        result_{result},
+        found_{found},
+        first_{found.barriers.size()} {}
+
+  void find(const SnapSettings& settings) {
+    StateBook book = stretches_.book_at(frozen_);
+    book.search(search_settings(settings));
+    for (std::size_t s = 0; s < book.states().size(); ++s) look_at(book, s);
+    find_lowest_ways(found_, first_);
+  }
+
+ private:
+  void doubt(const std::string& what) {
+    result_.doubts.push_back("at lambda = " + rounded(t_.lambda_scale * frozen_.lambda()) + " " +
+                             what);
+  }
+
+  /// The stretch of a minimum; 0: none.
+  int number_of(const StateBook& book, std::size_t minimum) {
+    numbers_.resize(book.states().size(), unknown);
+    if (numbers_[minimum] == unknown)
+      numbers_[minimum] = stretches_.number_of(frozen_, book.states()[minimum].x);
+    return numbers_[minimum];
+  }
+
+  void look_at(StateBook& book, std::size_t s) {
+    if (!book.states()[s].is_clear)
+      doubt("a state of rest has next to no stiffness: barriers there are not decided");
+    if (book.states()[s].index != 1 || !book.states()[s].is_clear) return;
+    const WaysDown ways = book.ways_from(s);
+    if (ways.lost) doubt("a way down from a saddle ended at no state that is known to be stable");
+    const bool leads_away = ways.away && ways.minima.size() == 1;
+    if (ways.minima.size() != 2 && !leads_away) return;
+    std::size_t a = ways.minima.front(), b = ways.minima.back();
+    if (!leads_away && number_of(book, b) < number_of(book, a)) std::swap(a, b);
+    // Minima outside of the study's limits are on no stretch: a way to them leads out, as one without end does.
+    int first = number_of(book, a), second = leads_away ? 0 : number_of(book, b);
+    if (first == 0) std::swap(first, second), std::swap(a, b);
+    if (first == 0) return;
+    const double height = unit_ * book.states()[s].energy;
+    add({.lambda = t_.lambda_scale * frozen_.lambda(),
+         .first = first,
+         .second = second,
+         .from_first = height - unit_ * book.states()[a].energy,
+         .from_second = leads_away ? std::numeric_limits<double>::quiet_NaN()
+                                   : height - unit_ * book.states()[b].energy},
+        book.states()[s]);
+  }
+
+  void add(Barrier barrier, const RestState& saddle) {
+    const auto same =
+        std::find_if(found_.barriers.begin() + static_cast<std::ptrdiff_t>(first_),
+                     found_.barriers.end(), [&](const Barrier& other) {
+                       return other.first == barrier.first && other.second == barrier.second;
+                     });
+    if (same != found_.barriers.end() && same->from_first <= barrier.from_first) return;
+    CurvePoint point;
+    point.x = t_.problem.reduce(frozen_.unknowns(saddle.x));
+    point.lambda = frozen_.lambda();
+    point.piece = saddle.piece;
+    count_negative(t_.problem, point);
+    Branch single = single_point(point, t_.evaluator, t_.quantities, t_.problem);
+    barrier.saddle = {std::move(single.samples.front().values),
+                      single.samples.front().piece,
+                      unit_ * saddle.energy,
+                      1,
+                      0,
+                      0};
+    if (same != found_.barriers.end())
+      *same = std::move(barrier);
+    else
+      found_.barriers.push_back(std::move(barrier));
+  }
+
+  static constexpr int unknown = -1;
+  const Stretches& stretches_;
+  const Tracing& t_;
+  double unit_;
+  const Frozen& frozen_;
+  StudyResult& result_;
+  TransitionReport& found_;
+  std::size_t first_;
+  std::vector<int> numbers_{};  ///< of the book's states
+};
+
+/// States that are joined by saddles, lowest saddles first. State 0 stands for all that lies outside: ways lead there, and
+/// none back.
+class Joined {
+ public:
+  explicit Joined(std::size_t states) : group_(states + 1), leads_out_(states + 1, false) {
+    for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = static_cast<int>(i);
+  }
+  void join(int a, int b) {
+    if (b == 0) {
+      leads_out_[of(a)] = true;
+      return;
+    }
+    const bool out = leads_out_[of(a)] || leads_out_[of(b)];
+    std::replace(group_.begin(), group_.end(), group_[static_cast<std::size_t>(b)],
+                 group_[static_cast<std::size_t>(a)]);
+    leads_out_[of(a)] = out;
+  }
+  bool are(int a, int b) const { return b == 0 ? bool{leads_out_[of(a)]} : of(a) == of(b); }
+
+ private:
+  std::size_t of(int state) const {
+    return static_cast<std::size_t>(group_[static_cast<std::size_t>(state)]);
+  }
+  std::vector<int> group_;
+  std::vector<bool> leads_out_;  ///< per group
+};
+
+}  // namespace
+
+StateSearch search_settings(const SnapSettings& settings) {
+  return {.starts = settings.transitions->starts,
+          .seed = settings.seed,
+          .modes = std::numeric_limits<int>::max(),
+          .maximum = std::numeric_limits<int>::max() / 2};
+}
+
+void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,
+                   const SnapSettings& settings, double lambda, StudyResult& result,
+                   TransitionReport& found) {
+  const Frozen frozen = stretches.frozen(lambda);
+  Barriers(stretches, tracing, scales, frozen, result, found).find(settings);
+}
+
+void find_lowest_ways(TransitionReport& report, std::size_t from) {
+  std::vector<Barrier*> list;
+  for (std::size_t i = from; i < report.barriers.size(); ++i) list.push_back(&report.barriers[i]);
+  std::stable_sort(list.begin(), list.end(), [](const Barrier* a, const Barrier* b) {
+    return a->saddle.energy < b->saddle.energy;
+  });
+  Joined joined(report.states.size());
+  std::vector<bool> has_escape(report.states.size() + 1, false), has_way(list.size(), false);
+  for (std::size_t done = 0; done < list.size(); ++done) {
+    const Barrier& now = *list[done];
+    for (const bool of_first : {true, false}) {
+      const int state = of_first ? now.first : now.second;
+      if (state == 0 || has_escape[static_cast<std::size_t>(state)]) continue;
+      has_escape[static_cast<std::size_t>(state)] = true;
+      report.escapes.push_back({.lambda = now.lambda,
+                                .state = state,
+                                .to = of_first ? now.second : now.first,
+                                .energy = of_first ? now.from_first : now.from_second});
+    }
+    if (joined.are(now.first, now.second)) continue;
+    joined.join(now.first, now.second);
+    for (std::size_t i = done; i < list.size(); ++i) {
+      Barrier& b = *list[i];
+      if (has_way[i] || !joined.are(b.first, b.second)) continue;
+      has_way[i] = true;
+      b.lowest_from_first = b.from_first - (b.saddle.energy - now.saddle.energy);
+      b.lowest_from_second = b.from_second - (b.saddle.energy - now.saddle.energy);
+    }
+  }
+  std::sort(report.escapes.begin(), report.escapes.end(), [](const Escape& a, const Escape& b) {
+    return a.lambda != b.lambda ? a.lambda < b.lambda : a.state < b.state;
+  });
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,68 @@
+// Where stability under a study's control ends on its traced branches.
+#include <limits>
+#include <set>
+
+#include "frozen.hpp"
+#include "snap_jumps.hpp"
+#include "springfold/analysis/event_rows.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using Kind = QuantityDefinition::Kind;
+
+bool may_lose_stability(const Event& event) {
+  switch (event.kind) {
+    case EventKind::limit_point:
+    case EventKind::branch_point:
+    case EventKind::switching:
+    case EventKind::corner_limit_point:
+    case EventKind::branching_kink:
+    case EventKind::touch:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::vector<Loss> losses_of(const StudyResult& result,
+                            const std::vector<QuantityDefinition>& quantities) {
+  const std::size_t index = column_of(Kind::index, quantities);
+  const std::size_t lambda = column_of(Kind::lambda, quantities);
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Loss> losses;
+  std::set<std::string> seen;
+  for (std::size_t b = 0; b < result.branches.size(); ++b) {
+    const Branch& branch = result.branches[b];
+    const auto value = [&](std::size_t row, std::size_t column) {
+      return row < branch.samples.size() ? branch.samples[row].values[column] : nothing;
+    };
+    for (std::size_t e = 0; e < branch.events.size(); ++e) {
+      const Event& event = branch.events[e];
+      // A half-branch begins at its kink: other branches may be stable there or not.
+      const bool begins = event.row == 0;
+      if (!may_lose_stability(event) || (begins && event.kind != EventKind::branching_kink))
+        continue;
+      const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
+      const double before = begins ? nothing : value(event.row - 1, index);
+      const double after = value(last + 1, index);
+      const bool ends = last + 1 >= branch.samples.size();
+      const bool from_before = before == 0 && (after > 0 || ends);
+      const bool from_after = after == 0 && (before > 0 || begins);
+      if (!from_before && !from_after) continue;
+      const double here = value(event.row, lambda);
+      const std::size_t beside = from_before ? event.row - 1 : last + 1;
+      const int loading = here >= value(beside, lambda) ? 1 : -1;
+      const bool is_junction = event.kind == EventKind::branch_point ||
+                               event.kind == EventKind::branching_kink ||
+                               event.kind == EventKind::touch;
+      if (is_junction && !seen.insert(event.label).second) continue;
+      losses.push_back({b, e, loading, beside});
+    }
+  }
+  return losses;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,149 @@
+#include "stretches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "branch_rows.hpp"
+#include "descent.hpp"
+#include "fall.hpp"
+#include "limits.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CurvePoint;
+using Kind = QuantityDefinition::Kind;
+
+/// States of one lambda that are farther apart than this are different before they are polished.
+constexpr double far_apart = 0.1;
+
+bool is_near(const Frozen& frozen, const Vector& a, const Vector& b) {
+  const Landscape& landscape = frozen.landscape();
+  for (const Index i : landscape.moving()) {
+    const double d = a[i] - b[i], period = landscape.periods()[i];
+    if (std::abs(period > 0 ? std::remainder(d, period) : d) > far_apart) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Stretches::Stretches(const Tracing& t, const Scales& scales, const SnapSettings& settings,
+                     StudyResult& result)
+    : t_{t},
+      scales_{scales},
+      settings_{settings},
+      result_{result},
+      lambda_{column_of(Kind::lambda, t.quantities)},
+      index_{column_of(Kind::index, t.quantities)},
+      size_{t.problem.layout().size} {}
+
+bool Stretches::is_full() const { return count() >= settings_.transitions->maximum; }
+
+void Stretches::follow(const continuation::DiagramStart& from) {
+  if (is_full()) return;
+  auto stretch = trace_stable(t_, from);
+  if (stretch)
+    list_.push_back(std::move(*stretch));
+  else
+    result_.doubts.push_back("a stable state was found from which no single branch leads on");
+}
+
+void Stretches::follow_new(const Frozen& frozen, const RestState& state) {
+  if (number_of(frozen, state.x) > 0) return;
+  CurvePoint point;
+  point.x = t_.problem.reduce(frozen.unknowns(state.x));
+  point.lambda = frozen.lambda();
+  point.piece = state.piece;
+  if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return;
+  follow({point.x, point.lambda, point.piece});
+  write_branches();
+}
+
+void Stretches::write_branches() {
+  if (result_.branches.size() == list_.size()) return;
+  std::vector<BranchRows> rows;
+  for (const StableStretch& s : list_) rows.push_back(s.rows);
+  label_events(rows, 0, t_.quantities);
+  result_.branches.clear();
+  for (BranchRows& r : rows) result_.branches.push_back(std::move(r.branch));
+  losses_ = losses_of(result_, t_.quantities);
+}
+
+int Stretches::number_of(const Frozen& frozen, const Vector& x) const {
+  for (std::size_t b = 0; b < result_.branches.size(); ++b)
+    if (const auto near = near_on(frozen, b); near && is_near(frozen, *near, x)) {
+      const auto state = rest_near(frozen.landscape(), *near);
+      if (state && frozen.landscape().same(state->x, x)) return static_cast<int>(b) + 1;
+    }
+  return 0;
+}
+
+/// The stretch's state at this lambda, between its rows.
+std::optional<Vector> Stretches::near_on(const Frozen& frozen, std::size_t branch) const {
+  const auto& samples = result_.branches[branch].samples;
+  for (std::size_t r = 0; r + 1 < samples.size(); ++r) {
+    if (samples[r].values[index_] > 0 && samples[r + 1].values[index_] > 0) continue;
+    const double from = samples[r].values[lambda_] / t_.lambda_scale - frozen.lambda();
+    const double to = samples[r + 1].values[lambda_] / t_.lambda_scale - frozen.lambda();
+    if (from * to > 0 || from >= to) continue;
+    const Vector p = unknowns_in(samples[r].values, t_.quantities, size_);
+    const Vector q = unknowns_in(samples[r + 1].values, t_.quantities, size_);
+    return frozen.reduced(p + from / (from - to) * (q - p));
+  }
+  return std::nullopt;
+}
+
+StateBook Stretches::book_at(const Frozen& frozen) const {
+  StateBook book(frozen.landscape());
+  for (std::size_t b = 0; b < result_.branches.size(); ++b)
+    if (const auto near = near_on(frozen, b))
+      if (const auto state = rest_near(frozen.landscape(), *near)) book.add(*state);
+  return book;
+}
+
+bool Stretches::ends(int number, int direction) const {
+  return direction > 0 ? at(number).ends_high : at(number).ends_low;
+}
+
+double Stretches::end_of(int number, int direction) const {
+  const auto b = static_cast<std::size_t>(number - 1);
+  return result_.branches[b].samples[end_row(b, direction)].values[lambda_] / t_.lambda_scale;
+}
+
+/// Where stability is lost; where it is not, the row of the largest or smallest lambda.
+std::size_t Stretches::end_row(std::size_t branch, int direction) const {
+  for (const Loss& loss : losses_)
+    if (loss.branch == branch && loss.loading == direction)
+      return result_.branches[branch].events[loss.event].row;
+  const auto& samples = result_.branches[branch].samples;
+  std::size_t row = 0;
+  for (std::size_t r = 0; r < samples.size(); ++r)
+    if ((samples[r].values[lambda_] - samples[row].values[lambda_]) * direction > 0) row = r;
+  return row;
+}
+
+std::vector<RestState> Stretches::taking_over(int number, int direction) const {
+  std::vector<RestState> list;
+  const auto b = static_cast<std::size_t>(number - 1);
+  const Frozen beside = frozen(end_of(number, direction) + direction * beyond_end);
+  const Landscape& landscape = beside.landscape();
+  Vector x = beside.reduced(
+      unknowns_in(result_.branches[b].samples[end_row(b, direction)].values, t_.quantities, size_));
+  const auto at = landscape.close(x) ? landscape.softest_ground(x) : std::nullopt;
+  if (!at || at->hessian.size() == 0) return list;
+  const Vector mode = symmetric_eigen(at->hessian).vectors.col(0);
+  for (const double side : {1.0, -1.0}) {
+    const auto pushed = landscape.moved(*at, side * push_size * mode);
+    const Descent down = pushed ? descend(landscape, *pushed) : Descent{};
+    if (down.end != Descent::End::rest || !is_minimum(down.state)) continue;
+    const bool known = std::any_of(list.begin(), list.end(), [&](const RestState& other) {
+      return landscape.same(other.x, down.state.x);
+    });
+    if (!known) list.push_back(down.state);
+  }
+  return list;
+}
+
+}  // namespace springfold::analysis

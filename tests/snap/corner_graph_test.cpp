@@ -1,0 +1,167 @@
+// Graphs of stable states where springs rest at their thresholds, where curves harden, and the lowest ways between
+// states.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/barriers.hpp"
+#include "io/case_files.hpp"
+#include "springfold/analysis/run.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+io::Case case_of(const std::string& file) {
+  return io::load_case(std::string{SPRINGFOLD_SOURCE_DIR} + "/cases/" + file);
+}
+
+double column(const StudyResult& result, const std::vector<double>& values,
+              const std::string& name) {
+  for (std::size_t i = 0; i < result.quantities.size(); ++i)
+    if (result.quantities[i].name == name) return values[i];
+  return std::nan("");
+}
+
+/// The column of cases/column-with-stop/README.md: straight up to 2 c/l, where its free side gives way; bent to the side
+/// of the spring from 3.0954 c/l on. Its spring is at rest all along the straight branch.
+TEST(CornerGraph, OfAColumnWithASpringAtRestHandsOverToTheFreeSideOnly) {
+  io::Case c = case_of("column-with-stop/case.toml");
+  io::PlannedRun& planned = c.runs.at(0);
+  planned.plan.snap = SnapSettings{.starts = 0};
+  planned.plan.snap->transitions = TransitionSettings{.search_at = {3.3}};
+  const StudyResult result = run_study(planned.mechanism, planned.plan);
+  ASSERT_TRUE(result.snap && result.snap->transitions);
+  const TransitionReport& report = *result.snap->transitions;
+  EXPECT_TRUE(complete(result)) << (result.doubts.empty() ? "" : result.doubts.front());
+  EXPECT_TRUE(report.is_closed);
+  ASSERT_EQ(report.states.size(), 3u);
+  EXPECT_NEAR(report.states[0].high, 2, 1e-9);
+  EXPECT_FALSE(report.states[0].high_is_limit);
+  int up = 0, free_side = 0, sprung = 0;
+  for (const Transition& t : report.transitions)
+    if (t.from == 1 && t.loading > 0) ++up, free_side = t.to;
+  EXPECT_EQ(up, 1);
+  ASSERT_GT(free_side, 1);
+  const StableState& free_state = report.states[static_cast<std::size_t>(free_side - 1)];
+  EXPECT_LT(column(result, free_state.found.values, "first.foot"), 0);
+  EXPECT_NEAR(free_state.low, 2, 1e-3);
+  sprung = free_side == 2 ? 3 : 2;
+  const StableState& sprung_state = report.states[static_cast<std::size_t>(sprung - 1)];
+  EXPECT_GT(column(result, sprung_state.found.values, "first.foot"), 0);
+  EXPECT_NEAR(sprung_state.low, 3.095354203363, 1e-9);
+}
+
+/// On the way from the limit point the knee meets its stop; from the corner it leaves it again.
+TEST(CornerGraph, AJumpFromACornerSwitchesTheSpringThatItLeaves) {
+  const io::Case c = case_of("snap-through/case-toggle.toml");
+  const StudyResult result = run_study(c.runs.at(0).mechanism, c.runs.at(0).plan);
+  ASSERT_TRUE(result.snap);
+  int from_corner = 0;
+  for (const Jump& jump : result.snap->jumps) {
+    if (std::abs(column(result, jump.critical.values, "lambda") - 0.31569001083599) > 1e-9)
+      continue;
+    ++from_corner;
+    EXPECT_EQ(jump.switches.size(), 1u);
+  }
+  EXPECT_EQ(from_corner, 1);
+}
+
+TEST(LowestWay, GoesOverOtherStatesWhereTheirSaddlesAreLower) {
+  TransitionReport report;
+  report.states.resize(3);
+  const auto barrier = [](int first, int second, double saddle, double a, double b) {
+    Barrier at{
+        .first = first, .second = second, .from_first = saddle - a, .from_second = saddle - b};
+    at.saddle.energy = saddle;
+    return at;
+  };
+  // Minima at 0, 1 and 2; the saddle between 1 and 3 is the highest.
+  report.barriers = {barrier(1, 3, 10, 0, 2), barrier(1, 2, 4, 0, 1), barrier(2, 3, 5, 1, 2),
+                     barrier(3, 0, 7, 2, 0)};
+  find_lowest_ways(report, 0);
+  EXPECT_EQ(report.barriers[0].lowest_from_first, 5);
+  EXPECT_EQ(report.barriers[0].lowest_from_second, 3);
+  EXPECT_EQ(report.barriers[1].lowest_from_first, 4);
+  EXPECT_EQ(report.barriers[2].lowest_from_second, 3);
+  EXPECT_EQ(report.barriers[3].lowest_from_first, 5);
+  ASSERT_EQ(report.escapes.size(), 3u);
+  EXPECT_EQ(report.escapes[0].energy, 4);
+  EXPECT_EQ(report.escapes[1].energy, 3);
+  EXPECT_EQ(report.escapes[2].energy, 3);
+  EXPECT_EQ(report.escapes[2].to, 2);
+}
+
+/// A slide whose spring hardens by nine orders of magnitude within the range of its load.
+using HardeningCurve = io::CaseFiles;
+
+const std::string hardening = R"(
+[[body]]
+name = "pin"
+task_space = "xy"
+pose = [0, 0]
+
+[[chain]]
+name = "slide"
+elements = [
+  { joint = "prismatic", axis = "x", name = "way", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, 1e6, 0, 1e9] } },
+]
+
+[[study]]
+name = "push"
+control = "load"
+direction = [1, 0]
+until = { lambda = [-1e9, 1e9] }
+)";
+
+TEST_F(HardeningCurve, NeedsFewPointsInEveryKindOfStudyWithJumps) {
+  const auto rows = [&](const std::string& kind) {
+    const io::Case c = load(hardening + kind);
+    const StudyResult result = run_study(c.runs.at(0).mechanism, c.runs.at(0).plan);
+    EXPECT_TRUE(complete(result)) << kind;
+    return result.branches.at(0).samples.size();
+  };
+  const std::size_t plain = rows("");
+  EXPECT_LT(plain, 2000u);
+  for (const std::string kind :
+       {"kind = \"snap_through\"\n", "kind = \"load_cycle\"\ncycle = { levels = [1e8, 0] }\n",
+        "kind = \"transitions\"\n"})
+    EXPECT_LT(rows(kind), 2000u) << kind;
+}
+
+using MovedParameter = io::CaseFiles;
+
+/// The law 1 u + b u^3 rises everywhere for b >= 0 only.
+TEST_F(MovedParameter, IsDoubtedWhereALawBeginsToFall) {
+  const std::string text = R"(
+[parameters]
+b = { value = 1, unit = "1", description = "cubic term" }
+[[body]]
+name = "pin"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "slide"
+elements = [
+  { joint = "prismatic", axis = "x", name = "way", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, "b"] } },
+]
+[[study]]
+name = "soften"
+control = "parameter"
+parameter = "b"
+load = [0.1, 0]
+)";
+  const auto run = [&](const std::string& until) {
+    const io::Case c = load(text + until);
+    const io::PlannedRun& planned = c.runs.at(0);
+    return run_study(planned.mechanism, planned.plan, &planned.family.value());
+  };
+  EXPECT_TRUE(complete(run("until = { lambda = [0.5, 2] }\n")));
+  const StudyResult falling = run("until = { lambda = [-1, 2] }\n");
+  EXPECT_FALSE(complete(falling));
+  ASSERT_FALSE(falling.doubts.empty());
+  EXPECT_NE(falling.doubts.back().find("falls"), std::string::npos) << falling.doubts.back();
+}
+
+}  // namespace
+}  // namespace springfold::analysis
