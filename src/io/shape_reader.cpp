@@ -95,8 +95,9 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
     spring.law = *read;
     if (std::visit([](const auto& s) { return s.from_start; }, *read))
       reading.problems.add(table.find("law")->place, table.key_of("law") + ".origin",
-                           "springs between points count from their own zero: need \"joint\" or "
-                           "no origin");
+                           "springs between points count from their own zero: need no origin "
+                           "here; origin = \"drawn\" beside law counts from where the case draws "
+                           "the points");
     return;
   }
   if (gas)
@@ -109,7 +110,7 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
 
 void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
   const bool ends = item.node->find("to") != nullptr || item.node->find("from") != nullptr;
-  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas"};
+  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas", "origin"};
   if (ends)
     keys.insert(keys.end(), {"from", "from_at", "to", "to_at"});
   else
@@ -128,6 +129,8 @@ void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading
     read_ends(table, draft, spring.shape.points[0], spring.shape.points[1], reading);
   }
   read_energy(table, numbers, spring, reading);
+  spring.from_drawn = table.choice("origin", {"zero", "drawn"}, 0) == 1;
+  if (table.has("gas")) refuse(table, "origin", "gas counts from its own initial value", reading);
   draft.shape_springs.push_back(std::move(spring));
 }
 
@@ -135,7 +138,8 @@ void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading)
   const TableReader table{
       *item.node,
       item.key,
-      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas"},
+      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas",
+       "origin"},
       reading};
   LineSpringDraft spring{.place = item.node->place, .key = item.key};
   spring.name = read_own_name(table, draft, reading);
@@ -205,7 +209,7 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
 void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const auto has = [&](const char* key) { return item.node->find(key) != nullptr; };
-    if (has("shape") || has("of") || has("law") || has("gas"))
+    if (has("shape") || has("of") || has("law") || has("gas") || has("origin"))
       read_shape_spring(item, draft, reading);
     else
       read_line_spring(item, draft, reading);
