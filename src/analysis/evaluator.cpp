@@ -4,8 +4,6 @@
 
 #include "closure_rank.hpp"
 #include "quantities.hpp"
-#include "springfold/statics/couplings.hpp"
-#include "springfold/statics/sparse_stiffness.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -22,10 +20,7 @@ Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scale
   first_pose_ = system.first_pose;
   t_ = system.body_slices[body].t;
   d_ = system.body_slices[body].count;
-  if (problem.in_stages() && problem.symmetric())
-    stages_.emplace(system);
-  else if (problem.structured() && problem.symmetric())
-    sparse_.emplace(SparseLayout{system.size, statics::couplings(system)});
+  if (problem.structured() && problem.symmetric()) stages_.emplace(system);
   measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
   conjugate_ = problem.rule().t_rate;
   if (!conjugate_.isZero(0)) {
@@ -126,24 +121,7 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
 }
 
 const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& point) const {
-  return stages_   ? assemble_in_stages(point)
-         : sparse_ ? assemble_sparsely(point)
-                   : assemble_densely(point);
-}
-
-const Evaluator::Assembled* Evaluator::assemble_sparsely(
-    const continuation::CurvePoint& point) const {
-  Assembled& at = scratch_;
-  const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
-  at.is_plain = &system == &problem_.system(point.lambda);
-  problem_.put_inputs(point.lambda, at.inputs);
-  if (!equilibrium_matrix(system, point.piece, at.z, at.inputs, at.work, at.r, at.A))
-    return nullptr;
-  at.staged = sparse_stiffness(system, *sparse_, at.A, problem_.rule().body);
-  at.platform = at.staged.condensed.platform;
-  at.stability = at.staged.condensed.stability;
-  at.body = at.staged.body;
-  return &at;
+  return stages_ ? assemble_in_stages(point) : assemble_densely(point);
 }
 
 const Evaluator::Assembled* Evaluator::assemble_densely(
@@ -211,9 +189,8 @@ double Evaluator::guided_stiffness(const continuation::CurvePoint& point,
   if (measured_.size() == 0) return undefined;
   const statics::System& system = problem_.system(point.lambda);
   const auto C =
-      stages_ || sparse_
-          ? std::optional<Matrix>(at.staged.compliance)
-          : statics::body_compliance(system, at.A, problem_.rule().body, problem_.symmetric());
+      stages_ ? std::optional<Matrix>(at.staged.compliance)
+              : statics::body_compliance(system, at.A, problem_.rule().body, problem_.symmetric());
   if (!C || C->size() == 0) return undefined;
   const double along = measured_.dot(*C * measured_);
   return std::abs(along) > rigid * C->cwiseAbs().maxCoeff() ? 1 / along : undefined;
@@ -301,8 +278,8 @@ Matrix Evaluator::rigid_compliance(const continuation::CurvePoint& point) const 
   if (!at || at->body.size() > 0) return {};
   const statics::System& system = problem_.system(point.lambda);
   const Index body = problem_.rule().body;
-  const auto C = stages_ || sparse_ ? std::optional<Matrix>(at->staged.compliance)
-                                    : statics::body_compliance(system, at->A, body, problem_.symmetric());
+  const auto C = stages_ ? std::optional<Matrix>(at->staged.compliance)
+                         : statics::body_compliance(system, at->A, body, problem_.symmetric());
   if (!C || C->size() == 0) return {};
   const model::TaskSpace space =
       system.mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space;
@@ -314,7 +291,7 @@ Matrix Evaluator::rigid_compliance(const continuation::CurvePoint& point) const 
 std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
     const continuation::CurvePoint& point) const {
   constexpr Index most = 300;
-  if (problem_.structured() && problem_.size() > most) return {};
+  if (stages_ && problem_.size() > most) return {};
   const Assembled* at = assemble_densely(point);
   if (!at) return {};
   const statics::System& system = problem_.system(point.lambda);
@@ -328,7 +305,7 @@ std::vector<std::pair<double, double>> Evaluator::tangent_eigenvalues(
 
 Index Evaluator::zero_modes(const continuation::CurvePoint& point) const {
   const Assembled* at = assemble(point);
-  if (at && (stages_ || sparse_)) return at->staged.zero_modes;
+  if (at && stages_) return at->staged.zero_modes;
   return at ? statics::zero_modes(problem_.system(point.lambda), at->A) : 0;
 }
 

@@ -30,7 +30,6 @@ PathProblem::PathProblem(statics::System system, PathRule rule)
   find_free_rotations();
   if (!rotations_.empty()) turned_ = system_;
   find_stages();
-  find_couplings();
 }
 
 /// All rotations of the other spatial bodies, and of the study's body if it turns as it likes: the

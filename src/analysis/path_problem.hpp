@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "springfold/core/sparse_matrices.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "springfold/statics/system.hpp"
@@ -62,9 +61,8 @@ class PathProblem {
                    Vector& dF_dlambda) const;
   bool equations(const Vector& y, double lambda, const Piece& piece, Vector& F, Matrix& dF_dy,
                  Vector& dF_dlambda) const;
-  /// Is the matrix better not factorised as a dense one: long chains, or many members?
-  bool structured() const { return stages_.has_value() || sparse_.has_value(); }
-  bool in_stages() const { return stages_.has_value(); }  ///< long chains
+  /// Chains so long that their matrices are better not formed?
+  bool structured() const { return stages_.has_value(); }
   bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                               StructuredMatrix& dF_dy, Vector& dF_dlambda) const;
   Index switch_count() const { return static_cast<Index>(system_.switches.size()); }
@@ -116,7 +114,6 @@ class PathProblem {
  private:
   void find_free_rotations();
   void find_stages();
-  void find_couplings();
   void put_basis(const Vector& y) const;
   void put_local(const Vector& y, double lambda, Vector& z) const;
   void add_motion(const Vector& v, Vector& z) const;
@@ -155,8 +152,7 @@ class PathProblem {
   mutable std::vector<model::Mat3<double>> frames_{};
   mutable statics::SwitchGradient switch_gradient_{};
   mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains
-  mutable std::optional<SparseMatrices> sparse_{};           ///< of many members
-  mutable Matrix basis_{}, added_{}, entries_{};
+  mutable Matrix basis_{}, added_{};
   mutable double family_lambda_ = 0;
   mutable std::optional<std::pair<statics::System, Vector>> family_{};
 };

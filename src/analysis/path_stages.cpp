@@ -1,16 +1,8 @@
-// The equations of a path with long chains: residual and matrix in stages, linear in their length; and
-// with many members: the matrix as a sparse one.
+// The equations of a path with long chains: residual and matrix in stages, linear in their length.
 #include "path_problem.hpp"
 #include "quaternion.hpp"
-#include "springfold/statics/couplings.hpp"
 
 namespace springfold::analysis {
-namespace {
-
-/// Fronts with more than one unknown in so many make an elimination as dear as that of a dense matrix.
-constexpr Index dense_share = 3;
-
-}  // namespace
 
 /// Root unknowns are those behind the chains' part of y. Each belongs to one body.
 void PathProblem::find_stages() {
@@ -27,24 +19,6 @@ void PathProblem::find_stages() {
     y += count;
   }
   stages_.emplace(system_, columns);
-}
-
-/// The unknowns of y that meet: those of z, of the study's body its free coordinates.
-void PathProblem::find_couplings() {
-  if (stages_ || !rule_.symmetric || !rotations_.empty() || !statics::prefers_sparse(system_))
-    return;
-  const Index free = rule_.N.cols();
-  std::vector<std::vector<Index>> lists;
-  for (const std::vector<Index>& list : statics::couplings(system_)) {
-    std::vector<Index> own;
-    for (const Index z : list)
-      if (z < t_ || z >= t_ + d_) own.push_back(z < t_ ? z : z - d_ + free);
-    if (own.size() < list.size())
-      for (Index k = 0; k < free; ++k) own.push_back(t_ + k);
-    if (!own.empty()) lists.push_back(std::move(own));
-  }
-  SparseLayout layout{size_, lists};
-  if (dense_share * layout.largest_front() <= size_) sparse_.emplace(std::move(layout));
 }
 
 /// d(poses) = basis d(root unknowns): N for the study's body, rate_of(q) for free rotations, otherwise 1.
@@ -73,11 +47,6 @@ void PathProblem::put_basis(const Vector& y) const {
 
 bool PathProblem::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                                          StructuredMatrix& dF_dy, Vector& dF_dlambda) const {
-  if (sparse_) {
-    if (!equations(y, lambda, piece, F_, entries_, dF_dlambda)) return false;
-    sparse_->take(entries_, dF_dy);
-    return true;
-  }
   if (!has_rotations(y)) return false;
   put_local(y, lambda, z_);
   put_inputs(lambda, inputs_);

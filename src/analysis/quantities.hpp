@@ -130,15 +130,13 @@ class Evaluator {
     double determinant = 0;
     statics::Stability stability{};
     statics::Workspace work{};
-    /// Of long chains, where A and work are empty, and of many members.
-    statics::StagedStiffness staged{};
+    statics::StagedStiffness staged{};  ///< of long chains; A and work are empty then
     bool is_plain = false;  ///< no frames were turned: z are the unknowns of the path itself
   };
   /// @returns null where F is not defined; otherwise valid until the next call
   const Assembled* assemble(const continuation::CurvePoint& point) const;
   const Assembled* assemble_densely(const continuation::CurvePoint& point) const;
   const Assembled* assemble_in_stages(const continuation::CurvePoint& point) const;
-  const Assembled* assemble_sparsely(const continuation::CurvePoint& point) const;
   double force_rate_in_stages(const continuation::CurvePoint& point, double& size) const;
   std::vector<Index> closure_ranks_in_stages() const;
   /// What the quantities of a row have in common.
@@ -166,7 +164,6 @@ class Evaluator {
 
   const PathProblem& problem_;
   mutable std::optional<statics::StageJacobians> stages_{};  ///< long chains, loads with potential
-  mutable std::optional<SparseMatrices> sparse_{};           ///< many members
   ControlMode control_;
   Scales scales_;
   Index first_pose_ = 0;

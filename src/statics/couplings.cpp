@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include "springfold/core/sparse_matrices.hpp"
+
 namespace springfold::statics {
 namespace {
 
 /// Fewer unknowns are solved for faster without regard to zeros: measured with n-by-n nets of bars.
 constexpr Index fewest_unknowns = 120;
 
-/// Of these a member may couple one in so many.
-constexpr Index share = 6;
+/// One in so many of them may be held together at a time, by a member or in the elimination.
+constexpr Index share = 4;
 
 void append_pose(const System& system, Index first, std::vector<Index>& list) {
   for (const BodySlice& body : system.body_slices)
@@ -66,10 +68,16 @@ bool prefers_sparse(const System& system) {
       system.mechanism.bodies.begin(), system.mechanism.bodies.end(),
       [](const model::Body& body) { return body.task_space == model::TaskSpace::spatial; });
   if (turns) return false;
+  for (const PointLoad& load : system.loads)
+    if (load.number >= 0 &&
+        !model::is_conservative(system.mechanism,
+                                system.mechanism.loads[static_cast<std::size_t>(load.number)]))
+      return false;
   const auto lists = couplings(system);
-  return std::all_of(lists.begin(), lists.end(), [&system](const auto& list) {
-    return share * std::ssize(list) <= system.size;
-  });
+  const auto few = [&system](Index count) { return share * count <= system.size; };
+  return std::all_of(lists.begin(), lists.end(),
+                     [&few](const auto& list) { return few(std::ssize(list)); }) &&
+         few(SparseLayout(system.size, lists).largest_front());
 }
 
 }  // namespace springfold::statics

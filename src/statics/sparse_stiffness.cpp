@@ -15,27 +15,27 @@ constexpr double rigidity = 1e12;
 
 constexpr Index wanted = 3;   ///< eigenvalues
 constexpr Index width = 4;    ///< of the blocks: so many equal ones are found
-constexpr Index blocks = 50;  ///< at most
+constexpr Index blocks = 60;  ///< at most
+constexpr Index look = 4;     ///< after so many blocks eigenvalues are looked at
 
-/// Residual of an eigenvalue theta, in theta: its error is the square of it over the gap to the next.
-constexpr double settled = 1e-10;
-
-/// First shift, in largest entries of A, by what it grows, and how often.
-constexpr double first_shift = 0x1p-10, growth = 16;
-constexpr int shifts = 6;
+/// Residual of an eigenvalue of K^-1, in itself: its error is the square of that over the gap to the next.
+constexpr double settled = 1e-9;
 
 Matrix symmetric_part(const Matrix& K) { return 0.5 * (K + K.transpose()); }
 
 FrontalBorders no_borders(Index n) { return {Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}; }
 
 /// Sum over the chains of the negative eigenvalues of their own blocks; nothing if one is singular.
-std::optional<Index> negative_of_chains(const System& system, const Matrix& A) {
+std::optional<Index> negative_of_chains(const System& system, const StructuredMatrix& A) {
   Index negative = 0;
   for (const ChainSlice& slice : system.chain_slices) {
     std::vector<Index> own;
     for (Index k = 0; k < slice.x_count; ++k) own.push_back(slice.x + k);
     for (Index k = 0; k < slice.F_count; ++k) own.push_back(slice.F + k);
-    const auto inertia = inertia_of(Matrix(A(own, own)));
+    Matrix block(std::ssize(own), std::ssize(own));
+    for (std::size_t k = 0; k < own.size(); ++k)
+      block.col(static_cast<Index>(k)) = product(A, Vector::Unit(system.size, own[k]))(own);
+    const auto inertia = inertia_of(block);
     if (!inertia || inertia->zero > 0) return std::nullopt;
     negative += inertia->negative;
   }
@@ -51,10 +51,12 @@ Matrix first_block(Index rows) {
   return V;
 }
 
-/// The largest eigenvalues of a positive definite matrix that is known by its products.
+/// Eigenvalues of a symmetric matrix that is known by its products: all negative ones, whose number is known,
+/// and the largest ones.
 class BlockKrylov {
  public:
-  BlockKrylov(Index size, Index count) : count_{count} {
+  BlockKrylov(Index size, Index negative, Index positive)
+      : negative_{negative}, positive_{positive} {
     basis_.resize(size, std::min(size, blocks * width));
     images_.resize(size, basis_.cols());
   }
@@ -63,16 +65,16 @@ class BlockKrylov {
   template <class Apply>
   std::optional<Vector> run(const Apply& apply) {
     Matrix V = first_block(basis_.rows());
-    while (used_ < basis_.cols()) {
+    for (Index round = 1; used_ < basis_.cols(); ++round) {
       const Index first = used_;
       append(V);
       if (used_ == first) break;  // the space is closed
       V = basis_.middleCols(first, used_ - first);
       if (!apply(V)) return std::nullopt;
       images_.middleCols(first, used_ - first) = V;
-      if (has_settled()) break;
+      if (round % look == 0 && have_settled()) return values_;
     }
-    return values_.size() < count_ ? std::nullopt : std::optional<Vector>(values_);
+    return have_settled() ? std::optional<Vector>(values_) : std::nullopt;
   }
 
  private:
@@ -90,54 +92,46 @@ class BlockKrylov {
     }
   }
 
-  bool has_settled() {
+  bool have_settled() {
+    if (used_ < negative_ + positive_) return false;
     const auto Q = basis_.leftCols(used_);
     const auto BQ = images_.leftCols(used_);
-    if (used_ < count_) return false;
     const SymmetricEigen ritz = symmetric_eigen(symmetric_part(Q.transpose() * BQ));
-    values_ = ritz.values.tail(count_).reverse();
-    for (Index k = 0; k < count_; ++k) {
-      const Vector y = ritz.vectors.col(used_ - 1 - k);
-      if ((BQ * y - values_[k] * (Q * y)).norm() > settled * values_[k]) return false;
+    if ((ritz.values.array() < 0).count() != negative_) return false;
+    values_.resize(negative_ + positive_);
+    for (Index k = 0; k < values_.size(); ++k) {
+      const Index i = k < negative_ ? k : used_ - 1 - (k - negative_);
+      const double theta = values_[k] = ritz.values[i];
+      const Vector y = ritz.vectors.col(i);
+      if (!((BQ * y - theta * (Q * y)).norm() <= settled * std::abs(theta))) return false;
     }
     return true;
   }
 
-  Index count_, used_ = 0;
+  Index negative_, positive_, used_ = 0;
   Matrix basis_{}, images_{};
   Vector values_{};
 };
 
 /// The lowest eigenvalues of K_Sigma, ascending; empty where they are not found.
-/// @param in_chains  negative eigenvalues that the chains have by themselves
-Vector lowest_eigenvalues(const System& system, SparseMatrices& matrices, Matrix& A, double largest,
-                          Index in_chains) {
+/// @param negative  how many negative ones it has
+Vector lowest_eigenvalues(const System& system, const StructuredMatrix& A, Index negative) {
   const Index n = system.size, t = system.first_pose, nt = system.load_size;
-  const Vector diagonal = A.diagonal();
-  StructuredMatrix shifted;
-  double shift = first_shift * largest;
-  bool positive = false;
-  for (int i = 0; i < shifts && !positive; ++i, shift *= growth) {
-    A.diagonal().tail(nt) = diagonal.tail(nt).array() + shift;
-    matrices.take(A, shifted);
-    const auto inertia = shifted.inertia();
-    positive = inertia && inertia->zero == 0 && inertia->negative == in_chains;
-    if (positive) break;
-  }
-  A.diagonal() = diagonal;
-  if (!positive) return {};
   const FrontalBorders none = no_borders(n);
   Matrix X;
   const auto inverse = [&](Matrix& V) {
     X.setZero(n, V.cols());
     X.middleRows(t, nt) = V;
-    if (!shifted.solve(none, X, false)) return false;
+    if (!A.solve(none, X, false)) return false;
     V = X.middleRows(t, nt);
     return true;
   };
-  const auto theta = BlockKrylov(nt, std::min(wanted, nt)).run(inverse);
-  if (!theta) return {};
-  return (theta->cwiseInverse().array() - shift).matrix();
+  const Index count = std::min(wanted, nt);
+  const auto c = BlockKrylov(nt, negative, std::max<Index>(count - negative, 0)).run(inverse);
+  if (!c) return {};
+  Vector values = c->cwiseInverse();
+  std::sort(values.begin(), values.end());
+  return values.head(count);
 }
 
 /// With the body held at unit displacements, all others free: w = -K t in the rows of the border.
@@ -163,22 +157,19 @@ void put_body(const System& system, const StructuredMatrix& A, Index body, bool 
 
 }  // namespace
 
-StagedStiffness sparse_stiffness(const System& system, SparseMatrices& matrices, Matrix& A,
-                                 Index body) {
+StagedStiffness sparse_stiffness(const System& system, const StructuredMatrix& A, Index body) {
   StagedStiffness result;
-  StructuredMatrix J;
-  matrices.take(A, J);
-  const auto inertia = J.inertia();
+  const auto inertia = A.inertia();
   if (inertia) result.zero_modes = inertia->zero;
   const bool regular = inertia && inertia->zero == 0;
-  put_body(system, J, body, regular, result);
+  put_body(system, A, body, regular, result);
   const auto in_chains = negative_of_chains(system, A);
   if (in_chains) result.condensed.stability.pose_controlled = *in_chains - system.closure_count();
-  if (regular)
-    result.condensed.stability.force_controlled = inertia->negative - system.closure_count();
+  if (!regular) return result;
+  result.condensed.stability.force_controlled = inertia->negative - system.closure_count();
   if (in_chains)
     result.condensed.platform.eigenvalues =
-        lowest_eigenvalues(system, matrices, A, J.largest, *in_chains);
+        lowest_eigenvalues(system, A, inertia->negative - *in_chains);
   return result;
 }
 

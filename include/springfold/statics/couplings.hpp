@@ -16,4 +16,7 @@ std::vector<std::vector<Index>> couplings(const System& system);
 /// short chains, no redundant closures, and members that couple few unknowns each.
 bool prefers_sparse(const System& system);
 
+/// Do StageJacobians of this system hold entries instead of stages? Those of long chains do not.
+bool has_entries(const System& system);
+
 }  // namespace springfold::statics
