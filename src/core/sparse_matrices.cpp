@@ -54,7 +54,8 @@ struct SparseLayout::State {
     std::vector<std::size_t> place(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) place[static_cast<std::size_t>(order[k])] = k;
     pattern.size = pattern.root_first = size;
-    std::vector<char> waits(order.size(), 0);  // met by one that is eliminated, and not yet so itself
+    std::vector<char> waits(order.size(),
+                            0);  // met by one that is eliminated, and not yet so itself
     std::size_t held = 0;
     for (std::size_t first = 0; first < order.size(); first += block) {
       const std::size_t end = std::min(first + block, order.size());
@@ -87,10 +88,10 @@ struct SparseLayout::State {
     for (std::size_t c = 0; c < members.size(); ++c)
       for (const Index i : members) {
         const auto& row = rows[static_cast<std::size_t>(members[c])];
-        const bool own = c < ending &&
-                         place[static_cast<std::size_t>(i)] >=
-                             place[static_cast<std::size_t>(members[c])] &&
-                         std::binary_search(row.begin(), row.end(), i);
+        const bool own =
+            c < ending &&
+            place[static_cast<std::size_t>(i)] >= place[static_cast<std::size_t>(members[c])] &&
+            std::binary_search(row.begin(), row.end(), i);
         sources.push_back(own ? i + members[c] * size : -1);
       }
   }

@@ -91,9 +91,8 @@ void inherit_holds(const std::vector<HoldDraft>& before, const MechanismDraft& m
         hold->held[i] = false;
       else
         problems.add(history.release.place, history.release.key,
-                     "got \"" +
-                         mechanism.bodies[static_cast<std::size_t>(release.body - 1)].name + "." +
-                         "xyz"[i] + "\", which the studies before do not hold");
+                     "got \"" + mechanism.bodies[static_cast<std::size_t>(release.body - 1)].name +
+                         "." + "xyz"[i] + "\", which the studies before do not hold");
     }
   }
   for (const HoldDraft& own : history.holds) {

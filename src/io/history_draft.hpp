@@ -22,9 +22,9 @@ struct HistoryDraft {
   NamedPlace from{};  ///< name of the earlier study; empty: none
   std::string at = "end";
   bool keeps_loads = true;
-  std::vector<HoldDraft> holds{};     ///< own ones, and those of the studies before it
-  std::vector<HoldDraft> releases{};  ///< of those of the studies before it
-  NamedPlace release{};               ///< where they are named
+  std::vector<HoldDraft> holds{};      ///< own ones, and those of the studies before it
+  std::vector<HoldDraft> releases{};   ///< of those of the studies before it
+  NamedPlace release{};                ///< where they are named
   std::optional<std::size_t> study{};  ///< its position among the studies, once they are all read
 };
 

@@ -133,12 +133,11 @@ model::Shape shape_of(const ShapeDraft& draft, const Numbers& numbers) {
 }
 
 /// @param mechanism  bodies and chains are built
-model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft,
-                                   const model::Mechanism& mechanism, const Numbers& numbers) {
+model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft, const model::Mechanism& mechanism,
+                                   const Numbers& numbers) {
   model::ShapeSpring spring{.name = draft.name, .shape = shape_of(draft.shape, numbers)};
   if (draft.law) spring.law = law_of(*draft.law, numbers);
-  if (draft.from_drawn)
-    spring.law = model::moved(spring.law, drawn_value(mechanism, spring.shape));
+  if (draft.from_drawn) spring.law = model::moved(spring.law, drawn_value(mechanism, spring.shape));
   if (draft.gas)
     spring.gas = {numbers[draft.gas->nRT], numbers[draft.gas->initial],
                   numbers[draft.gas->exponent]};

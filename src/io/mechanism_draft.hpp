@@ -189,7 +189,7 @@ struct MechanismDraft {
   std::vector<BarDraft> bars{};  ///< linear; in the model they are line springs behind `springs`
   std::vector<ShapeSpringDraft> shape_springs{};
   std::vector<BarDraft> law_bars{};  ///< in the model they are shapes behind `shape_springs`
-  std::vector<LoadDraft> loads{};  ///< of all studies
+  std::vector<LoadDraft> loads{};    ///< of all studies
 };
 
 /// @param numbers  values of draft.numbers, as many as these

@@ -109,8 +109,7 @@ std::string read_bar_name(const TableReader& table, const MechanismDraft& draft,
 }
 
 /// `law`, or `stiffness` or `EA`: exactly one of them.
-void read_bar_law(const TableReader& table, NumberTable& numbers, BarDraft& bar,
-                  Reading& reading) {
+void read_bar_law(const TableReader& table, NumberTable& numbers, BarDraft& bar, Reading& reading) {
   const std::string length = reading.units.length, force = reading.units.force;
   std::string got;
   int given = 0;

@@ -130,7 +130,8 @@ class Turner {
     place.items.pop_back();
     turn_vector(place, false);
     const std::string turned = formula_of(pose->items[2], bindings_);
-    place.items.push_back(text_node(turned + (negative_ ? "-" : "+") + angle_, pose->items[2].place));
+    place.items.push_back(
+        text_node(turned + (negative_ ? "-" : "+") + angle_, pose->items[2].place));
     *pose = std::move(place);
   }
 
@@ -146,9 +147,9 @@ class Turner {
     static const std::array<std::string, 6> words{"x", "y", "z", "-x", "-y", "-z"};
     const auto found = std::find(words.begin(), words.end(), axis->text);
     if (found == words.end())
-      return report(axis->place, "pattern.axis",
-                    "got " + described(*axis) +
-                        ", need \"x\", \"y\", \"z\", \"-x\", \"-y\" or \"-z\"");
+      return report(
+          axis->place, "pattern.axis",
+          "got " + described(*axis) + ", need \"x\", \"y\", \"z\", \"-x\", \"-y\" or \"-z\"");
     axis_ = static_cast<std::size_t>(found - words.begin()) % 3;
     negative_ = found - words.begin() >= 3;
   }

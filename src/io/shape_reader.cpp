@@ -135,12 +135,11 @@ void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading
 }
 
 void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{
-      *item.node,
-      item.key,
-      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas",
-       "origin"},
-      reading};
+  const TableReader table{*item.node,
+                          item.key,
+                          {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape",
+                           "of", "law", "gas", "origin"},
+                          reading};
   LineSpringDraft spring{.place = item.node->place, .key = item.key};
   spring.name = read_own_name(table, draft, reading);
   read_ends(table, draft, spring.from, spring.to, reading);

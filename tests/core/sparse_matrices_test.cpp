@@ -51,7 +51,9 @@ struct Fixture {
   StructuredMatrix J;
 
   Fixture(Index rows, Index columns, unsigned seed)
-      : size{2 * rows * columns}, members{net(rows, columns)}, matrices{SparseLayout{size, members}} {
+      : size{2 * rows * columns},
+        members{net(rows, columns)},
+        matrices{SparseLayout{size, members}} {
     std::mt19937 random{seed};
     A = random_sum(random, size, members);
     matrices.take(A, J);

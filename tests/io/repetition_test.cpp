@@ -225,8 +225,8 @@ TEST_F(Repetition, PatternsTurnPlacesAndForcesAboutAnAxis) {
 }
 
 TEST_F(Repetition, PatternsTurnAboutAnyPointAndAnyAxis) {
-  const std::string about = replaced(turned, "angle = \"90*deg\" }\nname",
-                                     "angle = \"90*deg\", about = [1, 0] }\nname");
+  const std::string about =
+      replaced(turned, "angle = \"90*deg\" }\nname", "angle = \"90*deg\", about = [1, 0] }\nname");
   const model::Mechanism flat = load(about).runs.front().mechanism;
   EXPECT_DOUBLE_EQ(flat.bodies[1].pose[0], 1 + std::cos(std::numbers::pi / 2));
   EXPECT_DOUBLE_EQ(flat.bodies[1].pose[1], 1);
@@ -251,11 +251,12 @@ TEST_F(Repetition, PatternsOfChainsAreThoseWrittenWithTurnedFrames) {
   };
   const auto one = load(text("pattern = { i = [0, 2], angle = \"120*deg\" }\n",
                              "from_at = [2, 0]\nto_at = [1, 0]\n"));
-  const auto other = load(text("repeat = { i = [0, 2] }\n",
-                               "from_at = { at = [\"2*cos(i*120*deg)\", \"2*sin(i*120*deg)\"], rotate = "
-                               "{ axis = \"z\", angle = \"i*120*deg\" } }\n"
-                               "to_at = { at = [\"cos(i*120*deg)\", \"sin(i*120*deg)\"], rotate = "
-                               "{ axis = \"z\", angle = \"i*120*deg\" } }\n"));
+  const auto other =
+      load(text("repeat = { i = [0, 2] }\n",
+                "from_at = { at = [\"2*cos(i*120*deg)\", \"2*sin(i*120*deg)\"], rotate = "
+                "{ axis = \"z\", angle = \"i*120*deg\" } }\n"
+                "to_at = { at = [\"cos(i*120*deg)\", \"sin(i*120*deg)\"], rotate = "
+                "{ axis = \"z\", angle = \"i*120*deg\" } }\n"));
   for (std::size_t i = 0; i < 3; ++i) {
     const model::Chain& a = one.runs[0].mechanism.chains[i];
     const model::Chain& b = other.runs[0].mechanism.chains[i];
@@ -276,9 +277,10 @@ TEST_F(Repetition, WantsPatternsThatCanBeTurned) {
   EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"90*deg\", axis = \"x\" }\nname"),
               testing::Contains("case.toml:6:6: node[1, i = 0].pattern.axis: in the plane the axis "
                                 "is \"z\""));
-  EXPECT_THAT(changed("{ i = [0, 3], angle = \"90*deg\" }", "{ angle = \"90*deg\" }"),
-              testing::Contains("case.toml:4:11: node[1].pattern: got a table, need a table with one "
-                                "index such as { i = [0, 5], angle = \"60*deg\" }"));
+  EXPECT_THAT(
+      changed("{ i = [0, 3], angle = \"90*deg\" }", "{ angle = \"90*deg\" }"),
+      testing::Contains("case.toml:4:11: node[1].pattern: got a table, need a table with one "
+                        "index such as { i = [0, 5], angle = \"60*deg\" }"));
   EXPECT_THAT(changed("at = [\"R\", 0]\n", "at = [\"R\", 0]\nfixed = [\"x\"]\n"),
               testing::Contains(testing::HasSubstr(
                   "node[1, i = 0].fixed: directions are those of the base, which do not turn")));

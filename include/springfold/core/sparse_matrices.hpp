@@ -19,7 +19,8 @@ class SparseLayout {
   SparseLayout(Index size, const std::vector<std::vector<Index>>& couplings);
 
   Index size() const;
-  Index largest_front() const;  ///< unknowns that are held together at most, without those that wait
+  Index largest_front()
+      const;  ///< unknowns that are held together at most, without those that wait
   const FrontalPattern& pattern() const;
   /// Place in a square matrix, i + j size, per value of the pattern; -1: no entry.
   const std::vector<Index>& sources() const;
