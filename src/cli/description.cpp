@@ -240,7 +240,7 @@ std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
                          place_text(mechanism, spring.from), place_text(mechanism, spring.to),
                          spring.stiffness, spring.free));
   for (const model::ShapeSpring& spring : mechanism.shape_springs)
-    (of_bars.contains(spring.name) ? bars : springs).add(text_of(mechanism, spring));
+    springs.add(text_of(mechanism, spring));
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) loads.add(text_of(mechanism, i));
   return nodes.text() + bodies.text() + chains + springs.text() + bars.text() + loads.text();
 }

@@ -1,10 +1,8 @@
 #include "bar_draft.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "springfold/model/point.hpp"
-#include "springfold/model/shape.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -62,9 +60,8 @@ std::string problem_in(const BarDraft& draft, const model::LineSpring& bar,
                : "";
   const double length = drawn_length(mechanism, bar);
   if (length == 0)
-    return std::string{
-               "the ends of the bar lie on each other as drawn, need other ends, or free with "} +
-           (draft.law ? "law" : "stiffness");
+    return "the ends of the bar lie on each other as drawn, need other ends, or free with "
+           "stiffness";
   if (!draft.pretension ||
       (bar.free >= 0 && std::isfinite(bar.free) && std::isfinite(bar.stiffness)))
     return "";
@@ -83,52 +80,12 @@ model::LineSpring bar_of(const BarDraft& draft, const model::Anchor& from, const
   model::LineSpring bar{.name = draft.name, .from = from, .to = to};
   bar.free =
       draft.free ? numbers[*draft.free] : free_length(draft, drawn_length(mechanism, bar), numbers);
-  if (!draft.law)
-    bar.stiffness = draft.EA ? numbers[*draft.EA] / bar.free : numbers[*draft.stiffness];
+  bar.stiffness = draft.EA ? numbers[*draft.EA] / bar.free : numbers[*draft.stiffness];
   return bar;
-}
-
-model::ShapeSpring law_bar_of(const BarDraft& draft, const model::Anchor& from,
-                              const model::Anchor& to, const model::Mechanism& mechanism,
-                              const Numbers& numbers) {
-  const model::LineSpring bar = bar_of(draft, from, to, mechanism, numbers);
-  model::ShapeSpring spring{.name = draft.name, .shape = {.points = {from, to}}};
-  spring.law = draft.law ? model::moved(law_of(*draft.law, numbers), bar.free)
-                         : model::SpringLaw{model::OneSidedSpring{bar.stiffness, bar.free}};
-  return spring;
-}
-
-double drawn_value(const model::Mechanism& mechanism, const model::Shape& shape) {
-  Vector positions(3 * std::ssize(shape.points));
-  for (std::size_t i = 0; i < shape.points.size(); ++i)
-    positions.segment<3>(3 * static_cast<Index>(i)) = drawn(mechanism, shape.points[i]);
-  model::ShapeValue<double> at;
-  model::evaluate_shape<double>(compile(mechanism, shape), positions, at);
-  return at.gradient.allFinite() ? at.value : std::numeric_limits<double>::quiet_NaN();
-}
-
-void check_drawn_shapes(const MechanismDraft& draft, const model::Mechanism& mechanism,
-                        const std::string& when, Problems& problems) {
-  for (std::size_t i = 0; i < draft.shape_springs.size(); ++i) {
-    const ShapeSpringDraft& spring = draft.shape_springs[i];
-    if (!spring.from_drawn) continue;
-    if (!std::isfinite(drawn_value(mechanism, mechanism.shape_springs[i].shape)))
-      problems.add(spring.place, spring.key + ".origin",
-                   "as drawn the shape is not smooth: points lie on each other or, in space, the "
-                   "angle is 0 or half a turn; need other points, or free without origin",
-                   when);
-  }
 }
 
 void check_bars(const MechanismDraft& draft, const Numbers& numbers,
                 const model::Mechanism& mechanism, const std::string& when, Problems& problems) {
-  for (std::size_t i = 0; i < draft.law_bars.size(); ++i) {
-    const BarDraft& bar = draft.law_bars[i];
-    const auto& ends = mechanism.shape_springs[draft.shape_springs.size() + i].shape.points;
-    const std::string problem =
-        problem_in(bar, bar_of(bar, ends[0], ends[1], mechanism, numbers), mechanism, numbers);
-    if (!problem.empty()) problems.add(bar.place, bar.key, problem, when);
-  }
   for (std::size_t i = 0; i < draft.bars.size(); ++i) {
     const BarDraft& bar = draft.bars[i];
     const std::string problem =
@@ -141,8 +98,7 @@ void list_nodes(const MechanismDraft& draft, Case& the_case) {
   for (const SupportDraft& node : draft.supports) the_case.nodes.push_back({node.name, false, {}});
   for (const BodyDraft& body : draft.bodies)
     if (body.is_node) the_case.nodes.push_back({body.name, true, body.fixed});
-  for (const auto* bars : {&draft.bars, &draft.law_bars})
-    for (const BarDraft& bar : *bars) the_case.bars.push_back(bar.name);
+  for (const BarDraft& bar : draft.bars) the_case.bars.push_back(bar.name);
 }
 
 }  // namespace springfold::io

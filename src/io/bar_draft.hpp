@@ -13,19 +13,6 @@ namespace springfold::io {
 model::LineSpring bar_of(const BarDraft& draft, const model::Anchor& from, const model::Anchor& to,
                          const model::Mechanism& mechanism, const std::vector<double>& numbers);
 
-/// The bar with a law of its elongation, or with none where it is slack, as a spring of its length.
-model::ShapeSpring law_bar_of(const BarDraft& draft, const model::Anchor& from,
-                              const model::Anchor& to, const model::Mechanism& mechanism,
-                              const std::vector<double>& numbers);
-
-/// alpha of the shape as drawn; not finite where it has no value there.
-/// @param mechanism  bodies and chains are built
-double drawn_value(const model::Mechanism& mechanism, const model::Shape& shape);
-
-/// Reports springs that are counted from where they are drawn, but have no value or slope there.
-void check_drawn_shapes(const MechanismDraft& draft, const model::Mechanism& mechanism,
-                        const std::string& when, Problems& problems);
-
 /// Reports bars without length, and pretensions that no free length gives.
 void check_bars(const MechanismDraft& draft, const std::vector<double>& numbers,
                 const model::Mechanism& mechanism, const std::string& when, Problems& problems);

@@ -68,10 +68,6 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
     const ShapeSpringDraft& at = draft.shape_springs[shape->number - 1];
     return problems.add(at.place, at.key, rest_of(view.substr(shape->length)), when);
   }
-  if (shape && shape->number <= draft.shape_springs.size() + draft.law_bars.size()) {
-    const BarDraft& at = draft.law_bars[shape->number - 1 - draft.shape_springs.size()];
-    return problems.add(at.place, at.key, rest_of(view.substr(shape->length)), when);
-  }
   const auto chain = numbered(view, "chain");
   if (!chain || chain->number > draft.chains.size())
     return problems.add(study.place, study.key, text, when);
@@ -252,7 +248,6 @@ class Builder {
     const StudyDraft& study = draft_->studies[i];
     const std::size_t before = problems_.size();
     check_bars(draft_->mechanism, numbers, planned.mechanism, study.when(planned.run), problems_);
-    check_drawn_shapes(draft_->mechanism, planned.mechanism, study.when(planned.run), problems_);
     if (problems_.size() != before) return false;
     for (const std::string& text : model::problems_in(planned.mechanism))
       add_model_problem(text, draft_->mechanism, numbers, study, planned.run, problems_);

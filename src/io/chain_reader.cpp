@@ -34,8 +34,7 @@ bool is_taken(const std::string& name, const MechanismDraft& draft) {
          std::any_of(draft.springs.begin(), draft.springs.end(), has_name) ||
          std::any_of(draft.shape_springs.begin(), draft.shape_springs.end(), has_name) ||
          std::any_of(draft.supports.begin(), draft.supports.end(), has_name) ||
-         std::any_of(draft.bars.begin(), draft.bars.end(), has_name) ||
-         std::any_of(draft.law_bars.begin(), draft.law_bars.end(), has_name);
+         std::any_of(draft.bars.begin(), draft.bars.end(), has_name);
 }
 
 std::string read_own_name(const TableReader& table, const MechanismDraft& draft, Reading& reading) {

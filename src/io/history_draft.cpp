@@ -75,26 +75,13 @@ std::string counted_from_start(const MechanismDraft& mechanism) {
   return {};
 }
 
-/// Takes over what the study before holds, but for what this one releases. @pre that one is done
-void inherit_holds(const std::vector<HoldDraft>& before, const MechanismDraft& mechanism,
-                   HistoryDraft& history, Problems& problems) {
+/// Takes over what the study before holds. @pre that one is done
+void inherit_holds(const std::vector<HoldDraft>& before, HistoryDraft& history) {
   std::vector<HoldDraft> holds = before;
   const auto of = [&holds](Index body) {
     return std::find_if(holds.begin(), holds.end(),
                         [body](const HoldDraft& hold) { return hold.body == body; });
   };
-  for (const HoldDraft& release : history.releases) {
-    const auto hold = of(release.body);
-    for (std::size_t i = 0; i < release.held.size(); ++i) {
-      if (!release.held[i]) continue;
-      if (hold != holds.end() && hold->held[i])
-        hold->held[i] = false;
-      else
-        problems.add(history.release.place, history.release.key,
-                     "got \"" + mechanism.bodies[static_cast<std::size_t>(release.body - 1)].name +
-                         "." + "xyz"[i] + "\", which the studies before do not hold");
-    }
-  }
   for (const HoldDraft& own : history.holds) {
     const auto hold = of(own.body);
     if (hold == holds.end())
@@ -103,15 +90,11 @@ void inherit_holds(const std::vector<HoldDraft>& before, const MechanismDraft& m
       for (std::size_t i = 0; i < own.held.size(); ++i)
         hold->held[i] = hold->held[i] || own.held[i];
   }
-  std::erase_if(holds, [](const HoldDraft& hold) {
-    return std::none_of(hold.held.begin(), hold.held.end(), [](bool held) { return held; });
-  });
   history.holds = std::move(holds);
 }
 
 /// Holds of all studies, the earlier ones first. @pre no circles
-void inherit_all(const MechanismDraft& mechanism, std::vector<StudyDraft>& studies,
-                 Problems& problems) {
+void inherit_all(std::vector<StudyDraft>& studies) {
   std::vector<bool> done(studies.size(), false);
   for (std::size_t i = 0; i < studies.size(); ++i) {
     std::vector<std::size_t> way{i};
@@ -120,7 +103,7 @@ void inherit_all(const MechanismDraft& mechanism, std::vector<StudyDraft>& studi
     for (auto at = way.rbegin(); at != way.rend(); ++at) {
       HistoryDraft& history = studies[*at].history;
       if (!done[*at] && history.study)
-        inherit_holds(studies[*history.study].history.holds, mechanism, history, problems);
+        inherit_holds(studies[*history.study].history.holds, history);
       done[*at] = true;
     }
   }
@@ -154,7 +137,7 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
 }  // namespace
 
 const std::vector<std::string>& history_keys() {
-  static const std::vector<std::string> keys{"from", "at", "loads", "hold", "release"};
+  static const std::vector<std::string> keys{"from", "at", "loads", "hold"};
   return keys;
 }
 
@@ -164,7 +147,7 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
   const auto from = start.has("from") ? start.required_text("from", "the name of another study")
                                       : std::optional<std::string>{};
   if (!start.has("from")) {
-    for (const char* key : {"at", "loads", "hold", "release"})
+    for (const char* key : {"at", "loads", "hold"})
       if (const Node* node = start.find(key))
         reading.problems.add(node->place, start.key_of(key),
                              "goes with from, need from = \"...\", the name of an earlier study");
@@ -185,10 +168,6 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
   history.keeps_loads = start.choice("loads", {"kept", "own"}, 0) == 0;
   for (const Item& item : start.list("hold", "a list of coordinates such as [\"foot.x\"]"))
     read_hold(item, mechanism, history.holds, reading);
-  for (const Item& item : start.list("release", "a list of coordinates such as [\"foot.x\"]"))
-    read_hold(item, mechanism, history.releases, reading);
-  if (const Node* release = start.find("release"))
-    history.release = {"", release->place, start.key_of("release")};
   return history;
 }
 
@@ -210,7 +189,7 @@ void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>&
   const std::size_t before = problems.size();
   for (const StudyDraft& study : studies)
     if (study.history.study) check_history(mechanism, studies, study, problems);
-  if (problems.size() == before) inherit_all(mechanism, studies, problems);
+  if (problems.size() == before) inherit_all(studies);
 }
 
 void add_holds(const HistoryDraft& history, model::Mechanism& mechanism) {

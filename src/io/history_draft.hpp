@@ -22,9 +22,7 @@ struct HistoryDraft {
   NamedPlace from{};  ///< name of the earlier study; empty: none
   std::string at = "end";
   bool keeps_loads = true;
-  std::vector<HoldDraft> holds{};      ///< own ones, and those of the studies before it
-  std::vector<HoldDraft> releases{};   ///< of those of the studies before it
-  NamedPlace release{};                ///< where they are named
+  std::vector<HoldDraft> holds{};
   std::optional<std::size_t> study{};  ///< its position among the studies, once they are all read
 };
 
@@ -38,8 +36,7 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
                           Reading& reading);
 
 /// Finds the earlier studies by their names, and reports what cannot be a history: unknown names,
-/// circles, kinds without states, different numbers of runs, springs counted from a start, releases of
-/// what is not held. Studies go on holding what those before them hold and they do not release.
+/// circles, kinds without states, different numbers of runs, springs counted from a start.
 void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>& studies,
                        Problems& problems);
 

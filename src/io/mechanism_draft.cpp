@@ -132,12 +132,9 @@ model::Shape shape_of(const ShapeDraft& draft, const Numbers& numbers) {
   return shape;
 }
 
-/// @param mechanism  bodies and chains are built
-model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft, const model::Mechanism& mechanism,
-                                   const Numbers& numbers) {
+model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft, const Numbers& numbers) {
   model::ShapeSpring spring{.name = draft.name, .shape = shape_of(draft.shape, numbers)};
   if (draft.law) spring.law = law_of(*draft.law, numbers);
-  if (draft.from_drawn) spring.law = model::moved(spring.law, drawn_value(mechanism, spring.shape));
   if (draft.gas)
     spring.gas = {numbers[draft.gas->nRT], numbers[draft.gas->initial],
                   numbers[draft.gas->exponent]};
@@ -222,10 +219,7 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
     mechanism.line_springs.push_back(
         bar_of(bar, anchor_of(bar.from, numbers), anchor_of(bar.to, numbers), mechanism, numbers));
   for (const ShapeSpringDraft& spring : draft.shape_springs)
-    mechanism.shape_springs.push_back(shape_spring_of(spring, mechanism, numbers));
-  for (const BarDraft& bar : draft.law_bars)
-    mechanism.shape_springs.push_back(law_bar_of(bar, anchor_of(bar.from, numbers),
-                                                 anchor_of(bar.to, numbers), mechanism, numbers));
+    mechanism.shape_springs.push_back(shape_spring_of(spring, numbers));
   return mechanism;
 }
 

@@ -120,14 +120,12 @@ struct SupportDraft {
   std::string key{};
 };
 
-/// A straight bar between two points: a spring whose free length may be that drawn.
+/// A straight linear bar between two points: a line spring whose free length may be that drawn.
 struct BarDraft {
   std::string name{};
   AnchorDraft from{}, to{};
   std::optional<NumberId> stiffness{}, EA{};     ///< one of both [force/length], [force]
-  std::optional<SpringDraft> law{};              ///< instead of both, of the elongation
   std::optional<NumberId> free{}, pretension{};  ///< one or none [length], [force]
-  bool tension_only = false;                     ///< slack where it is shorter than free
   Place place{};
   std::string key{};
 };
@@ -141,7 +139,6 @@ struct ShapeSpringDraft {
   ShapeDraft shape{};
   std::optional<SpringDraft> law{};
   std::optional<GasDraft> gas{};
-  bool from_drawn = false;  ///< coordinates of the law are counted from alpha as drawn
   Place place{};
   std::string key{};
 };
@@ -186,10 +183,9 @@ struct MechanismDraft {
   std::vector<NumberId> gravity{};
   std::vector<LineSpringDraft> springs{};
   std::vector<SupportDraft> supports{};
-  std::vector<BarDraft> bars{};  ///< linear; in the model they are line springs behind `springs`
+  std::vector<BarDraft> bars{};  ///< in the model they are line springs behind `springs`
   std::vector<ShapeSpringDraft> shape_springs{};
-  std::vector<BarDraft> law_bars{};  ///< in the model they are shapes behind `shape_springs`
-  std::vector<LoadDraft> loads{};    ///< of all studies
+  std::vector<LoadDraft> loads{};  ///< of all studies
 };
 
 /// @param numbers  values of draft.numbers, as many as these

@@ -108,43 +108,12 @@ std::string read_bar_name(const TableReader& table, const MechanismDraft& draft,
   return name;
 }
 
-/// `law`, or `stiffness` or `EA`: exactly one of them.
-void read_bar_law(const TableReader& table, NumberTable& numbers, BarDraft& bar, Reading& reading) {
-  const std::string length = reading.units.length, force = reading.units.force;
-  std::string got;
-  int given = 0;
-  for (const char* key : {"stiffness", "EA", "law"})
-    if (table.has(key)) got += (given++ == 0 ? "" : " and ") + std::string{key};
-  if (given != 1)
-    reading.problems.add(table.place(), table.key(),
-                         (given > 1 ? "got " + got : "got neither stiffness nor EA nor law") +
-                             ", need exactly one of stiffness, EA and law");
-  if (table.has("stiffness"))
-    bar.stiffness =
-        table.number("stiffness", {Range::non_negative, force + "/" + length}, numbers, 0);
-  if (table.has("EA")) bar.EA = table.number("EA", {Range::positive, force}, numbers, 0);
-  bar.tension_only = table.truth("tension_only", false);
-  if (!table.has("law")) return;
-  const Item at{table.find("law"), table.key_of("law")};
-  bar.law = read_spring(at, model::JointKind::prismatic, numbers, reading);
-  if (bar.law && std::visit([](const auto& law) { return law.from_start; }, *bar.law))
-    reading.problems.add(at.node->place, at.key + ".origin",
-                         "the law of a bar counts from its free length: need \"joint\" or no "
-                         "origin");
-  if (bar.tension_only)
-    reading.problems.add(table.find("tension_only")->place, table.key_of("tension_only"),
-                         "goes with stiffness or EA, need a law that is one-sided itself");
-  if (table.has("pretension"))
-    reading.problems.add(table.find("pretension")->place, table.key_of("pretension"),
-                         "goes with stiffness or EA, need free: the law says what pulls then");
-}
-
 BarDraft read_bar(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{*item.node,
-                          item.key,
-                          {"name", "from", "from_at", "to", "to_at", "stiffness", "EA", "law",
-                           "free", "pretension", "tension_only"},
-                          reading};
+  const TableReader table{
+      *item.node,
+      item.key,
+      {"name", "from", "from_at", "to", "to_at", "stiffness", "EA", "free", "pretension"},
+      reading};
   BarDraft bar{.place = item.node->place, .key = item.key};
   bar.name = read_bar_name(table, draft, reading);
   const std::string ends = "the name of a node, of a body, or \"chain.point\"";
@@ -154,15 +123,23 @@ BarDraft read_bar(const Item& item, MechanismDraft& draft, Reading& reading) {
   NumberTable& numbers = draft.numbers;
   bar.from.at = read_at(table, "from_at", draft, bar.from, numbers, reading);
   bar.to.at = read_at(table, "to_at", draft, bar.to, numbers, reading);
+  const std::string length = reading.units.length, force = reading.units.force;
+  if (table.has("stiffness") == table.has("EA"))
+    reading.problems.add(
+        table.place(), table.key(),
+        std::string{table.has("EA") ? "got stiffness and EA" : "got neither stiffness nor EA"} +
+            ", need exactly one of them");
   if (table.has("free") && table.has("pretension"))
     reading.problems.add(table.find("pretension")->place, table.key_of("pretension"),
                          "either free or pretension, not both: each says how long the bar is "
                          "without force");
-  read_bar_law(table, numbers, bar, reading);
-  if (table.has("free"))
-    bar.free = table.number("free", {Range::non_negative, reading.units.length}, numbers, 0);
+  if (table.has("stiffness"))
+    bar.stiffness =
+        table.number("stiffness", {Range::non_negative, force + "/" + length}, numbers, 0);
+  if (table.has("EA")) bar.EA = table.number("EA", {Range::positive, force}, numbers, 0);
+  if (table.has("free")) bar.free = table.number("free", {Range::non_negative, length}, numbers, 0);
   if (table.has("pretension"))
-    bar.pretension = table.number("pretension", {Range::finite, reading.units.force}, numbers, 0);
+    bar.pretension = table.number("pretension", {Range::finite, force}, numbers, 0);
   return bar;
 }
 
@@ -176,11 +153,7 @@ void read_nodes(const std::vector<Item>& tables, MechanismDraft& draft, Reading&
 }
 
 void read_bars(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
-  for (const Item& item : tables) {
-    BarDraft bar = read_bar(item, draft, reading);
-    const bool has_law = bar.law || bar.tension_only;
-    (has_law ? draft.law_bars : draft.bars).push_back(std::move(bar));
-  }
+  for (const Item& item : tables) draft.bars.push_back(read_bar(item, draft, reading));
 }
 
 }  // namespace springfold::io

@@ -95,9 +95,8 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
     spring.law = *read;
     if (std::visit([](const auto& s) { return s.from_start; }, *read))
       reading.problems.add(table.find("law")->place, table.key_of("law") + ".origin",
-                           "springs between points count from their own zero: need no origin "
-                           "here; origin = \"drawn\" beside law counts from where the case draws "
-                           "the points");
+                           "springs between points count from their own zero: need \"joint\" or "
+                           "no origin");
     return;
   }
   if (gas)
@@ -110,7 +109,7 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
 
 void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
   const bool ends = item.node->find("to") != nullptr || item.node->find("from") != nullptr;
-  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas", "origin"};
+  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas"};
   if (ends)
     keys.insert(keys.end(), {"from", "from_at", "to", "to_at"});
   else
@@ -129,17 +128,15 @@ void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading
     read_ends(table, draft, spring.shape.points[0], spring.shape.points[1], reading);
   }
   read_energy(table, numbers, spring, reading);
-  spring.from_drawn = table.choice("origin", {"zero", "drawn"}, 0) == 1;
-  if (table.has("gas")) refuse(table, "origin", "gas counts from its own initial value", reading);
   draft.shape_springs.push_back(std::move(spring));
 }
 
 void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{*item.node,
-                          item.key,
-                          {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape",
-                           "of", "law", "gas", "origin"},
-                          reading};
+  const TableReader table{
+      *item.node,
+      item.key,
+      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas"},
+      reading};
   LineSpringDraft spring{.place = item.node->place, .key = item.key};
   spring.name = read_own_name(table, draft, reading);
   read_ends(table, draft, spring.from, spring.to, reading);
@@ -208,7 +205,7 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
 void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const auto has = [&](const char* key) { return item.node->find(key) != nullptr; };
-    if (has("shape") || has("of") || has("law") || has("gas") || has("origin"))
+    if (has("shape") || has("of") || has("law") || has("gas"))
       read_shape_spring(item, draft, reading);
     else
       read_line_spring(item, draft, reading);

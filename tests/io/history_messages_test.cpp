@@ -118,20 +118,13 @@ kind = "equilibrium"
 vary = { parameter = "k", values = [1, 2] }
 )";
 
-TEST_F(HistoryMessages, LaterStudiesHoldWhatThoseBeforeThemHoldUntilTheyRelease) {
+TEST_F(HistoryMessages, LaterStudiesHoldWhatThoseBeforeThemHold) {
   const auto held = [this](const std::string& start) {
     return load(steps + third + "start = { " + start + " }\n").runs.at(5).history.held;
   };
   EXPECT_THAT(held("from = \"second\""), ElementsAre("foot.hold"));
   EXPECT_THAT(held("from = \"second\", hold = [\"top.x\"]"), ElementsAre("foot.hold", "top.hold"));
-  EXPECT_THAT(held("from = \"second\", release = [\"foot.x\"]"), IsEmpty());
   EXPECT_THAT(held("from = \"first\""), IsEmpty());
-}
-
-TEST_F(HistoryMessages, WantReleasesOfWhatIsHeld) {
-  EXPECT_THAT(messages(steps + third + "start = { from = \"second\", release = [\"top.y\"] }\n"),
-              ElementsAre(HasSubstr("study[3].start.release: got \"top.y\", which the studies "
-                                    "before do not hold")));
 }
 
 TEST_F(HistoryMessages, RefuseKindsWithoutSingleStates) {

@@ -128,38 +128,16 @@ TEST_F(NodeMessages, WantDirectionsThatExist) {
 TEST_F(NodeMessages, WantOneStiffnessAndOneFreeLength) {
   EXPECT_THAT(
       after("EA = 6\n", "EA = 6\nstiffness = 1\n"),
-      ElementsAre("case.toml:17:1: bar[2]: got stiffness and EA, need exactly one of stiffness, EA "
-                  "and law"));
+      ElementsAre("case.toml:17:1: bar[2]: got stiffness and EA, need exactly one of them"));
   EXPECT_THAT(after("EA = 6\n", "\n"),
-              ElementsAre("case.toml:17:1: bar[2]: got neither stiffness nor EA nor law, need "
-                          "exactly one of stiffness, EA and law"));
+              ElementsAre("case.toml:17:1: bar[2]: got neither stiffness nor EA, need exactly one "
+                          "of them"));
   EXPECT_THAT(
       after("pretension = 1", "pretension = 1\nfree = 1"),
       ElementsAre("case.toml:22:14: bar[2].pretension: either free or pretension, not both: "
                   "each says how long the bar is without force"));
   EXPECT_THAT(after("EA = 6", "EA = -6"),
               ElementsAre("case.toml:21:6: bar[2].EA: got -6, need a number > 0 [N]"));
-}
-
-TEST_F(NodeMessages, WantLawsOfBarsThatCountFromTheirFreeLength) {
-  const std::string law = "law = { law = \"linear\", stiffness = 1 }\n";
-  EXPECT_THAT(after("EA = 6\npretension = 1", law), testing::IsEmpty());
-  EXPECT_THAT(
-      after("EA = 6\npretension = 1", law + "pretension = 1"),
-      ElementsAre("case.toml:22:14: bar[2].pretension: goes with stiffness or EA, need free: "
-                  "the law says what pulls then"));
-  EXPECT_THAT(after("EA = 6\npretension = 1", law + "tension_only = true"),
-              ElementsAre("case.toml:22:16: bar[2].tension_only: goes with stiffness or EA, need a "
-                          "law that is one-sided itself"));
-  EXPECT_THAT(
-      after("EA = 6\npretension = 1",
-            "law = { law = \"linear\", stiffness = 1, origin = \"start\" }"),
-      ElementsAre(
-          "case.toml:21:7: bar[2].law.origin: the law of a bar counts from its free length: "
-          "need \"joint\" or no origin"));
-  EXPECT_THAT(after("EA = 6\npretension = 1", "law = { law = \"linear\", stiffness = -1 }"),
-              ElementsAre(testing::HasSubstr("bar[2].law.stiffness: got -1, need a number >= 0 "
-                                             "[N/m], or falling = true")));
 }
 
 TEST_F(NodeMessages, WantBarsThatHaveALength) {
