@@ -146,9 +146,24 @@ std::vector<model::Load> kept_loads(const Earlier& earlier, const model::Mechani
   return kept;
 }
 
+/// Angles of shapes count the turns of their bodies from where the case draws these: drawn elsewhere,
+/// they are near another angle.
+void put_turned_state(const State& state, const std::vector<std::string>& held,
+                      model::Mechanism& mechanism) {
+  const bool counts =
+      std::any_of(mechanism.shape_springs.begin(), mechanism.shape_springs.end(),
+                  [](const auto& s) { return s.shape.kind == model::ShapeKind::angle; });
+  if (!counts) return put_state(state, held, mechanism);
+  const statics::System before = statics::prepare(mechanism);
+  put_state(state, held, mechanism);
+  const statics::System after = statics::prepare(mechanism);
+  for (std::size_t i = 0; i < mechanism.shape_springs.size(); ++i)
+    mechanism.shape_springs[i].shape.near += after.shapes[i].turned - before.shapes[i].turned;
+}
+
 void apply(const State& state, const std::vector<std::string>& held,
            const std::vector<model::Load>& kept, model::Mechanism& mechanism) {
-  put_state(state, held, mechanism);
+  put_turned_state(state, held, mechanism);
   mechanism.loads.insert(mechanism.loads.end(), kept.begin(), kept.end());
 }
 

@@ -30,8 +30,8 @@ std::vector<std::string> coordinates_of(const MechanismDraft& mechanism) {
   return names;
 }
 
-/// "foot.x" into the list of holds; reports others.
-void read_hold(const Item& item, const MechanismDraft& mechanism, HistoryDraft& history,
+/// "foot.x" into a list of holds or releases; reports others.
+void read_hold(const Item& item, const MechanismDraft& mechanism, std::vector<HoldDraft>& holds,
                Reading& reading) {
   const std::string& text = item.node->text;
   const std::vector<std::string> known = coordinates_of(mechanism);
@@ -46,11 +46,11 @@ void read_hold(const Item& item, const MechanismDraft& mechanism, HistoryDraft& 
                                  [&name](const BodyDraft& b) { return b.name == name; });
   const auto coordinate = static_cast<std::size_t>(text.back() - 'x');
   const Index number = body - mechanism.bodies.begin() + 1;
-  auto hold = std::find_if(history.holds.begin(), history.holds.end(),
+  auto hold = std::find_if(holds.begin(), holds.end(),
                            [number](const HoldDraft& h) { return h.body == number; });
-  if (hold == history.holds.end())
-    hold = history.holds.insert(
-        hold, {number, std::vector<bool>(body->pose.size(), false), name + ".hold"});
+  if (hold == holds.end())
+    hold =
+        holds.insert(hold, {number, std::vector<bool>(body->pose.size(), false), name + ".hold"});
   const bool fixed = std::find(body->fixed.begin(), body->fixed.end(),
                                text.substr(text.size() - 1)) != body->fixed.end();
   if (fixed || hold->held[coordinate])
@@ -75,22 +75,38 @@ std::string counted_from_start(const MechanismDraft& mechanism) {
   return {};
 }
 
-/// Can the anchor turn, in the plane?
-bool turns(const MechanismDraft& mechanism, const AnchorDraft& anchor) {
-  if (anchor.chain >= 0) return true;
-  return anchor.body > 0 &&
-         mechanism.bodies[static_cast<std::size_t>(anchor.body - 1)].task_space ==
-             model::TaskSpace::planar;
+/// Takes over what the study before holds. @pre that one is done
+void inherit_holds(const std::vector<HoldDraft>& before, HistoryDraft& history) {
+  std::vector<HoldDraft> holds = before;
+  const auto of = [&holds](Index body) {
+    return std::find_if(holds.begin(), holds.end(),
+                        [body](const HoldDraft& hold) { return hold.body == body; });
+  };
+  for (const HoldDraft& own : history.holds) {
+    const auto hold = of(own.body);
+    if (hold == holds.end())
+      holds.push_back(own);
+    else
+      for (std::size_t i = 0; i < own.held.size(); ++i)
+        hold->held[i] = hold->held[i] || own.held[i];
+  }
+  history.holds = std::move(holds);
 }
 
-/// The first spring of an angle in the plane that follows the turns of its bodies; "" if there is none.
-std::string counts_turns(const MechanismDraft& mechanism) {
-  for (const ShapeSpringDraft& spring : mechanism.shape_springs)
-    if (spring.shape.kind == model::ShapeKind::angle && spring.shape.points.size() == 3 &&
-        (turns(mechanism, spring.shape.points.front()) ||
-         turns(mechanism, spring.shape.points.back())))
-      return spring.name;
-  return {};
+/// Holds of all studies, the earlier ones first. @pre no circles
+void inherit_all(std::vector<StudyDraft>& studies) {
+  std::vector<bool> done(studies.size(), false);
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    std::vector<std::size_t> way{i};
+    while (!done[way.back()] && studies[way.back()].history.study)
+      way.push_back(*studies[way.back()].history.study);
+    for (auto at = way.rbegin(); at != way.rend(); ++at) {
+      HistoryDraft& history = studies[*at].history;
+      if (!done[*at] && history.study)
+        inherit_holds(studies[*history.study].history.holds, history);
+      done[*at] = true;
+    }
+  }
 }
 
 void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft>& studies,
@@ -110,11 +126,6 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
     return refuse("the spring of " + joint +
                   " is counted from the start, origin = \"start\", which is no longer this "
                   "study's own, need origin = \"joint\"");
-  if (const std::string spring = counts_turns(mechanism); !spring.empty())
-    return refuse(
-        "the angle of spring " + spring +
-        " counts the turns of its bodies from where the case draws them, which is no longer "
-        "this study's start, need a joint with a spring instead");
   std::size_t steps = 0;
   const StudyDraft* way = &study;
   while (way->history.study && ++steps <= most_steps) way = &studies[*way->history.study];
@@ -156,7 +167,7 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
         "got " + described(*at) + ", need \"start\", \"end\" or a label such as \"LP1\"");
   history.keeps_loads = start.choice("loads", {"kept", "own"}, 0) == 0;
   for (const Item& item : start.list("hold", "a list of coordinates such as [\"foot.x\"]"))
-    read_hold(item, mechanism, history, reading);
+    read_hold(item, mechanism, history.holds, reading);
   return history;
 }
 
@@ -175,8 +186,10 @@ void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>&
     else
       study.history.study = static_cast<std::size_t>(found - names.begin());
   }
+  const std::size_t before = problems.size();
   for (const StudyDraft& study : studies)
     if (study.history.study) check_history(mechanism, studies, study, problems);
+  if (problems.size() == before) inherit_all(studies);
 }
 
 void add_holds(const HistoryDraft& history, model::Mechanism& mechanism) {

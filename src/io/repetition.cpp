@@ -7,6 +7,8 @@
 
 #include "bindings.hpp"
 #include "formula.hpp"
+#include "index_range.hpp"
+#include "pattern.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -14,14 +16,11 @@ namespace {
 
 using Shared = std::shared_ptr<const Bindings>;
 
-constexpr double largest_index = 1e6;
 constexpr std::size_t most_copies = 10000;  ///< as many tables of one name a case may have
 constexpr std::size_t most_levels = 8;      ///< templates and groups within each other
 /// Keys and values of all copies together. One takes about 200 bytes.
 constexpr std::size_t most_values = 500'000;
 constexpr std::size_t text_of_a_value = 100;
-
-const std::string repeat_need = "a table such as { i = [0, 5] }: the first and the last index";
 
 /// Keys and values, long texts as several.
 std::size_t size_of(const Node& node) {
@@ -40,13 +39,6 @@ Node* find_in(Node& table, std::string_view key) {
                                   [key](const NodeEntry& entry) { return entry.key == key; });
   return found == table.entries.end() ? nullptr : &found->value;
 }
-
-struct IndexRange {
-  std::string name{};
-  long first = 0, last = 0, step = 1;
-
-  std::size_t count() const { return static_cast<std::size_t>((last - first) / step + 1); }
-};
 
 class Expander {
  public:
@@ -103,7 +95,7 @@ class Expander {
 
   static bool is_asked_for(const Node& list, const Shared& outer) {
     return outer || std::any_of(list.items.begin(), list.items.end(), [](const Node& item) {
-             if (item.find("repeat") || item.find("use")) return true;
+             if (item.find("repeat") || item.find("pattern") || item.find("use")) return true;
              const Node* inner = item.find("elements");
              return inner && is_asked_for(*inner, {});
            });
@@ -116,14 +108,15 @@ class Expander {
       return problems_.add(item.place, own_key,
                            "templates or groups within each other, more than " +
                                std::to_string(most_levels) + " deep");
-    const auto ranges = ranges_of(item, own_key, outer);
+    const auto ranges = ranges_of(item, own_key, parameters_, outer.get(), problems_);
     if (!ranges) return;
     std::size_t count = 1;
     for (const IndexRange& range : *ranges)
       count = std::min(count * range.count(), most_copies + 1);
     if (count > most_copies)
       return problems_.add(
-          item.find("repeat")->place, own_key + ".repeat",
+          (item.find("repeat") ? item.find("repeat") : item.find("pattern"))->place,
+          own_key + (item.find("repeat") ? ".repeat" : ".pattern"),
           "got more than " + std::to_string(most_copies) + " copies, need at most as many");
     for (std::size_t c = 0; c < count; ++c) {
       Bindings bindings = outer ? *outer : Bindings{};
@@ -152,8 +145,11 @@ class Expander {
     copy.number_text = number;
     if (copy.kind == Node::Kind::table) {
       remove_key(copy, "repeat");
+      remove_key(copy, "pattern");
       fill(copy, own_key, bindings, depth);
       if (!apply_template(copy, own_key, bindings, depth)) return false;
+      if (const Node* pattern = item.find("pattern"))
+        turn_copy(copy, key, *pattern, index_of(*pattern), *bindings, own_key, problems_);
       // A group: elements that are no chain of their own.
       Node* elements = find_in(copy, "elements");
       const bool is_group = elements && key.ends_with(".elements");
@@ -275,59 +271,6 @@ class Expander {
     if (std::floor(value.number) == value.number && std::abs(value.number) <= largest_index)
       binding.whole = static_cast<long>(value.number);
     return binding;
-  }
-
-  /// Indices of `repeat`, none where there is none; nothing if it is unusable.
-  std::optional<std::vector<IndexRange>> ranges_of(const Node& item, const std::string& key,
-                                                   const Shared& outer) {
-    const Node* repeat = item.kind == Node::Kind::table ? item.find("repeat") : nullptr;
-    std::vector<IndexRange> ranges;
-    if (!repeat) return ranges;
-    if (repeat->kind != Node::Kind::table || repeat->entries.empty()) {
-      problems_.add(repeat->place, key + ".repeat",
-                    "got " + described(*repeat) + ", need " + repeat_need);
-      return std::nullopt;
-    }
-    for (const NodeEntry& entry : repeat->entries) {
-      const auto range = range_of(entry, key + ".repeat." + entry.key, outer);
-      if (!range) return std::nullopt;
-      ranges.push_back(*range);
-    }
-    return ranges;
-  }
-
-  std::optional<IndexRange> range_of(const NodeEntry& entry, const std::string& key,
-                                     const Shared& outer) {
-    const auto refuse = [&](const Place& place, const std::string& what) {
-      problems_.add(place, key, what);
-      return std::nullopt;
-    };
-    if (!is_identifier(entry.key) || is_formula_word(entry.key))
-      return refuse(entry.place,
-                    "need a name of letters, digits and '_' that formulas do not keep for "
-                    "themselves");
-    if (parameters_.contains(entry.key) || (outer && outer->find(entry.key)))
-      return refuse(entry.place, "is the name of a parameter or of an index already, need another");
-    const Node& value = entry.value;
-    const bool fits =
-        value.kind == Node::Kind::array && (value.items.size() == 2 || value.items.size() == 3) &&
-        std::all_of(value.items.begin(), value.items.end(), [](const Node& end) {
-          return end.kind == Node::Kind::number && std::floor(end.number) == end.number &&
-                 std::abs(end.number) <= largest_index;
-        });
-    if (!fits)
-      return refuse(value.place, "got " + described(value) +
-                                     ", need [first, last] or [first, last, step], whole numbers "
-                                     "from -1000000 to 1000000");
-    IndexRange range{.name = entry.key,
-                     .first = static_cast<long>(value.items[0].number),
-                     .last = static_cast<long>(value.items[1].number)};
-    if (value.items.size() == 3) range.step = static_cast<long>(value.items[2].number);
-    if (range.step < 1) return refuse(value.place, "need a step of at least 1");
-    if (range.last < range.first)
-      return refuse(value.place, "got [" + std::to_string(range.first) + ", " +
-                                     std::to_string(range.last) + "], need first <= last");
-    return range;
   }
 
   /// Fills braces and binds names in all values of the table; lists within are expanded.

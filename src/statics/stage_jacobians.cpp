@@ -1,20 +1,67 @@
 #include "springfold/statics/stage_jacobians.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
+#include "springfold/core/sparse_matrices.hpp"
+#include "springfold/statics/couplings.hpp"
 #include "stage_chain.hpp"
 
 namespace springfold::statics {
+namespace {
 
+/// Is a chain so long that it is cut into stages?
+bool has_long_chain(const System& system, Index unknowns) {
+  if (!has_stage_form(system)) return false;
+  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
+    const ChainSlice& slice = system.chain_slices[i];
+    if (slice.x_count + slice.F_count >= unknowns && has_stage_form(system, i)) return true;
+  }
+  return false;
+}
+
+/// Couplings with the root unknowns instead of the poses.
+std::vector<std::vector<Index>> root_couplings(const System& system,
+                                               const std::vector<std::vector<Index>>& columns) {
+  std::vector<std::vector<Index>> lists = couplings(system);
+  if (columns.empty()) return lists;
+  for (auto& list : lists) {
+    std::vector<Index> own;
+    for (const Index z : list)
+      if (z < system.first_pose) own.push_back(z);
+    for (std::size_t b = 0; b < columns.size(); ++b)
+      if (std::find(list.begin(), list.end(), system.body_slices[b].t) != list.end())
+        for (const Index column : columns[b]) own.push_back(system.first_pose + column);
+    list = std::move(own);
+  }
+  std::erase_if(lists, [](const auto& list) { return list.empty(); });
+  return lists;
+}
+
+Index root_count(const System& system, const std::vector<std::vector<Index>>& columns) {
+  if (columns.empty()) return system.size - system.first_pose;
+  Index count = 0;
+  for (const auto& list : columns) count += std::ssize(list);
+  return count;
+}
+
+}  // namespace
+
+/// Either in stages, or, of many members, with entries.
 struct StageJacobians::Layout {
   System system;
-  StagePlan plan;
+  std::vector<std::vector<Index>> root_columns;
+  StagePlan plan{};
+  std::optional<SparseLayout> sparse{};
 };
 
 /// One matrix, and its factorisation once it is asked for.
 struct StageJacobians::Slot {
-  explicit Slot(std::shared_ptr<const Layout> of) : layout{std::move(of)}, solver{layout->plan} {}
+  explicit Slot(std::shared_ptr<const Layout> of) : layout{std::move(of)}, solver{layout->plan} {
+    if (layout->sparse) entries.emplace(*layout->sparse);
+  }
 
   std::shared_ptr<const Layout> layout;
   StageMatrix matrix{};
@@ -28,12 +75,23 @@ struct StageJacobians::Slot {
   StageScratch scratch{};
   Vector absolute{}, dz{}, dr{}, root{};
 
+  /// Of many members: the matrix by poses and by commands, and that of the root unknowns.
+  struct Entries {
+    explicit Entries(const SparseLayout& of) : matrices{of} {}
+    Matrix A{}, by_commands{}, half{}, reduced{};
+    Workspace work{};
+    SparseMatrices matrices;
+    StructuredMatrix J{};
+  };
+  std::optional<Entries> entries{};
+
   bool factorise(const FrontalBorders& wanted);
   bool take(const FrontalBorders& wanted);
   bool solve(const FrontalBorders& wanted, Matrix& X, bool transposed);
   std::optional<Inertia> inertia();
   void multiply(const StageMatrix& A, const Matrix& basis, const Matrix& own, const Vector& v,
                 Vector& result);
+  const Matrix& reduce(const Matrix& basis, const Matrix& own);
   void product(const Vector& v, Vector& result);
   void magnitudes(const Vector& v, Vector& result);
 };
@@ -123,18 +181,57 @@ void StageJacobians::Slot::magnitudes(const Vector& v, Vector& result) {
   result = -result;
 }
 
-bool prefers_stages(const System& system, Index unknowns) {
-  if (!has_stage_form(system)) return false;
-  for (std::size_t i = 0; i < system.chain_slices.size(); ++i) {
-    const ChainSlice& slice = system.chain_slices[i];
-    if (slice.x_count + slice.F_count >= unknowns && has_stage_form(system, i)) return true;
+/// basis^T A basis + own, body by body: each body has root unknowns of its own.
+const Matrix& StageJacobians::Slot::reduce(const Matrix& basis, const Matrix& own) {
+  Entries& e = *entries;
+  const System& system = layout->system;
+  const Index first = system.first_pose, roots = root_count(system, layout->root_columns);
+  if (basis.size() == 0 && own.size() == 0) return e.A;
+  if (basis.size() == 0) {
+    e.reduced = e.A;
+  } else {
+    e.half.resize(system.size, first + roots);
+    e.reduced.resize(first + roots, first + roots);
+    e.half.leftCols(first) = e.A.leftCols(first);
+    for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+      const BodySlice& body = system.body_slices[b];
+      for (const Index column : layout->root_columns[b])
+        e.half.col(first + column).noalias() =
+            e.A.middleCols(body.t, body.count) *
+            basis.col(column).segment(body.t - first, body.count);
+    }
+    e.reduced.topRows(first) = e.half.topRows(first);
+    for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+      const BodySlice& body = system.body_slices[b];
+      for (const Index column : layout->root_columns[b])
+        e.reduced.row(first + column).noalias() =
+            basis.col(column).segment(body.t - first, body.count).transpose() *
+            e.half.middleRows(body.t, body.count);
+    }
   }
-  return false;
+  if (own.size() > 0) e.reduced.bottomRightCorner(roots, roots) += own;
+  return e.reduced;
+}
+
+bool has_entries(const System& system) {
+  constexpr Index long_chain = 48;  // as prefers_stages() has it
+  return !has_long_chain(system, long_chain) && prefers_sparse(system);
+}
+
+bool prefers_stages(const System& system, Index unknowns) {
+  return has_long_chain(system, unknowns) || prefers_sparse(system);
 }
 
 StageJacobians::StageJacobians(const System& layout,
-                               const std::vector<std::vector<Index>>& root_columns)
-    : layout_{std::make_shared<const Layout>(Layout{layout, plan_stages(layout, root_columns)})} {}
+                               const std::vector<std::vector<Index>>& root_columns) {
+  Layout own{layout, root_columns};
+  if (has_entries(layout))
+    own.sparse.emplace(layout.first_pose + root_count(layout, root_columns),
+                       root_couplings(layout, root_columns));
+  else
+    own.plan = plan_stages(layout, root_columns);
+  layout_ = std::make_shared<const Layout>(std::move(own));
+}
 
 const StagePlan& StageJacobians::plan() const { return layout_->plan; }
 
@@ -147,6 +244,10 @@ std::shared_ptr<StageJacobians::Slot> StageJacobians::free_slot() {
 
 bool StageJacobians::residual(const System& system, const Piece& piece, const Vector& z,
                               const Inputs& inputs, Vector& r) {
+  if (layout_->sparse) {
+    const std::shared_ptr<Slot> slot = last_ ? last_ : free_slot();
+    return equilibrium_residual(system, piece, z, inputs, slot->entries->work, r);
+  }
   return equilibrium_stages(layout_->plan, system, piece, z, inputs, {}, {}, r, scratch_, false);
 }
 
@@ -160,6 +261,12 @@ bool StageJacobians::begin_matrix(const System& system, const Piece& piece, cons
                                   const Inputs& inputs, Vector& r) {
   const std::shared_ptr<Slot> slot = free_slot();
   slot->factorised = slot->sized = false;
+  if (layout_->sparse) {
+    Slot::Entries& e = *slot->entries;
+    if (!equilibrium_matrix(system, piece, z, inputs, e.work, r, e.A, &e.by_commands)) return false;
+    last_ = slot;
+    return true;
+  }
   if (!evaluate_stages(layout_->plan, system, piece, z, inputs, r, slot->matrix, true))
     return false;
   last_ = slot;
@@ -170,6 +277,12 @@ bool StageJacobians::end_matrix(const System& system, const Matrix& basis, const
                                 StructuredMatrix& A_y) {
   assert(last_ != nullptr);
   Slot* const slot = last_.get();
+  if (layout_->sparse) {
+    slot->entries->matrices.take(slot->reduce(basis, added), slot->entries->J);
+    A_y = slot->entries->J;
+    A_y.owner = last_;
+    return true;
+  }
   slot->added = added;
   if (!put_stage_matrix(layout_->plan, system, basis, added, slot->matrix)) {
     last_.reset();
@@ -188,6 +301,11 @@ bool StageJacobians::end_matrix(const System& system, const Matrix& basis, const
 
 void StageJacobians::product(const Vector& dz, const Vector& drho, Vector& result) const {
   assert(last_ != nullptr);
+  if (layout_->sparse) {
+    result.noalias() = last_->entries->A * dz;
+    if (drho.size() > 0) result.noalias() += last_->entries->by_commands * drho;
+    return;
+  }
   stage_product(layout_->plan, layout_->system, last_->matrix, dz, drho, last_->scratch, result);
 }
 
@@ -198,7 +316,7 @@ Vector StageJacobians::product(const Vector& dz, const Vector& drho) const {
 }
 
 Matrix StageJacobians::chain_stiffness(std::size_t chain, const Matrix& held) const {
-  assert(last_ != nullptr);
+  assert(last_ != nullptr && !layout_->sparse);
   const System& system = layout_->system;
   const ChainSlice& s = system.chain_slices[chain];
   const Index t = s.to >= 0 ? s.to : s.from, first = system.first_pose;

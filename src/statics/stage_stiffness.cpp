@@ -6,6 +6,8 @@
 
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
+#include "springfold/statics/couplings.hpp"
+#include "springfold/statics/sparse_stiffness.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -57,6 +59,7 @@ void by_compliance(const System& system, const StructuredMatrix& A, Index body,
 
 StagedStiffness stiffness_in_stages(const System& system, const StageJacobians& stages,
                                     const StructuredMatrix& A, Index body) {
+  if (has_entries(system)) return sparse_stiffness(system, A, body);
   const Index n = system.size, nt = system.load_size;
   StagedStiffness result;
   FrontalBorders poses{Matrix::Zero(n, nt), {}, Matrix::Zero(nt, nt)};

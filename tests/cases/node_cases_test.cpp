@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "cases/case_runs.hpp"
@@ -245,6 +246,78 @@ until = { lambda = [0, 0.4] }
   EXPECT_NEAR(lambdas(second, EventKind::limit_point).at(0), 2 * 100 * (1 / l - 1) * y, 1e-10);
   EXPECT_NEAR(value(second, second.branches[0].start_row, "foot.hold.Fx"), 0, 1e-12);
   EXPECT_NEAR(value(second, 0, "foot.x"), 2 * a, 1e-12);
+}
+
+// Wound up by M = 2 phi beyond whole turns, and unwound by another study.
+TEST(LoadHistories, AnglesGoOnCountingTheTurnsOfTheDrawing) {
+  const Ran ran = run(R"toml([[body]]
+name = "arm"
+task_space = "planar"
+[[chain]]
+name = "hinge"
+elements = [{ joint = "revolute", axis = "z", name = "q" }]
+[[spring]]
+name = "coil"
+shape = "angle"
+of = [{ on = "base", at = [1, 0] }, { on = "base", at = [0, 0] }, { on = "arm", at = [1, 0] }]
+stiffness = 2
+near = 0
+[[study]]
+name = "wind"
+control = "load"
+direction = [0, 0, 1]
+until = { lambda = [0, 20] }
+[[study]]
+name = "unwind"
+control = "load"
+direction = [0, 0, 1]
+start = { from = "wind" }
+until = { lambda = [-20, 0] }
+[[study]]
+name = "rest"
+kind = "equilibrium"
+start = { from = "unwind", at = "start" }
+)toml");
+  const auto& wind = ran.of("wind");
+  const auto& unwind = ran.of("unwind");
+  ASSERT_TRUE(analysis::complete(wind) && analysis::complete(unwind)) << unwind.start.message;
+  const auto last = [](const auto& result) { return result.branches[0].samples.size() - 1; };
+  EXPECT_NEAR(value(wind, last(wind), "arm.phi"), 10, 1e-10);
+  EXPECT_NEAR(value(unwind, unwind.branches[0].start_row, "arm.phi"), 10, 1e-10);
+  EXPECT_NEAR(value(unwind, unwind.branches[0].start_row, "coil.angle"), 10, 1e-10);
+  EXPECT_NEAR(value(unwind, 0, "arm.phi"), 0, 1e-10);
+  EXPECT_NEAR(value(ran.of("rest"), 0, "coil.angle"), 10, 1e-10);
+}
+
+// What the first study after the preload holds, those that start from it hold too.
+TEST(LoadHistories, HoldsLastInTheStudiesThatFollow) {
+  const Ran ran = run(frame_with(R"toml([[study]]
+name = "preload"
+body = "foot"
+control = "load"
+direction = [-1, 0]
+until = { lambda = [0, 0.4] }
+[[study]]
+name = "push a little"
+body = "apex"
+control = "load"
+direction = [0, -1]
+start = { from = "preload", hold = ["foot.x"] }
+until = { lambda = [0, 0.1] }
+[[study]]
+name = "push on"
+body = "apex"
+control = "load"
+direction = [0, -1]
+start = { from = "push a little" }
+until = { lambda = [0, 0.1] }
+)toml"));
+  const auto end = [](const auto& result) { return result.branches[0].samples.size() - 1; };
+  const auto& on = ran.of("push on");
+  ASSERT_TRUE(analysis::complete(on)) << on.start.message;
+  const double held = value(ran.of("preload"), end(ran.of("preload")), "foot.x");
+  EXPECT_NEAR(value(on, end(on), "foot.x"), held, 1e-12);
+  EXPECT_GT(std::abs(value(on, end(on), "foot.hold.Fx")), 0.1);
 }
 
 TEST(LoadHistories, StepsFollowEachOtherAndStartAtLabelledPoints) {

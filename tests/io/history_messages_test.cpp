@@ -111,6 +111,22 @@ TEST_F(HistoryMessages, WantPointsLoadsAndHoldsThatMakeSense) {
               ElementsAre(HasSubstr("study[2].start.at: goes with from, need from = \"...\"")));
 }
 
+const std::string third = R"([[study]]
+name = "third"
+body = "top"
+kind = "equilibrium"
+vary = { parameter = "k", values = [1, 2] }
+)";
+
+TEST_F(HistoryMessages, LaterStudiesHoldWhatThoseBeforeThemHold) {
+  const auto held = [this](const std::string& start) {
+    return load(steps + third + "start = { " + start + " }\n").runs.at(5).history.held;
+  };
+  EXPECT_THAT(held("from = \"second\""), ElementsAre("foot.hold"));
+  EXPECT_THAT(held("from = \"second\", hold = [\"top.x\"]"), ElementsAre("foot.hold", "top.hold"));
+  EXPECT_THAT(held("from = \"first\""), IsEmpty());
+}
+
 TEST_F(HistoryMessages, RefuseKindsWithoutSingleStates) {
   EXPECT_THAT(
       after("name = \"second\"\nbody = \"top\"\ncontrol = \"load\"",

@@ -1,6 +1,9 @@
 // `repeat`, `use` and `with`: what is written once is read as if it were written out.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "case_files.hpp"
 #include "io/bindings.hpp"
 
@@ -180,6 +183,109 @@ TEST_F(Repetition, WantsTemplatesAndTheirNamesToExist) {
   EXPECT_THAT(changed("[template.leg]\n", "[template.leg]\nuse = \"leg\"\n"),
               ElementsAre(testing::HasSubstr("chain[1]: templates that use each other in a circle"),
                           testing::HasSubstr("chain[2, i = 1]")));
+}
+
+const std::string turned = R"toml([parameters]
+R = 2
+[[node]]
+pattern = { i = [0, 3], angle = "90*deg" }
+name = "n{i}"
+at = ["R", 0]
+[[node]]
+name = "hub"
+at = [0, 0]
+fixed = true
+[[bar]]
+repeat = { i = [0, 3] }
+from = "hub"
+to = "n{i}"
+stiffness = 1
+[[load]]
+pattern = { i = [0, 3], angle = "90*deg", axis = "-z" }
+on = "n{i}"
+force = ["1 + i", 0]
+[[study]]
+name = "a"
+body = "n0"
+kind = "equilibrium"
+)toml";
+
+TEST_F(Repetition, PatternsTurnPlacesAndForcesAboutAnAxis) {
+  const model::Mechanism mechanism = load(turned).runs.front().mechanism;
+  ASSERT_EQ(mechanism.bodies.size(), 4U);
+  for (int i = 0; i < 4; ++i) {
+    const double c = std::cos(i * 90 * std::numbers::pi / 180);
+    const double s = std::sin(i * 90 * std::numbers::pi / 180);
+    const auto k = static_cast<std::size_t>(i);
+    EXPECT_DOUBLE_EQ(mechanism.bodies[k].pose[0], 2 * c);
+    EXPECT_DOUBLE_EQ(mechanism.bodies[k].pose[1], 2 * s);
+    EXPECT_DOUBLE_EQ(mechanism.loads[k].vector[0], (1 + i) * c);
+    EXPECT_DOUBLE_EQ(mechanism.loads[k].vector[1], -(1 + i) * s);
+  }
+}
+
+TEST_F(Repetition, PatternsTurnAboutAnyPointAndAnyAxis) {
+  const std::string about =
+      replaced(turned, "angle = \"90*deg\" }\nname", "angle = \"90*deg\", about = [1, 0] }\nname");
+  const model::Mechanism flat = load(about).runs.front().mechanism;
+  EXPECT_DOUBLE_EQ(flat.bodies[1].pose[0], 1 + std::cos(std::numbers::pi / 2));
+  EXPECT_DOUBLE_EQ(flat.bodies[1].pose[1], 1);
+  std::string text = replaced(turned, "\"90*deg\" }\nname", "\"90*deg\", axis = \"x\" }\nname");
+  text = replaced(replaced(text, "[\"R\", 0]", "[3, \"R\", 1]"), "at = [0, 0]", "at = [0, 0, 0]");
+  text = replaced(text, "[\"1 + i\", 0]", "[\"1 + i\", 0, 0]");
+  const model::Mechanism space = load(text).runs.front().mechanism;
+  const Vector& pose = space.bodies[1].pose;  // y -> z, z -> -y
+  EXPECT_DOUBLE_EQ(pose[0], 3);
+  EXPECT_NEAR(pose[1], -1, 1e-15);
+  EXPECT_NEAR(pose[2], 2, 1e-15);
+}
+
+// The platform's frame lies on the axis: legs are turned as a whole, at both of their ends.
+TEST_F(Repetition, PatternsOfChainsAreThoseWrittenWithTurnedFrames) {
+  const auto text = [](const std::string& pattern, const std::string& ends) {
+    return "[[body]]\nname = \"p\"\ntask_space = \"planar\"\n[[chain]]\n" + pattern +
+           "name = \"c{i}\"\n" + ends +
+           "elements = [{ joint = \"revolute\", axis = \"z\" }, { joint = \"prismatic\", axis = "
+           "\"x\", role = \"virtual\", stiffness = 1 }, { rigid = [-1, 0] }, { joint = "
+           "\"revolute\", axis = \"z\" }]\n[[study]]\nname = \"a\"\nkind = \"equilibrium\"\n";
+  };
+  const auto one = load(text("pattern = { i = [0, 2], angle = \"120*deg\" }\n",
+                             "from_at = [2, 0]\nto_at = [1, 0]\n"));
+  const auto other =
+      load(text("repeat = { i = [0, 2] }\n",
+                "from_at = { at = [\"2*cos(i*120*deg)\", \"2*sin(i*120*deg)\"], rotate = "
+                "{ axis = \"z\", angle = \"i*120*deg\" } }\n"
+                "to_at = { at = [\"cos(i*120*deg)\", \"sin(i*120*deg)\"], rotate = "
+                "{ axis = \"z\", angle = \"i*120*deg\" } }\n"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const model::Chain& a = one.runs[0].mechanism.chains[i];
+    const model::Chain& b = other.runs[0].mechanism.chains[i];
+    EXPECT_TRUE(a.from_attachment.p.isApprox(b.from_attachment.p, 1e-15));
+    EXPECT_TRUE(a.from_attachment.R.isApprox(b.from_attachment.R, 1e-15));
+    EXPECT_TRUE(a.to_attachment.p.isApprox(b.to_attachment.p, 1e-15));
+    EXPECT_TRUE(a.to_attachment.R.isApprox(b.to_attachment.R, 1e-15));
+  }
+}
+
+TEST_F(Repetition, WantsPatternsThatCanBeTurned) {
+  const auto changed = [this](const std::string& old, const std::string& with) {
+    return messages(replaced(turned, old, with));
+  };
+  EXPECT_THAT(changed("{ i = [0, 3], angle = \"90*deg\" }", "{ i = [0, 3] }"),
+              testing::Contains("case.toml:4:11: node[1, i = 0].pattern.angle: missing, need the "
+                                "angle from one copy to the next [rad]"));
+  EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"90*deg\", axis = \"x\" }\nname"),
+              testing::Contains("case.toml:6:6: node[1, i = 0].pattern.axis: in the plane the axis "
+                                "is \"z\""));
+  EXPECT_THAT(
+      changed("{ i = [0, 3], angle = \"90*deg\" }", "{ angle = \"90*deg\" }"),
+      testing::Contains("case.toml:4:11: node[1].pattern: got a table, need a table with one "
+                        "index such as { i = [0, 5], angle = \"60*deg\" }"));
+  EXPECT_THAT(changed("at = [\"R\", 0]\n", "at = [\"R\", 0]\nfixed = [\"x\"]\n"),
+              testing::Contains(testing::HasSubstr(
+                  "node[1, i = 0].fixed: directions are those of the base, which do not turn")));
+  EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"90*deg\", axis = \"q\" }\nname"),
+              testing::Contains(testing::HasSubstr("pattern.axis: got \"q\", need \"x\"")));
 }
 
 TEST(Bindings, StandInFormulasForNamesAlone) {
