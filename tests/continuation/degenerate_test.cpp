@@ -1,6 +1,7 @@
 // Branch points at which the branches meet in higher order than usual.
 #include <gtest/gtest.h>
 
+#include "continuation/locating/exits.hpp"
 #include "springfold/continuation/diagram.hpp"
 #include "tracing.hpp"
 

@@ -1,6 +1,7 @@
 // The piece between a junction and the first point of a branch that begins there. Private to the engine.
 #pragma once
 
+#include "continuation/points/step.hpp"
 #include "springfold/continuation/diagram.hpp"
 
 namespace springfold::continuation {

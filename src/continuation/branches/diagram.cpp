@@ -12,6 +12,7 @@
 #include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
+#include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"

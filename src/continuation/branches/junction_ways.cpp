@@ -6,6 +6,7 @@
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
+#include "continuation/locating/exits.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {

@@ -1,6 +1,7 @@
 // All ways out of a junction, with places at which traces along them may begin. Private to the engine.
 #pragma once
 
+#include "continuation/points/step.hpp"
 #include "springfold/continuation/diagram.hpp"
 
 namespace springfold::continuation {

@@ -8,6 +8,7 @@
 
 #include "continuation/following/davidenko_arc.hpp"
 #include "continuation/following/many_points.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/words.hpp"
 

@@ -1,6 +1,7 @@
 // What is checked once where a problem enters the engine, so that nothing inside needs to ask. Private to the engine.
 #pragma once
 
+#include "springfold/continuation/options.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/continuation/ray.hpp"
 
