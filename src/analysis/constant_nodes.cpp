@@ -38,7 +38,8 @@ Vector range_weights(double row) {
 }
 
 RangeNodes range_nodes(double low, double high) {
-  RangeNodes range{Vector(parts + 1), Vector(parts + 1), Matrix::Zero(finer * parts + 1, parts + 1)};
+  RangeNodes range{Vector(parts + 1), Vector(parts + 1),
+                   Matrix::Zero(finer * parts + 1, parts + 1)};
   for (Index k = 0; k <= parts; ++k) {
     const double x = place(static_cast<double>(k));
     range.nodes[k] = k == 0 ? low : k == parts ? high : 0.5 * (low + high) + 0.5 * (high - low) * x;

@@ -7,9 +7,10 @@ namespace springfold::analysis {
 
 /// Values f at `nodes` give the mean `mean . f` (Clenshaw and Curtis 1960) and, between the nodes, `inside * f`.
 struct RangeNodes {
-  Vector nodes{};   ///< from low to high, both ends among them
-  Vector mean{};    ///< weights, their sum is 1
-  Matrix inside{};  ///< barycentric interpolation, its rows are places at even angles, the nodes among them
+  Vector nodes{};  ///< from low to high, both ends among them
+  Vector mean{};   ///< weights, their sum is 1
+  Matrix
+      inside{};  ///< barycentric interpolation, its rows are places at even angles, the nodes among them
 };
 
 /// @pre low < high

@@ -82,8 +82,7 @@ class Design {
     const auto first = search_.first_ways();
     const auto before = search_.assess(Vector::Zero(count()), first);
     const auto after = search_.assess(found.changes, first);
-    report_.requirements =
-        after ? after->requirements : search_.requirements().unknown();
+    report_.requirements = after ? after->requirements : search_.requirements().unknown();
     for (std::size_t i = 0; i < report_.requirements.size(); ++i)
       report_.requirements[i].before =
           before ? before->requirements[i].after : std::numeric_limits<double>::quiet_NaN();
@@ -106,18 +105,17 @@ class Design {
   void verify(const FoundDesign& found) {
     if (found.status != DesignStatus::met && found.status != DesignStatus::met_at_start) return;
     report_.verified = all_hold(report_.requirements);
-    const bool climbs =
-        std::any_of(found.limiting.begin(), found.limiting.end(), [&](std::size_t i) {
-          return i < found.ways.size() && found.ways[i] == Way::climbing;
-        });
+    const bool climbs = std::any_of(
+        found.limiting.begin(), found.limiting.end(),
+        [&](std::size_t i) { return i < found.ways.size() && found.ways[i] == Way::climbing; });
     const bool jumps = found.status == DesignStatus::met && !(found.optimality < 1);
     if (climbs && !jumps) {
-      const auto inside = search_.assess(found.changes + search_.inwards(found, beside),
-                                         search_.first_ways());
-      const auto outside = search_.assess(found.changes - search_.inwards(found, beside),
-                                          search_.first_ways());
-      report_.verified = inside && outside && all_hold(inside->requirements) &&
-                         !all_hold(outside->requirements);
+      const auto inside =
+          search_.assess(found.changes + search_.inwards(found, beside), search_.first_ways());
+      const auto outside =
+          search_.assess(found.changes - search_.inwards(found, beside), search_.first_ways());
+      report_.verified =
+          inside && outside && all_hold(inside->requirements) && !all_hold(outside->requirements);
       // On the limit itself whether the merging points are seen is rounding.
       for (const std::size_t i : found.limiting)
         if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
@@ -143,8 +141,10 @@ class Design {
     DesignPath path(search_.requirements().designs(), search_.values(found.changes));
     path.trace(observer_);
     const auto& quantities = path.base().quantities;
-    const auto along = static_cast<std::size_t>(path.base().quantity(wanted.along) - quantities.data());
-    const auto of = static_cast<std::size_t>(path.base().quantity(wanted.quantity) - quantities.data());
+    const auto along =
+        static_cast<std::size_t>(path.base().quantity(wanted.along) - quantities.data());
+    const auto of =
+        static_cast<std::size_t>(path.base().quantity(wanted.quantity) - quantities.data());
     for (const Sample& row : path.path().branch.samples) {
       const double x = row.values[along];
       if (!(wanted.from <= x && x <= wanted.to)) continue;
@@ -167,8 +167,10 @@ class Design {
         if (limits.empty()) report_.message += ", where a requirement jumps";
         return;
       case DesignStatus::cannot_be_met:
-        report_.message = "no design within the bounds was found that meets all requirements; "
-                          "at the nearest miss it is limited by: " + limits;
+        report_.message =
+            "no design within the bounds was found that meets all requirements; "
+            "at the nearest miss it is limited by: " +
+            limits;
         return;
       case DesignStatus::unresolved:
         report_.message = "unresolved: " + found.why;
@@ -209,7 +211,8 @@ class Design {
         const std::string code = code_of(event.kind);
         const std::string old = event.label;
         event.label = code + std::to_string(++counts[code]);
-        for (std::size_t row = event.row; row < std::min(event.row + 2, branch.samples.size()); ++row)
+        for (std::size_t row = event.row; row < std::min(event.row + 2, branch.samples.size());
+             ++row)
           if (branch.samples[row].event == old) branch.samples[row].event = event.label;
       }
   }

@@ -36,15 +36,14 @@ std::shared_ptr<const CaseFamily> neighbours(const DesignCase& of, const Vector&
   family->values = all->values;
   for (std::size_t i = 0; i < of.numbers.size(); ++i)
     family->values[of.numbers[i]] = values[static_cast<Index>(i)];
-  family->at = [all, numbers = of.numbers, values, pose,
-                marks = of.study.marks](const std::vector<std::pair<std::size_t, double>>& changes) {
+  family->at = [all, numbers = of.numbers, values, pose, marks = of.study.marks](
+                   const std::vector<std::pair<std::size_t, double>>& changes) {
     std::vector<std::pair<std::size_t, double>> together;
     for (std::size_t i = 0; i < numbers.size(); ++i)
       together.emplace_back(numbers[i], values[static_cast<Index>(i)]);
     for (const auto& [number, value] : changes) {
-      const auto same = std::find_if(together.begin(), together.end(), [n = number](const auto& one) {
-        return one.first == n;
-      });
+      const auto same = std::find_if(together.begin(), together.end(),
+                                     [n = number](const auto& one) { return one.first == n; });
       if (same != together.end())
         same->second = value;
       else

@@ -19,9 +19,9 @@ struct Measure {
 
 /// The case as a function of its parameters, those of the design having other values.
 struct DesignCase {
-  Study study{};                      ///< marks are those that the requirements need
-  std::vector<std::size_t> numbers{}; ///< of the design's parameters among those of the case
-  std::vector<double> sizes{};        ///< on which the case varies with each of them
+  Study study{};                       ///< marks are those that the requirements need
+  std::vector<std::size_t> numbers{};  ///< of the design's parameters among those of the case
+  std::vector<double> sizes{};         ///< on which the case varies with each of them
 };
 
 /// The curves of one design, one family for every parameter. The case must outlive it.
@@ -50,8 +50,8 @@ class DesignPath {
 
  private:
   std::size_t column(const std::string& name) const;
-  Measure with_rates(double value, const std::function<std::optional<Vector>(const CaseCurves&)>& of)
-      const;
+  Measure with_rates(double value,
+                     const std::function<std::optional<Vector>(const CaseCurves&)>& of) const;
 
   std::vector<std::unique_ptr<CaseCurves>> families_{};
   BasePath path_{};

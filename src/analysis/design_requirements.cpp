@@ -16,7 +16,9 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// What a requirement is measured in.
-double scale_of(double wanted) { return std::isfinite(wanted) && wanted != 0 ? std::abs(wanted) : 1; }
+double scale_of(double wanted) {
+  return std::isfinite(wanted) && wanted != 0 ? std::abs(wanted) : 1;
+}
 
 CriticalPointSettings unwanted_of(const CriticalRequirement& requirement) {
   CriticalPointSettings settings;
@@ -31,8 +33,8 @@ std::vector<Vector> peaks(const RangeNodes& range, const Vector& values) {
   std::vector<Vector> all;
   for (Index i = 0; i < inside.size(); ++i) {
     all.emplace_back(range.inside.row(i).transpose());
-    const bool is_peak = i > 0 && i + 1 < inside.size() && inside[i] > inside[i - 1] &&
-                         inside[i] >= inside[i + 1];
+    const bool is_peak =
+        i > 0 && i + 1 < inside.size() && inside[i] > inside[i - 1] && inside[i] >= inside[i + 1];
     if (!is_peak) continue;
     const auto below = [&](double row) { return -range_weights(row).dot(values); };
     constexpr int bits = 26;  // half of the digits: a maximum is not better known from values
@@ -155,7 +157,8 @@ bool Requirements::add_critical(const DesignPath& path, const std::vector<Way>& 
     const CriticalPointSettings settings = unwanted_of(wanted);
     const SpecialPoint* first = nullptr;
     for (const SpecialPoint& point : path.path().points)
-      if (first == nullptr && is_unwanted(path.base(), settings, path.path(), point)) first = &point;
+      if (first == nullptr && is_unwanted(path.base(), settings, path.path(), point))
+        first = &point;
     if (first == nullptr && !path.doubt().empty()) {
       sheet.why = path.doubt();
       return false;

@@ -16,17 +16,18 @@ class Checker {
       : study_{study},
         settings_{study.design},
         columns_{quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none)},
-        dimension_{dimension(mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space)} {}
+        dimension_{
+            dimension(mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space)} {}
 
   Problems problems() {
     for (const DesignParameter& parameter : settings_.parameters) check(parameter);
-    if (settings_.parameters.empty())
-      add("design.parameters", "need at least one parameter");
+    if (settings_.parameters.empty()) add("design.parameters", "need at least one parameter");
     const bool any = !settings_.critical.empty() || settings_.curve || settings_.constant ||
                      !settings_.stiffness.empty();
     if (!any)
-      add("design", "need a requirement: critical_load, no_limit_point, curve, constant or "
-                    "stiffness");
+      add("design",
+          "need a requirement: critical_load, no_limit_point, curve, constant or "
+          "stiffness");
     for (const CriticalRequirement& one : settings_.critical) {
       check_column("design." + one.name + ".quantity", one.quantity, true);
       if (std::isnan(one.at_least)) add("design." + one.name, "need a number");
@@ -39,7 +40,9 @@ class Checker {
   }
 
  private:
-  void add(const std::string& key, const std::string& what) { problems_.push_back(key + ": " + what); }
+  void add(const std::string& key, const std::string& what) {
+    problems_.push_back(key + ": " + what);
+  }
 
   void check_column(const std::string& key, const std::string& name, bool continuous) {
     const auto at = std::find_if(columns_.begin(), columns_.end(),
@@ -47,8 +50,9 @@ class Checker {
     if (at == columns_.end())
       add(key, "no quantity \"" + name + "\" in this study");
     else if (continuous && !is_continuous(*at))
-      add(key, "\"" + name +
-                   "\" cannot be used here, only quantities that vary continuously along the branch");
+      add(key,
+          "\"" + name +
+              "\" cannot be used here, only quantities that vary continuously along the branch");
   }
 
   void check(const DesignParameter& parameter) {

@@ -15,6 +15,10 @@ constexpr double no_multiplier = 1e-7;
 constexpr double is_minimum = 1e-5;
 /// Changes are drawn back to what still meets the requirements this closely, relative.
 constexpr double closely = 1e-14;
+/// A rough search meets the requirements this well, and ends as near to others that end at the same place.
+constexpr double roughly_met = 1e-3, alike = 1e-2;
+/// So many ends of rough searches are followed to the end.
+constexpr int most_followed = 6;
 /// Two designs whose sizes differ by less are equally good: the first one is kept.
 constexpr double same_size = 1e-9;
 
@@ -49,9 +53,9 @@ DesignSearch::DesignSearch(const Study& study, const Observer& observer)
   for (Index i = 0; i < n; ++i) {
     const DesignParameter& parameter = parameters[static_cast<std::size_t>(i)];
     values_[i] = cases.values[requirements_.designs().numbers[static_cast<std::size_t>(i)]];
-    units_[i] = parameter.unit > 0   ? parameter.unit
-                : values_[i] != 0 ? std::abs(values_[i])
-                                  : parameter.high - parameter.low;
+    units_[i] = parameter.unit > 0 ? parameter.unit
+                : values_[i] != 0  ? std::abs(values_[i])
+                                   : parameter.high - parameter.low;
     low_[i] = (parameter.low - values_[i]) / units_[i];
     high_[i] = (parameter.high - values_[i]) / units_[i];
   }
@@ -103,11 +107,15 @@ std::vector<Vector> DesignSearch::starts() const {
 std::optional<Assessment> DesignSearch::assess(const Vector& changes,
                                                const std::vector<Way>& ways) {
   if (stopped_) return std::nullopt;
+  if (last_changes_.size() == changes.size() && last_changes_ == changes && last_ways_ == ways)
+    return last_;
   ++designs_;
   std::string why;
-  auto found = requirements_.assess(values(changes), ways, observer_, why);
-  if (!found) why_ = why;
-  return found;
+  last_ = requirements_.assess(values(changes), ways, observer_, why);
+  last_changes_ = changes;
+  last_ways_ = ways;
+  if (!last_) why_ = why;
+  return last_;
 }
 
 Vector DesignSearch::to_variables(const Vector& changes) const {
@@ -124,7 +132,7 @@ InequalityValues DesignSearch::values_at(const Assessment& at, const Vector& v) 
   return values;
 }
 
-Vector DesignSearch::least_changes(const std::vector<Way>& ways, const Vector& from) {
+Vector DesignSearch::least_changes(const std::vector<Way>& ways, const Vector& from, Depth how) {
   const auto first = assess(from, ways);
   if (!first) return from;
   InequalityProblem problem{variables_.low, variables_.high, first->g.size()};
@@ -133,11 +141,11 @@ Vector DesignSearch::least_changes(const std::vector<Way>& ways, const Vector& f
     return at ? std::optional{values_at(*at, v)} : std::nullopt;
   };
   problem.stopped = [this] { return stopped_; };
-  return variables_.combine * search_minimum(problem, to_variables(from));
+  return variables_.combine * search_minimum(problem, to_variables(from), how);
 }
 
 /// One more variable, the largest violation, is made small.
-Vector DesignSearch::least_violation(const std::vector<Way>& ways, const Vector& from) {
+Vector DesignSearch::least_violation(const std::vector<Way>& ways, const Vector& from, Depth how) {
   const auto first = assess(from, ways);
   if (!first) return from;
   const Index n = low_.size();
@@ -156,7 +164,7 @@ Vector DesignSearch::least_violation(const std::vector<Way>& ways, const Vector&
   problem.stopped = [this] { return stopped_; };
   Vector x(n + 1);
   x << from, worst;
-  return search_minimum(problem, x).head(n);
+  return search_minimum(problem, x, how).head(n);
 }
 
 bool DesignSearch::meets(const Vector& changes) {
@@ -178,34 +186,69 @@ Vector DesignSearch::drawn_back(Vector changes) {
   return good * changes;
 }
 
-void DesignSearch::try_from(const std::vector<Way>& ways, const Vector& from, FoundDesign& best) {
-  if (!assess(from, ways)) return;
-  Vector changes = least_changes(ways, from);
-  auto at = assess(changes, ways);
-  if (!at || at->g.maxCoeff() > design_tolerance) {
-    const Vector nearest = least_violation(ways, at ? changes : from);
-    at = assess(nearest, ways);
-    if (!at) return;
-    changes = nearest;
-    if (at->g.maxCoeff() <= design_tolerance) {
-      const Vector again = least_changes(ways, nearest);
-      const auto there = assess(again, ways);
-      if (there && there->g.maxCoeff() <= design_tolerance) changes = again, at = there;
-    }
+double DesignSearch::violation_at(const Vector& changes, const std::vector<Way>& ways) {
+  const auto at = assess(changes, ways);
+  return at ? std::max(at->g.maxCoeff(), 0.0) : HUGE_VAL;
+}
+
+std::optional<DesignSearch::Candidate> DesignSearch::search_from(const std::vector<Way>& ways,
+                                                                 const Vector& from, Depth how) {
+  if (!assess(from, ways)) return std::nullopt;
+  const double allowed = how == Depth::roughly ? roughly_met : design_tolerance;
+  Vector changes = least_changes(ways, from, how);
+  double violation = violation_at(changes, ways);
+  if (violation > allowed) {
+    const Vector nearest = least_violation(ways, std::isfinite(violation) ? changes : from, how);
+    const Vector again =
+        violation_at(nearest, ways) <= allowed ? least_changes(ways, nearest, how) : nearest;
+    changes = violation_at(again, ways) <= violation_at(nearest, ways) + allowed ? again : nearest;
+    violation = violation_at(changes, ways);
   }
-  const double violation = std::max(at->g.maxCoeff(), 0.0);
-  const bool meets_all = violation <= design_tolerance;
-  const bool nothing_yet = best.changes.size() == 0;
-  const bool best_meets = best.status == DesignStatus::met;
-  const bool better =
-      nothing_yet || (meets_all && !best_meets) ||
-      (meets_all && size_of(changes) < size_of(best.changes) * (1 - same_size)) ||
-      (!meets_all && !best_meets && violation < best.violation * (1 - same_size));
-  if (!better) return;
-  best.status = meets_all ? DesignStatus::met : DesignStatus::cannot_be_met;
-  best.changes = changes;
-  best.ways = ways;
-  best.violation = meets_all ? 0 : violation;
+  return Candidate{ways, changes, violation};
+}
+
+std::vector<DesignSearch::Candidate> DesignSearch::candidates() {
+  std::vector<Candidate> list;
+  for (const auto& ways : all_ways())
+    for (const Vector& from : starts()) {
+      if (stopped_) return {};
+      if (auto found = search_from(ways, from, Depth::roughly)) list.push_back(std::move(*found));
+    }
+  const auto better = [this](const Candidate& a, const Candidate& b) {
+    const bool a_meets = a.violation <= roughly_met, b_meets = b.violation <= roughly_met;
+    if (a_meets != b_meets) return a_meets;
+    return a_meets ? size_of(a.changes) < size_of(b.changes) : a.violation < b.violation;
+  };
+  std::stable_sort(list.begin(), list.end(), better);
+  return list;
+}
+
+/// The first ones that are not alike are followed to the end.
+FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
+  FoundDesign best;
+  std::vector<const Candidate*> done;
+  for (const Candidate& one : list) {
+    const bool known = std::any_of(done.begin(), done.end(), [&](const Candidate* other) {
+      return other->ways == one.ways &&
+             (other->changes - one.changes).norm() <= alike * (1 + one.changes.norm());
+    });
+    if (known || std::ssize(done) >= most_followed || stopped_) continue;
+    done.push_back(&one);
+    const auto found = search_from(one.ways, one.changes, Depth::to_the_end);
+    if (!found) continue;
+    const bool meets_all = found->violation <= design_tolerance;
+    const bool best_meets = best.status == DesignStatus::met;
+    const bool better =
+        best.changes.size() == 0 || (meets_all && !best_meets) ||
+        (meets_all && size_of(found->changes) < size_of(best.changes) * (1 - same_size)) ||
+        (!meets_all && !best_meets && found->violation < best.violation * (1 - same_size));
+    if (!better) continue;
+    best.status = meets_all ? DesignStatus::met : DesignStatus::cannot_be_met;
+    best.changes = found->changes;
+    best.ways = one.ways;
+    best.violation = meets_all ? 0 : found->violation;
+  }
+  return best;
 }
 
 /// Karush, Kuhn and Tucker: the objective's slope is balanced by those of the inequalities and bounds that decide.
@@ -257,8 +300,7 @@ void DesignSearch::conditions(FoundDesign& design) {
     if (weight <= no_multiplier * std::max(size, no_multiplier)) continue;
     if (!is_bound) {
       const std::size_t requirement = at->of[static_cast<std::size_t>(which)];
-      const auto known =
-          std::find(design.limiting.begin(), design.limiting.end(), requirement);
+      const auto known = std::find(design.limiting.begin(), design.limiting.end(), requirement);
       if (known == design.limiting.end()) {
         design.limiting.push_back(requirement);
         design.multipliers.push_back(m[i]);
@@ -285,9 +327,7 @@ FoundDesign DesignSearch::run() {
     best.bounds.assign(static_cast<std::size_t>(low_.size()), BoundState::free);
     return best;
   }
-  for (const auto& ways : all_ways())
-    for (const Vector& from : starts())
-      if (!stopped_) try_from(ways, from, best);
+  best = best_of(candidates());
   best.stopped = stopped_;
   if (stopped_ || best.changes.size() == 0) {
     best.status = DesignStatus::unresolved;

@@ -9,14 +9,14 @@ namespace springfold::analysis {
 
 struct FoundDesign {
   DesignStatus status = DesignStatus::unresolved;
-  Vector changes{};              ///< in units of the parameters
-  std::vector<Way> ways{};       ///< in which the critical requirements are met
-  double violation = 0;          ///< the largest of the scaled requirements, if they cannot be met
-  double optimality = 0;         ///< as DesignReport::optimality
+  Vector changes{};         ///< in units of the parameters
+  std::vector<Way> ways{};  ///< in which the critical requirements are met
+  double violation = 0;     ///< the largest of the scaled requirements, if they cannot be met
+  double optimality = 0;    ///< as DesignReport::optimality
   std::vector<std::size_t> limiting{};  ///< requirements that decide, with their multipliers
   std::vector<double> multipliers{};
-  std::vector<BoundState> bounds{};     ///< per parameter: at which it is held
-  std::string why{};             ///< unresolved: why
+  std::vector<BoundState> bounds{};  ///< per parameter: at which it is held
+  std::string why{};                 ///< unresolved: why
   bool stopped = false;
 };
 
@@ -47,12 +47,22 @@ class DesignSearch {
   std::vector<Vector> starts() const;
   Vector to_variables(const Vector& changes) const;
   InequalityValues values_at(const Assessment& at, const Vector& v) const;
-  Vector least_changes(const std::vector<Way>& ways, const Vector& from);
-  Vector least_violation(const std::vector<Way>& ways, const Vector& from);
+  /// Where a search ended.
+  struct Candidate {
+    std::vector<Way> ways{};
+    Vector changes{};
+    double violation = 0;  ///< largest of the inequalities, at least 0
+  };
+  Vector least_changes(const std::vector<Way>& ways, const Vector& from, Depth how);
+  Vector least_violation(const std::vector<Way>& ways, const Vector& from, Depth how);
   bool meets(const Vector& changes);
   Vector drawn_back(Vector changes);
-  /// Looks for a design from one start, and keeps it if it is better.
-  void try_from(const std::vector<Way>& ways, const Vector& from, FoundDesign& best);
+  double violation_at(const Vector& changes, const std::vector<Way>& ways);
+  /// Looks for a design from one start. @returns nothing where the start cannot be judged
+  std::optional<Candidate> search_from(const std::vector<Way>& ways, const Vector& from, Depth how);
+  /// All ways and starts, the best first.
+  std::vector<Candidate> candidates();
+  FoundDesign best_of(const std::vector<Candidate>& list);
   void conditions(FoundDesign& design);
 
   const Study& study_;
@@ -63,6 +73,10 @@ class DesignSearch {
   bool stopped_ = false;
   int designs_ = 0;
   std::string why_{};
+  /// The last design that was judged: searches ask for it again.
+  Vector last_changes_{};
+  std::vector<Way> last_ways_{};
+  std::optional<Assessment> last_{};
 };
 
 }  // namespace springfold::analysis

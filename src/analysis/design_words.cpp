@@ -15,8 +15,7 @@ std::vector<std::string> requirement_names(const DesignSettings& settings) {
   if (settings.curve)
     for (std::size_t i = 0; i < settings.curve->points.size(); ++i)
       names.push_back("curve." + std::to_string(i + 1));
-  if (settings.constant)
-    names.insert(names.end(), {"constant.mean", "constant.deviation"});
+  if (settings.constant) names.insert(names.end(), {"constant.mean", "constant.deviation"});
   for (std::size_t i = 0; i < settings.stiffness.size(); ++i)
     names.push_back("stiffness." + std::to_string(i + 1));
   return names;

@@ -13,8 +13,10 @@ namespace {
 /// Where steps or violations are as small as this, nothing but rounding is left.
 constexpr double rounding = 1e-13;
 constexpr double allowed_violation = 1e-11;
+/// Steps of a rough search end there; minima that are told apart differ by far more.
+constexpr double rough = 1e-4;
 /// Evaluations of one search; a smooth problem takes a few dozen.
-constexpr int most_evaluations = 250;
+constexpr int most_evaluations = 250, most_rough_evaluations = 40;
 
 /// Objective and inequalities are asked for one after the other at the same place.
 struct Memory {
@@ -65,7 +67,8 @@ void inequalities(unsigned m, double* result, unsigned n, const double* x, doubl
 
 }  // namespace
 
-Vector search_minimum(const InequalityProblem& problem, const Vector& start) {
+Vector search_minimum(const InequalityProblem& problem, const Vector& start, Depth how) {
+  const bool to_the_end = how == Depth::to_the_end;
   const auto n = static_cast<unsigned>(start.size());
   const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search{nlopt_create(NLOPT_LD_SLSQP, n),
                                                                  &nlopt_destroy};
@@ -78,9 +81,9 @@ Vector search_minimum(const InequalityProblem& problem, const Vector& start) {
   if (problem.inequalities > 0)
     nlopt_add_inequality_mconstraint(search.get(), static_cast<unsigned>(problem.inequalities),
                                      inequalities, &memory, tolerances.data());
-  nlopt_set_xtol_rel(search.get(), rounding);
-  nlopt_set_xtol_abs1(search.get(), rounding);
-  nlopt_set_maxeval(search.get(), most_evaluations);
+  nlopt_set_xtol_rel(search.get(), to_the_end ? rounding : rough);
+  nlopt_set_xtol_abs1(search.get(), to_the_end ? rounding : rough);
+  nlopt_set_maxeval(search.get(), to_the_end ? most_evaluations : most_rough_evaluations);
   Vector x = start;
   double f = 0;
   // What it returns says why it stopped, not whether the point is a minimum.

@@ -25,10 +25,17 @@ struct InequalityProblem {
   std::function<bool()> stopped{};  ///< true ends the search
 };
 
+/// How far a search goes.
+enum class Depth {
+  roughly,    ///< to a few digits: which of several minima is the best?
+  to_the_end  ///< to rounding
+};
+
 /// Sequential quadratic programming (Kraft 1994, NLopt's SLSQP): the best point that was met, feasible ones first. A
 /// local search; whether the point is a minimum is for the caller to judge.
 /// @pre the problem is defined at `start`, which lies between the bounds
-Vector search_minimum(const InequalityProblem& problem, const Vector& start);
+Vector search_minimum(const InequalityProblem& problem, const Vector& start,
+                      Depth how = Depth::to_the_end);
 
 /// Multipliers m >= 0 for which the sum of m_i `row i of active` comes nearest to -df.
 Vector multipliers(const Vector& df, const Matrix& active);

@@ -92,8 +92,7 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
   LeastSlope least{.value = HUGE_VAL};
   const QuantityDefinition* column = member.quantity(quantity);
   const auto beyond = [&](const CurvePoint& point) {
-    return std::isfinite(end) && column != nullptr &&
-           member.evaluator->value(*column, point) > end;
+    return std::isfinite(end) && column != nullptr && member.evaluator->value(*column, point) > end;
   };
   for (const Stretch& stretch : stretches_of(path.forward)) {
     const auto& points = stretch.points;
@@ -109,7 +108,9 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
     const std::size_t count = slopes.size();
     if (slopes[lowest] < least.value) {
       least = {slopes[lowest], points[lowest], std::nullopt, false};
-      const Hit* hit = lowest == 0 ? stretch.from : lowest + 1 == points.size() ? stretch.to : nullptr;
+      const Hit* hit = lowest == 0                   ? stretch.from
+                       : lowest + 1 == points.size() ? stretch.to
+                                                     : nullptr;
       for (const SpecialPoint& point : path.points)
         if (hit != nullptr && point.hit.point.s == hit->point.s) least.switching = point;
       least.behind = lowest == 0;

@@ -7,9 +7,10 @@ namespace springfold::analysis {
 
 /// Where the slope of a path is least.
 struct LeastSlope {
-  double value = 0;                        ///< dimensionless
-  continuation::CurvePoint point{};        ///< on its piece, with its tangent
-  std::optional<SpecialPoint> switching{}; ///< at a switching spring: there; `behind`: on the leaving side
+  double value = 0;                  ///< dimensionless
+  continuation::CurvePoint point{};  ///< on its piece, with its tangent
+  std::optional<SpecialPoint>
+      switching{};  ///< at a switching spring: there; `behind`: on the leaving side
   bool behind = false;
 };
 
@@ -22,6 +23,7 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
                                       const std::string& quantity, double end);
 
 /// How it moves with the parameter of `curves`.
-std::optional<double> rate_of(const CaseCurves& curves, const Member& base, const LeastSlope& least);
+std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
+                              const LeastSlope& least);
 
 }  // namespace springfold::analysis

@@ -6,8 +6,8 @@
 namespace springfold::analysis {
 
 /// Some numbers of a state of a member's curve; nothing where they are not defined.
-using StateValues =
-    std::function<std::optional<Vector>(const Member& member, const continuation::CurvePoint& point)>;
+using StateValues = std::function<std::optional<Vector>(const Member& member,
+                                                        const continuation::CurvePoint& point)>;
 
 /// Total derivatives of `values` at a special point by the parameter of `curves`, the point being kept special; nothing
 /// where it is degenerate or of a kind that is not followed.

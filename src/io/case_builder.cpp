@@ -124,7 +124,6 @@ class Builder {
       for (int run = 1; run <= draft_->studies[i].runs(); ++run) add_run(i, run);
     add_plots();
     add_map_plots();
-    add_tornados();
     add_expectations();
     return std::move(result_);
   }
@@ -343,16 +342,9 @@ class Builder {
           if (draft_->studies[i].name == panel.study) check_use(plot.quantity, i, panel.run);
       result_.map_plots.push_back(std::move(spec));
     }
-  }
-
-  void add_tornados() {
-    for (const TornadoDraft& draft : draft_->tornados) {
-      for (std::size_t i = 0; i < draft_->studies.size(); ++i)
-        if (draft_->studies[i].name == draft.spec.study) {
-          check_curves(draft.spec.name, i);
-          check_use(draft.quantity, i, draft.spec.run);
-        }
-      result_.tornados.push_back(draft.spec);
+    for (const TornadoDraft& tornado : draft_->tornados) {
+      if (tornado.study) check_use(tornado.quantity, *tornado.study, tornado.spec.run);
+      result_.tornados.push_back(tornado.spec);
     }
   }
 

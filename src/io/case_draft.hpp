@@ -33,6 +33,7 @@ struct MapPlotDraft {
 
 struct TornadoDraft {
   TornadoSpec spec{};
+  std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
   NamedPlace quantity{};
 };
 

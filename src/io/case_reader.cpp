@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t most_parameters = 1000;
 
-const std::vector<std::string> case_keys{
-    "title", "include", "units", "parameters", "gravity", "template", "body",     "node",
-    "chain", "spring",  "bar",   "load",       "study",   "plot",     "map_plot", "expected",
-    "tornado"};
+const std::vector<std::string> case_keys{"title",    "include", "units", "parameters", "gravity",
+                                         "template", "body",    "node",  "chain",      "spring",
+                                         "bar",      "load",    "study", "plot",       "map_plot",
+                                         "expected", "tornado"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,

@@ -25,7 +25,7 @@ struct DesignDraft {
   };
   std::vector<Parameter> parameters{};
   std::vector<std::pair<analysis::CriticalRequirement, std::optional<NumberId>>>
-      critical{};  ///< without their numbers; none: infinite
+      critical{};                                     ///< without their numbers; none: infinite
   std::optional<analysis::CurveRequirement> curve{};  ///< without its numbers
   std::vector<std::pair<NumberId, NumberId>> points{};
   NumberId tolerance = 0;

@@ -90,8 +90,9 @@ class DesignReader {
   }
 
   void read_no_limit_point() {
-    const auto table = part("no_limit_point", "a table such as { up_to = 0.5 }, or { } for none at all",
-                            {"up_to", "quantity"});
+    const auto table =
+        part("no_limit_point", "a table such as { up_to = 0.5 }, or { } for none at all",
+             {"up_to", "quantity"});
     if (!table) return;
     analysis::CriticalRequirement wanted{.name = "no_limit_point", .quantity = "deflection"};
     wanted.quantity = table->text("quantity").value_or(wanted.quantity);
@@ -133,11 +134,13 @@ class DesignReader {
   void read_stiffness() {
     const std::string need = "stiffness = [{ at_least = 2 }]";
     for (const Item& item : table_.tables("stiffness", need)) {
-      const TableReader table{*item.node, item.key, {"at", "pose", "quantity", "at_least"}, reading_};
+      const TableReader table{
+          *item.node, item.key, {"at", "pose", "quantity", "at_least"}, reading_};
       DesignDraft::Stiffness one;
       one.quantity = table.text("quantity").value_or(analysis::StiffnessRequirement{}.quantity);
       one.at_least = table.required_number("at_least", {}, numbers_);
-      const auto places = named_items(table, "at", "a table such as { deflection = 0.1 }", reading_);
+      const auto places =
+          named_items(table, "at", "a table such as { deflection = 0.1 }", reading_);
       if (places.size() > 1)
         reading_.problems.add(table.find("at")->place, table.key_of("at"),
                               "got several quantities, need one");

@@ -74,7 +74,21 @@ double RowScenes::value(const Sample& row, std::optional<std::size_t> column) co
   return column && *column < row.values.size() ? row.values[*column] : unknown;
 }
 
-statics::System RowScenes::system_at(double lambda) const {
+statics::System RowScenes::system_of(const Sample& row, double lambda) const {
+  // Rows of designs and of curves over a further parameter belong to other values of it.
+  if (const auto& cases = planned_.plan.critical.cases) {
+    std::vector<std::string> names{planned_.plan.critical.parameter};
+    if (planned_.plan.kind == StudyKind::design) names.clear();
+    for (const auto& parameter : planned_.plan.design.parameters) names.push_back(parameter.name);
+    std::vector<std::pair<std::size_t, double>> changes;
+    for (std::size_t i = 0; i < cases->names.size(); ++i)
+      if (std::find(names.begin(), names.end(), cases->names[i]) != names.end())
+        changes.emplace_back(i, value(row, column_of(result_, cases->names[i])));
+    const bool known = std::all_of(changes.begin(), changes.end(),
+                                   [](const auto& change) { return std::isfinite(change.second); });
+    if (!changes.empty() && known)
+      return statics::prepare(acting(planned_, cases->at(changes).mechanism));
+  }
   if (planned_.plan.control != ControlMode::parameter || !planned_.family ||
       planned_.plan.kind != StudyKind::force_deflection)
     return system_;
@@ -109,7 +123,7 @@ void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture&
 std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
   if (!has_columns_) return std::nullopt;
   const double lambda = value(row, lambda_);
-  const statics::System system = system_at(lambda);
+  const statics::System system = system_of(row, lambda);
   drawing::Posture posture{.z = Vector(system.size),
                            .rho = Vector(system.commands.size()),
                            .lambda = std::isfinite(lambda) ? lambda : 0};

@@ -16,9 +16,9 @@ using analysis::StartSolve;
 using analysis::StudyKind;
 
 const std::vector<std::string> kind_words{
-    "force_deflection", "equilibrium",    "equilibria",    "control",     "map",
-    "workspace",        "critical_curve", "threshold",     "sensitivity", "critical_load",
-    "design",           snap_kind,          cycle_kind,       transitions_kind};
+    "force_deflection", "equilibrium",    "equilibria", "control",       "map",
+    "workspace",        "critical_curve", "threshold",  "sensitivity",   "critical_load",
+    "design",           snap_kind,        cycle_kind,   transitions_kind};
 const std::array kinds{StudyKind::force_deflection,
                        StudyKind::equilibrium,
                        StudyKind::equilibria,

@@ -70,16 +70,17 @@ std::vector<TornadoFigure> tornado_figures_of(const Case& the_case,
     const PlannedRun* planned = plan_of(the_case, *result);
     const auto at = point_with(*result, spec.at);
     if (planned == nullptr || !at) {
-      problems.push_back("figure '" + spec.name + "': " + heading_of(*result) + " has no " + spec.at);
+      problems.push_back("figure '" + spec.name + "': " + heading_of(*result) + " has no " +
+                         spec.at);
       continue;
     }
     TornadoFigure figure{.name = safe_file_name(spec.name), .title = {spec.title, spec.markup}};
     const std::string made = "d ln(" + spec.quantity + ") / d ln(parameter) at " + spec.at;
     figure.x_title = spec.label.empty() ? FigureText{made} : FigureText{spec.label, spec.markup};
     add_bars(*result, *planned, spec, *at, figure);
-    const bool is_finite =
-        !figure.bars.empty() && std::all_of(figure.bars.begin(), figure.bars.end(),
-                                            [](const auto& bar) { return std::isfinite(bar.value); });
+    const bool is_finite = !figure.bars.empty() &&
+                           std::all_of(figure.bars.begin(), figure.bars.end(),
+                                       [](const auto& bar) { return std::isfinite(bar.value); });
     if (is_finite)
       figures.push_back(std::move(figure));
     else
@@ -101,7 +102,8 @@ std::string tornado_script(const TornadoFigure& figure, const std::string& style
   script += "left_out = " + gnuplot_string(figure.left_out) + "\n";
   const std::string count = std::to_string(figure.bars.size());
   script += "bars = " + count + "\n";
-  script += "array parameter[" + count + "]\narray value[" + count + "]\narray shown[" + count + "]\n";
+  script +=
+      "array parameter[" + count + "]\narray value[" + count + "]\narray shown[" + count + "]\n";
   for (std::size_t i = 0; i < figure.bars.size(); ++i) {
     const std::string k = "[" + std::to_string(i + 1) + "] = ";
     script += "parameter" + k + gnuplot_string(figure.bars[i].parameter) + "\n";

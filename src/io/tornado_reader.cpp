@@ -29,6 +29,7 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
     if (!spec.study.empty()) {
       const Item at{table.find("study"), table.key_of("study")};
       const auto number = study_number(spec.study, at, studies, reading);
+      draft.study = number;
       if (number && studies[*number].kind != analysis::StudyKind::sensitivity)
         reading.problems.add(at.node->place, at.key, "need a study of kind \"sensitivity\"");
       if (const Node* run = table.find("run"); run && number)

@@ -65,6 +65,7 @@ double after(const StudyResult& result, const std::string& name) {
 
 DesignSettings critical_load(double at_least) {
   DesignSettings design;
+  design.starts = 3;
   design.critical = {{.name = "critical_load", .at_least = at_least}};
   return design;
 }
@@ -132,8 +133,7 @@ TEST(Design, NamesTheBoundThatLimitsWhatCannotBeMet) {
   EXPECT_EQ(result.design->status, DesignStatus::cannot_be_met);
   EXPECT_NEAR(after(result, "Kv"), 0.015, 1e-9);
   EXPECT_NEAR(after(result, "critical_load"), 0.0310006758828866, 1e-9);
-  EXPECT_THAT(result.design->limits,
-              ElementsAre("critical_load", "Kv at its upper bound 0.015"));
+  EXPECT_THAT(result.design->limits, ElementsAre("critical_load", "Kv at its upper bound 0.015"));
   EXPECT_FALSE(result.design->verified);
 }
 

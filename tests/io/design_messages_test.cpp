@@ -83,24 +83,24 @@ TEST_F(DesignMessages, WantATolerance) {
 }
 
 TEST_F(DesignMessages, WantScalesOfTheDesignsOwnParameters) {
-  EXPECT_THAT(after("parameters = { k", "scale = { c = 1 }, parameters = { k"),
-              ElementsAre(HasSubstr(
-                  "study[1].design.scale.c: is none of the parameters of this design")));
+  EXPECT_THAT(
+      after("parameters = { k", "scale = { c = 1 }, parameters = { k"),
+      ElementsAre(HasSubstr("study[1].design.scale.c: is none of the parameters of this design")));
 }
 
 TEST_F(DesignMessages, WantSensitivitiesForATornado) {
-  EXPECT_THAT(messages(strut + "[[tornado]]\nname = \"t\"\nstudy = \"a\"\nat = \"LP1\"\n"),
-              testing::Contains(HasSubstr(
-                  "tornado[1].study: need a study of kind \"sensitivity\"")));
+  EXPECT_THAT(
+      messages(strut + "[[tornado]]\nname = \"t\"\nstudy = \"a\"\nat = \"LP1\"\n"),
+      testing::Contains(HasSubstr("tornado[1].study: need a study of kind \"sensitivity\"")));
 }
 
 TEST_F(DesignMessages, RefuseTheNameOfAnotherPlot) {
   const std::string sensitivity =
       "[[study]]\nname = \"s\"\nkind = \"sensitivity\"\ncontrol = \"load\"\ndirection = [-1, 0]\n"
       "[[plot]]\nname = \"t\"\ncurves = [{ study = \"s\" }]\n";
-  EXPECT_THAT(messages(strut + sensitivity +
-                       "[[tornado]]\nname = \"t\"\nstudy = \"s\"\nat = \"LP1\"\n"),
-              ElementsAre(HasSubstr("tornado[1].name: \"t\" is already the name")));
+  EXPECT_THAT(
+      messages(strut + sensitivity + "[[tornado]]\nname = \"t\"\nstudy = \"s\"\nat = \"LP1\"\n"),
+      ElementsAre(HasSubstr("tornado[1].name: \"t\" is already the name")));
 }
 
 }  // namespace

@@ -30,9 +30,7 @@ class Tornado : public testing::Test {
     branch.events.push_back({.kind = analysis::EventKind::limit_point, .label = "LP1"});
     result.branches.push_back(branch);
   }
-  std::vector<TornadoFigure> figures() {
-    return tornado_figures_of(the_case, {result}, problems);
-  }
+  std::vector<TornadoFigure> figures() { return tornado_figures_of(the_case, {result}, problems); }
 
   Case the_case{};
   analysis::StudyResult result{};

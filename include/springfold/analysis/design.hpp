@@ -17,14 +17,16 @@ namespace springfold::analysis {
 struct DesignParameter {
   std::string name{};
   double low = 0, high = 0;  ///< bounds, both finite
-  double unit = 0;  ///< changes are counted in it; 0: the size of the value in the case, or high - low if that is 0
+  double unit =
+      0;  ///< changes are counted in it; 0: the size of the value in the case, or high - low if that is 0
 };
 
 /// On the path from the start no unwanted point comes before `quantity` reaches `at_least`.
 struct CriticalRequirement {
   std::string name{};  ///< "critical_load", "no_limit_point"
   std::string quantity = "lambda";
-  double at_least = std::numeric_limits<double>::infinity();  ///< infinite: there is none on the whole path
+  double at_least =
+      std::numeric_limits<double>::infinity();  ///< infinite: there is none on the whole path
   Unwanted unwanted = Unwanted::limit_point;
   StabilityOf stability = StabilityOf::control;
 };
@@ -85,14 +87,15 @@ struct FoundParameter {
 };
 
 struct FoundRequirement {
-  std::string name{};  ///< "critical_load", "curve.2", "constant.mean", "constant.deviation", "stiffness.1", ...
+  std::string
+      name{};  ///< "critical_load", "curve.2", "constant.mean", "constant.deviation", "stiffness.1", ...
   double wanted = 0;
   double before = 0, after = 0;  ///< infinite: there is no such point on the path; NaN: not known
   bool is_upper = false;         ///< at most `wanted`; otherwise at least
   double tolerance = 0;          ///< of a point of a curve: reached within it
   bool holds = false;            ///< after
   bool limits = false;           ///< it decides the answer
-  double multiplier = 0;         ///< d(objective) by its scaled requirement; 0 where it does not limit
+  double multiplier = 0;  ///< d(objective) by its scaled requirement; 0 where it does not limit
 };
 
 /// The answer of a study of kind `design`.
@@ -100,12 +103,14 @@ struct DesignReport {
   DesignStatus status = DesignStatus::unresolved;
   std::vector<FoundParameter> parameters{};
   std::vector<FoundRequirement> requirements{};
-  double change = 0;           ///< size of all changes in the norm of the settings
-  bool verified = false;       ///< traced again at the answer, and all requirements hold there
-  double optimality = 0;       ///< residual of the conditions of Karush, Kuhn and Tucker, relative; NaN: not known
-  int designs = 0;             ///< designs whose paths were traced
-  std::string message{};       ///< the answer as a sentence
-  std::vector<std::string> limits{};  ///< what decides: requirements, and bounds "Kv at its upper bound"
+  double change = 0;      ///< size of all changes in the norm of the settings
+  bool verified = false;  ///< traced again at the answer, and all requirements hold there
+  double optimality =
+      0;  ///< residual of the conditions of Karush, Kuhn and Tucker, relative; NaN: not known
+  int designs = 0;        ///< designs whose paths were traced
+  std::string message{};  ///< the answer as a sentence
+  std::vector<std::string>
+      limits{};  ///< what decides: requirements, and bounds "Kv at its upper bound"
 };
 
 /// Names of the answer's numbers for expected values: "design.Kv", "design.critical_load", "design.change",

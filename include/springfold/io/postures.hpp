@@ -35,7 +35,7 @@ class RowScenes {
 
  private:
   double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
-  statics::System system_at(double lambda) const;
+  statics::System system_of(const analysis::Sample& row, double lambda) const;
   void add_wrenches(const analysis::Sample& row, double lambda, drawing::Posture& posture) const;
 
   const PlannedRun& planned_;
