@@ -29,14 +29,14 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
 
 void mark_branch_point(const SpecialPoint& point, Branch& branch) {
   const std::size_t columns = branch.samples.front().values.size();
-  Event event{.kind = EventKind::branch_point,
-              .detail = point.label + " of the case: limit points of its imperfect versions meet here",
-              .row = branch.start_row,
-              .rates_before = std::vector<double>(columns, std::nan("")),
-              .rates_after = std::vector<double>(columns, std::nan(""))};
-  const auto behind = std::find_if(branch.events.begin(), branch.events.end(), [&](const Event& e) {
-    return e.row > branch.start_row;
-  });
+  Event event{
+      .kind = EventKind::branch_point,
+      .detail = point.label + " of the case: limit points of its imperfect versions meet here",
+      .row = branch.start_row,
+      .rates_before = std::vector<double>(columns, std::nan("")),
+      .rates_after = std::vector<double>(columns, std::nan(""))};
+  const auto behind = std::find_if(branch.events.begin(), branch.events.end(),
+                                   [&](const Event& e) { return e.row > branch.start_row; });
   branch.events.insert(behind, std::move(event));
 }
 

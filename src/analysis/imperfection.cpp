@@ -13,8 +13,9 @@ continuation::CriticalStart polished(const CaseCurves& curves, const Member& bas
                                      const SpecialPoint& point) {
   const bool is_branch_point = point.kind == EventKind::branch_point;
   const auto& hit = point.hit;
-  continuation::CriticalStart start{.kind = is_branch_point ? continuation::CriticalKind::branch_point
-                                                            : continuation::CriticalKind::limit_point,
+  continuation::CriticalStart start{.kind = is_branch_point
+                                                ? continuation::CriticalKind::branch_point
+                                                : continuation::CriticalKind::limit_point,
                                     .x = hit.point.x,
                                     .lambda = hit.point.lambda,
                                     .mu = base.mu,
@@ -36,17 +37,18 @@ void PointLaws::enter(const CaseCurves& curves, double rate) {
   lambda_scale_ = base.setup.lambda_scale;
   const bool bends = point_->kind == EventKind::branch_point;
   if ((bends || point_->kind == EventKind::limit_point) && !tried_)
-    form_ = reduced_form(curves.family(), polished(curves, base, *point_),
-                         point_->hit.point.tangent);
+    form_ =
+        reduced_form(curves.family(), polished(curves, base, *point_), point_->hit.point.tangent);
   tried_ = true;
   if (bends && form_) {
-    const auto part =
-        imperfection_part(curves.family(), polished(curves, base, *point_), *form_);
+    const auto part = imperfection_part(curves.family(), polished(curves, base, *point_), *form_);
     if (part) gamma = *part / curves.scale();
   }
   gammas_.push_back(gamma);
 }
-bool PointLaws::breaks(std::size_t i) const { return gammas_[i].size() > 0 && gammas_[i].norm() > 0; }
+bool PointLaws::breaks(std::size_t i) const {
+  return gammas_[i].size() > 0 && gammas_[i].norm() > 0;
+}
 
 std::vector<double> PointLaws::values(bool with_worst) const {
   std::vector<double> values;

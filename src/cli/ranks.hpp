@@ -25,10 +25,10 @@ class Ranks {
   /// mpirun started several processes, and this build knows nothing of MPI.
   static bool are_missed();
 
-  bool all(bool mine) const;                    ///< is it true in every process?
-  void share(std::vector<char>& flags) const;   ///< all get those of process 0
-  void send(const std::string& text) const;     ///< to process 0, by another one alone
-  void send_end() const;                        ///< the last message of a process; another one alone
+  bool all(bool mine) const;                   ///< is it true in every process?
+  void share(std::vector<char>& flags) const;  ///< all get those of process 0
+  void send(const std::string& text) const;    ///< to process 0, by another one alone
+  void send_end() const;                       ///< the last message of a process; another one alone
   /// Takes what has arrived; process 0 alone. @returns how many processes sent their end
   int receive(const std::function<void(const std::string&)>& take) const;
   void give_up() { gave_up_ = true; }  ///< others may be gone: do not wait for them at the end

@@ -295,8 +295,7 @@ int run_command(const Arguments& arguments, const Session& session) {
   const std::string problem = problem_with_folder(folder);
   if (!problem.empty()) say(session, problem);
   std::optional<io::FolderLock> lock;
-  const bool usable =
-      problem.empty() && is_done([&] { lock.emplace(folder); }, session);
+  const bool usable = problem.empty() && is_done([&] { lock.emplace(folder); }, session);
   if (!all_can(usable, session)) return input_output;
   io::remove_leftovers(folder);
   const Ending ending = run_in(folder, arguments, the_case, session);

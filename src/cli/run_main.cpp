@@ -51,7 +51,8 @@ int run_whole(int (*command)(const Arguments&, const Session&), const Arguments&
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
                bool shows_progress, Ranks& ranks) {
   if (Ranks::are_missed())
-    say(err, "warning: mpirun started several processes, but this springfold was built without MPI");
+    say(err,
+        "warning: mpirun started several processes, but this springfold was built without MPI");
   if (!parsed.error.empty()) {
     say(err, parsed.error);
     say(err, "try springfold --help");

@@ -189,7 +189,8 @@ class Runner {
     session_.ranks->share(known);
     int turn = 0;
     for (std::size_t i = 0; i < batch.count; ++i) {
-      const bool mine = known[i] == 0 && turn++ % session_.ranks->count() == session_.ranks->number();
+      const bool mine =
+          known[i] == 0 && turn++ % session_.ranks->count() == session_.ranks->number();
       elsewhere_[batch.first + i] = mine ? 0 : 1;
     }
     ends_ = 0;
@@ -250,8 +251,7 @@ class Runner {
   void fail(const PlannedRun& planned) {
     const std::scoped_lock lock{busy_};
     fail_locked(planned);
-    if (is_helper())
-      session_.ranks->send(std::to_string(&planned - &case_.runs[batch_.first]));
+    if (is_helper()) session_.ranks->send(std::to_string(&planned - &case_.runs[batch_.first]));
   }
 
   void fail_locked(const PlannedRun& planned) {

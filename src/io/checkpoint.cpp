@@ -158,10 +158,9 @@ std::optional<analysis::StudyResult> read_row_line(std::string_view line, const 
                                                    const std::string& study) {
   int run = 0;
   if (!read_number(taken(line, '\t'), run)) return std::nullopt;
-  const auto planned =
-      std::find_if(the_case.runs.begin(), the_case.runs.end(), [&](const PlannedRun& known) {
-        return known.run == run && known.study == study;
-      });
+  const auto planned = std::find_if(
+      the_case.runs.begin(), the_case.runs.end(),
+      [&](const PlannedRun& known) { return known.run == run && known.study == study; });
   return planned == the_case.runs.end() ? std::nullopt : kept_row(line, *planned);
 }
 

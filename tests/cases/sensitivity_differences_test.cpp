@@ -66,8 +66,7 @@ std::map<std::string, double> differences(const fs::path& file, const Example& e
   const double h = 2e-3 * (value == 0 ? 0.1 : std::abs(value));
   std::map<std::string, double> sums;
   std::map<std::string, int> seen;
-  for (const auto& [step, weight] :
-       {std::pair{1, 8.0}, {-1, -8.0}, {2, -1.0}, {-2, 1.0}}) {
+  for (const auto& [step, weight] : {std::pair{1, 8.0}, {-1, -8.0}, {2, -1.0}, {-2, 1.0}}) {
     auto set = example.set;
     set[parameter] = digits(value + step * h);
     for (const auto& [label, load] : loads_of(file, "traced", set)) {
@@ -85,9 +84,11 @@ TEST_P(Sensitivities, AreDifferencesOfTracedCriticalLoadsForEveryParameter) {
   std::replace(name.begin(), name.end(), '/', '-');
   const fs::path file = fs::path{testing::TempDir()} / ("springfold-sensitivity-" + name);
   std::ofstream{file, std::ios::binary}
-      << "expected = \"\"\n" << text_of(fs::path{SPRINGFOLD_SOURCE_DIR} / "cases" / example.file)
-      << "\n[[study]]\nname = \"rates\"\nkind = \"sensitivity\"\n" << example.study
-      << "\n[[study]]\nname = \"traced\"\n" << example.study;
+      << "expected = \"\"\n"
+      << text_of(fs::path{SPRINGFOLD_SOURCE_DIR} / "cases" / example.file)
+      << "\n[[study]]\nname = \"rates\"\nkind = \"sensitivity\"\n"
+      << example.study << "\n[[study]]\nname = \"traced\"\n"
+      << example.study;
   const Case read = load_case(file, example.set);
   const auto planned = std::find_if(read.runs.begin(), read.runs.end(),
                                     [](const PlannedRun& run) { return run.study == "rates"; });
@@ -98,15 +99,16 @@ TEST_P(Sensitivities, AreDifferencesOfTracedCriticalLoadsForEveryParameter) {
   int compared = 0;
   for (std::size_t k = 0; k < family.names.size(); ++k) {
     const auto traced = differences(file, example, family.names[k], family.values[k]);
-    const auto column = std::find_if(
-        result.quantities.begin(), result.quantities.end(), [&](const auto& quantity) {
+    const auto column =
+        std::find_if(result.quantities.begin(), result.quantities.end(), [&](const auto& quantity) {
           return quantity.name == "d(lambda)/d(" + family.names[k] + ")";
         });
     ASSERT_NE(column, result.quantities.end());
     for (const auto& event : result.branches[0].events) {
       const auto found = traced.find(event.label);
-      const double rate = result.branches[0].samples[event.row].values[static_cast<std::size_t>(
-          column - result.quantities.begin())];
+      const double rate = result.branches[0]
+                              .samples[event.row]
+                              .values[static_cast<std::size_t>(column - result.quantities.begin())];
       if (std::isnan(rate) || found == traced.end()) continue;
       EXPECT_NEAR(rate, found->second, 1e-6 * std::max(1.0, std::abs(rate)))
           << event.label << " by " << family.names[k];

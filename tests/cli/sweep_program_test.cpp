@@ -182,12 +182,13 @@ bool has_mpirun() {
 class SweepOfProcesses : public SweepProgram {
  protected:
   void SetUp() override {
-    if (!has_mpirun()) GTEST_SKIP() << "needs a program with MPI, and an mpirun that starts processes";
+    if (!has_mpirun())
+      GTEST_SKIP() << "needs a program with MPI, and an mpirun that starts processes";
   }
   int run_many(int processes, const std::string& options) const {
-    const std::string line = "cd '" + scratch.path().string() + "' && " + mpirun + "-n " +
-                             std::to_string(processes) + " '" SPRINGFOLD_PROGRAM
-                             "' run case.toml --no-plots " + options + " > out.txt 2> err.txt";
+    const std::string line =
+        "cd '" + scratch.path().string() + "' && " + mpirun + "-n " + std::to_string(processes) +
+        " '" SPRINGFOLD_PROGRAM "' run case.toml --no-plots " + options + " > out.txt 2> err.txt";
     const int status = std::system(line.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
@@ -215,11 +216,10 @@ TEST_F(SweepOfProcesses, KilledGoOnToTheSameBytesWithAnotherNumber) {
   ASSERT_EQ(run("--out whole"), 0);
   // As soon as there is a checkpoint all processes are killed: they are the children of mpirun.
   put_text(scratch.path() / "kill.sh",
-           mpirun +
-               "-n 3 '" SPRINGFOLD_PROGRAM
-               "' run case.toml --no-plots --out part > out.txt 2> err.txt &\n"
-               "until [ -e part/.checkpoint-press-rows ]; do sleep 0.01; done\n"
-               "kill -KILL $(cat /proc/$!/task/$!/children)\nwait $!\n");
+           mpirun + "-n 3 '" SPRINGFOLD_PROGRAM
+                    "' run case.toml --no-plots --out part > out.txt 2> err.txt &\n"
+                    "until [ -e part/.checkpoint-press-rows ]; do sleep 0.01; done\n"
+                    "kill -KILL $(cat /proc/$!/task/$!/children)\nwait $!\n");
   const std::string line = "cd '" + scratch.path().string() + "' && bash kill.sh 2> /dev/null";
   EXPECT_NE(std::system(line.c_str()), 0);
   ASSERT_TRUE(fs::exists(scratch.path() / "part/.checkpoint-press-rows"));

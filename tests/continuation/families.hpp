@@ -64,17 +64,17 @@ inline Given augusti(double m, double psi) {
   const auto slope = [](const Vector& t) {
     return Vector{{std::sin(2 * t[0]) / 2, std::sin(2 * t[1]) / 2}};
   };
-  return {[=](const Vector& t, double P) {
-            return Vector(t - m * Vector{{std::cos(psi), std::sin(psi)}} - P / height(t) * slope(t));
-          },
-          [=](const Vector& t, double P) {
-            const double h = height(t);
-            const Vector s = slope(t);
-            const Matrix bend = Vector{{std::cos(2 * t[0]), std::cos(2 * t[1])}}.asDiagonal();
-            return Matrix(Matrix::Identity(2, 2) - P / h * bend -
-                          P / (h * h * h) * s * s.transpose());
-          },
-          [=](const Vector& t, double) { return Vector(-slope(t) / height(t)); }, 2};
+  return {
+      [=](const Vector& t, double P) {
+        return Vector(t - m * Vector{{std::cos(psi), std::sin(psi)}} - P / height(t) * slope(t));
+      },
+      [=](const Vector& t, double P) {
+        const double h = height(t);
+        const Vector s = slope(t);
+        const Matrix bend = Vector{{std::cos(2 * t[0]), std::cos(2 * t[1])}}.asDiagonal();
+        return Matrix(Matrix::Identity(2, 2) - P / h * bend - P / (h * h * h) * s * s.transpose());
+      },
+      [=](const Vector& t, double) { return Vector(-slope(t) / height(t)); }, 2};
 }
 
 }  // namespace springfold::continuation

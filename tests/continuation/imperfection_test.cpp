@@ -92,9 +92,8 @@ TEST(ImperfectionLaws, TheShallowArchHasItsPublishedCoefficient) {
   EXPECT_NEAR(law->coefficient, 1.4049861429538, 1e-9);
   // Critical loads of imperfect arches (34-digit Newton) come to it.
   double before = HUGE_VAL;
-  for (const auto& [m, load] : {std::pair{0.1, 9.4062121678254},
-                                {0.01, 9.6430193096047},
-                                {1e-4, 9.7051770421122}}) {
+  for (const auto& [m, load] :
+       {std::pair{0.1, 9.4062121678254}, {0.01, 9.6430193096047}, {1e-4, 9.7051770421122}}) {
     const double gap = std::abs((p - load) / std::cbrt(m * m) - law->coefficient);
     EXPECT_LT(gap, before);
     before = gap;
@@ -135,9 +134,8 @@ TEST(ImperfectionLaws, TheWorstImperfectionOfAugustisColumnIsAt45Degrees) {
 
 TEST(ImperfectionLaws, TracedImperfectColumnsOfAugustiComeToTheirLaw) {
   double before = HUGE_VAL;
-  for (const auto& [eps, known] : {std::pair{0.05, 0.81568488176849},
-                                   {0.01, 0.93821138848778},
-                                   {0.001, 0.98684634950518}}) {
+  for (const auto& [eps, known] :
+       {std::pair{0.05, 0.81568488176849}, {0.01, 0.93821138848778}, {0.001, 0.98684634950518}}) {
     const Given column = augusti(std::sqrt(2.0) * eps, std::numbers::pi / 4);
     const Vector start = Vector::Constant(2, eps);  // in equilibrium without load
     const auto rays = rays_from(column, start, 0, {}, {}).rays;

@@ -40,9 +40,10 @@ std::optional<Vector> imperfection_part(const Family& family, const CriticalStar
 /// lambda = lambda0 - t coefficient |m|^exponent + higher order, where t = 1 if lambda grows on the path of the
 /// perfect structure at the point, and -1 if it falls there.
 struct ImperfectionLaw {
-  double exponent = 1;     ///< 1, 2/3 or 1/2
-  double coefficient = 0;  ///< > 0: the critical load is lowered; < 0, a limit point behind it: not sensitive
-  int sign = 0;            ///< of m: with which it holds; 0: with both
+  double exponent = 1;  ///< 1, 2/3 or 1/2
+  double coefficient =
+      0;         ///< > 0: the critical load is lowered; < 0, a limit point behind it: not sensitive
+  int sign = 0;  ///< of m: with which it holds; 0: with both
 };
 
 /// @param gamma  of a unit imperfection, k entries

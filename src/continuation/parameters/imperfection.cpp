@@ -34,8 +34,7 @@ double bend_of(const ReducedForm& form, const Vector& t) {
 
 /// Does lambda grow on the way to the point? At limit points their curvature tells it.
 double towards_of(const ReducedForm& form) {
-  const double rate =
-      has_lambda(form) ? bend_of(form, form.tangent.dx) : form.tangent.dlambda;
+  const double rate = has_lambda(form) ? bend_of(form, form.tangent.dx) : form.tangent.dlambda;
   return rate < 0 ? -1 : 1;
 }
 
@@ -78,7 +77,8 @@ class LeadingTerms {
       exponent_ = 2.0 / 3;
       size_ = std::cbrt(force_ / norm_of(form.cubic));
     }
-    unit_ = has_lambda(form) ? force_ / form.by_lambda.norm() : force_ / (size_ * form.mixed.norm());
+    unit_ =
+        has_lambda(form) ? force_ / form.by_lambda.norm() : force_ / (size_ * form.mixed.norm());
   }
 
   Index size() const { return gamma_.size(); }
@@ -174,9 +174,8 @@ std::optional<double> first_critical(const LeadingTerms& terms, double towards) 
   if (rays.rays.size() != 2) return std::nullopt;
   const bool second = towards * rays.rays[0].tangent.dlambda < 0;
   std::optional<CriticalStart> found;
-  const std::vector<Event> range{{"range",
-                                  [&](const CurvePoint& p) { return far - towards * p.lambda; },
-                                  EventAction::stop}};
+  const std::vector<Event> range{
+      {"range", [&](const CurvePoint& p) { return far - towards * p.lambda; }, EventAction::stop}};
   trace(terms, *u, -towards * far, rays.rays[second ? 1 : 0], range, options, {},
         [&](const Hit& hit) {
           if (hit.kind != HitKind::limit_point && hit.kind != HitKind::branch_point) return true;
