@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t most_parameters = 1000;
 
 const std::vector<std::string> case_keys{
-    "title", "include", "units", "parameters", "gravity", "template", "body",     "node",
-    "chain", "spring",  "bar",   "load",       "study",   "plot",     "map_plot", "expected"};
+    "title",  "include", "units", "parameters", "gravity", "template", "body",     "node",  "chain",
+    "spring", "bar",     "load",  "study",      "plot",    "map_plot", "expected", "report"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
@@ -34,7 +34,7 @@ void check_included(const Document& document, Problems& problems) {
   if (!document.included) return;
   for (const NodeEntry& entry : document.root.entries)
     if (entry.key == "study" || entry.key == "plot" || entry.key == "map_plot" ||
-        entry.key == "expected")
+        entry.key == "expected" || entry.key == "report")
       problems.add(entry.place, entry.key,
                    "belongs into the case file itself, not into an included file");
 }
@@ -49,6 +49,13 @@ UnitLabels read_units(const std::vector<Document>& documents, Reading& reading) 
     units.force = table.text("force").value_or(units.force);
   }
   return units;
+}
+
+/// [report]: the page of every run. Written alone, without keys, it is wanted.
+bool read_report(const std::vector<Document>& documents, Reading& reading) {
+  const Node* node = documents.back().root.find("report");
+  if (!node || !is_table({node, "report"}, "a table [report]", reading)) return false;
+  return TableReader{*node, "report", {"write"}, reading}.flag("write", true);
 }
 
 /// Right-hand sides by name, in the order in which the names first occur; later files win.
@@ -181,6 +188,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
   draft.plots = read_plots(plots, draft.studies, reading);
   draft.map_plots = read_map_plots(tables_of(documents, "map_plot", reading), draft.studies,
                                    draft.plots, reading);
+  draft.wants_report = read_report(documents, reading);
   read_expectations(expected_file, draft, reading);
   return draft;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitted_table.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -40,7 +41,7 @@ std::string point_table(const StudyResult& result, const Branch& branch,
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;
   align.push_back(Align::left);
-  return aligned(rows, align, indent);
+  return fitted(rows, align, indent);
 }
 
 /// d(lambda)/d(parameter) of every special point, one row per parameter.
@@ -64,7 +65,7 @@ std::string rate_table(const StudyResult& result, const Branch& branch) {
   }
   std::vector<Align> align(rows[0].size(), Align::right);
   align.front() = Align::left;
-  std::string text = aligned(rows, align, indent);
+  std::string text = fitted(rows, align, indent);
   for (const auto* event : points) text += line(event->label, event->detail);
   return text;
 }
