@@ -1,31 +1,42 @@
-# One figure of curves: stable parts solid, unstable parts dashed, special points marked.
+# One figure of curves: stable parts solid, unstable parts dashed, special points marked. The program puts this
+# file into the script once for each format.
 #
 # Besides the values listed in style.gp the program has set:
 #   curve_parts   names of data blocks with lines, "stable_1 stable_2 driven_1 unstable_1 ..."; the
 #                 number is that of the curve; a block holds x y, empty lines between separate parts
 #   curve_hues    one number per curve: 0, its colour tells its stability; n, it is the n-th branch of a
 #                 diagram and has the n-th colour, its dashes tell its stability
+#   curve_colors  one per curve: the colour of the value of its run, or 'by_hue'
+#   has_mixed     1: the block mixed holds stretches where lines of different stability lie on each other
 #   first_parts   those of them that stand for the others of their kind in the key
+#   x_log, y_log  1: logarithmic
+#   insets        number of enlarged parts; inset_x_low, inset_left, ... are lists of as many numbers
+#   has_bar       1: palette_text, bar_title, bar_low, bar_high say what the colours of curves mean
 #   point_codes   "start LP SA ...": codes that occur; block point_<code> holds x y
-# Labels and their leader lines are set already.
+# Labels and their leader lines are set already: they hang on points of the axes.
 
 part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
 part_kind(part) = part[1:6] eq 'stable' ? 'stable' : \
                   part[1:6] eq 'driven' ? 'unstable under dead load' : 'unstable'
 part_hue(part) = part eq 'nothing' ? 0 : int(word(curve_hues, int(part[strstrt(part, '_') + 1:*])))
-part_color(part) = part_hue(part) > 0 \
+own_color(part) = part eq 'nothing' ? 'by_hue' : word(curve_colors, int(part[strstrt(part, '_') + 1:*]))
+part_color(part) = own_color(part) ne 'by_hue' ? own_color(part) : part_hue(part) > 0 \
     ? word(branch_colors, (part_hue(part) - 1) % words(branch_colors) + 1) \
     : part[1:6] eq 'stable' ? stable_color : part[1:6] eq 'driven' ? driven_color : unstable_color
-# Lines of a diagram stand in the key in ink: their colours tell branches.
+# Lines of a diagram or a sweep stand in the key in ink: their colours tell branches or values.
 is_first(part) = strstrt(' '.first_parts.' ', ' '.part.' ') > 0
-key_color(part) = part_hue(part) > 0 ? ink : part_color(part)
+key_color(part) = part_hue(part) > 0 || own_color(part) ne 'by_hue' ? ink : part_color(part)
 
 set lmargin at screen frame_left
 set rmargin at screen frame_right
 set bmargin at screen frame_bottom
 set tmargin at screen frame_top
+if (x_log) { set logscale x } else { unset logscale x }
+if (y_log) { set logscale y } else { unset logscale y }
 set xrange [x_low:x_high]
 set yrange [y_low:y_high]
+unset xzeroaxis
+unset yzeroaxis
 if (x_low < 0 && x_high > 0) set yzeroaxis linestyle 5
 if (y_low < 0 && y_high > 0) set xzeroaxis linestyle 5
 
@@ -33,24 +44,78 @@ set title figure_title @figure_title_mode font title_font textcolor rgb ink offs
 set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
 set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
-key_rows = (words(first_parts) + words(point_codes) + 2) / 3
+key_rows = (words(first_parts) + words(point_codes) + has_mixed + 2) / 3
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
 
-set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-set output figure_name.'.png'
-plot for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
+
+if (has_bar) {
+  set palette defined (@palette_text)
+  set cbrange [bar_low:bar_high]
+  set cblabel bar_title noenhanced textcolor rgb ink offset 1, 0
+  set colorbox user origin frame_right + 25 / figure_width, frame_bottom \
+      size 20 / figure_width, frame_top - frame_bottom
+}
+
+# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
+if (figure_format eq 'png') {
+  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
+}
+if (figure_format eq 'svg') {
+  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
+      background rgb 'white'
+}
+if (figure_format eq 'pdf') {
+  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
+}
+# This terminal takes numbers only, no names of them.
+tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
+if (figure_format eq 'tikz') {
+  set terminal tikz size @tikz_size standalone
+}
+set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+if (insets > 0) { set multiplot }
+plot for [k = 1:has_mixed] '$mixed' with lines linestyle 7 \
+         title 'with a less stable one on it', \
+     for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
          linecolor rgb part_color(part) notitle, \
      for [part in curve_parts] 1/0 with lines linestyle part_style(part) \
          linecolor rgb key_color(part) title (is_first(part) ? part_kind(part) : ''), \
      for [code in point_codes] '$point_'.code with points linestyle point_style(code) \
-         title point_name(code)
-unset output
-
-# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points.
-set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-    background rgb 'white'
-set output figure_name.'.svg'
-replot
+         title point_name(code), \
+     for [k = 1:has_bar] '$bar' with dots palette notitle
+do for [k = 1:insets] {
+  unset title
+  unset xlabel
+  unset ylabel
+  unset key
+  unset label
+  unset arrow
+  unset colorbox
+  set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb 'white' \
+      fillstyle solid noborder
+  set lmargin at screen real(word(inset_left, k))
+  set rmargin at screen real(word(inset_right, k))
+  set bmargin at screen real(word(inset_bottom, k))
+  set tmargin at screen real(word(inset_top, k))
+  set xrange [real(word(inset_x_low, k)):real(word(inset_x_high, k))]
+  set yrange [real(word(inset_y_low, k)):real(word(inset_y_high, k))]
+  set border 15
+  inset_x_step = (real(word(inset_x_high, k)) - real(word(inset_x_low, k))) / 3
+  set xtics inset_x_step font key_font
+  inset_y_step = (real(word(inset_y_high, k)) - real(word(inset_y_low, k))) / 3
+  set ytics inset_y_step font key_font
+  set format '%.3g'
+  plot for [j = 1:has_mixed] '$mixed' with lines linestyle 7, \
+       for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
+           linecolor rgb part_color(part), \
+       for [code in point_codes] '$point_'.code with points linestyle point_style(code)
+  unset object 1
+  set border 3
+  set xtics autofreq font base_font
+  set ytics autofreq font base_font
+  set format '%g'
+}
+if (insets > 0) { unset multiplot }
 unset output

@@ -8,7 +8,11 @@
 #   levels         values of the contour lines, "0.5 1 1.5"
 #   panels         number of panels; panel n has the data blocks
 #                  field_n      x y value, an empty line between rows of nodes; NaN: no value
+#                  numbers_n    x y text: the number of a contour line
 #                  contours_n, edge_n, activation_n, unstable_n   x y of line segments
+#   has_gaps, has_infinite   1 if there are nodes without value, with an infinite value
+#   clipped        finite values beyond the ends of the colours
+#   formats        'png svg', also 'pdf'
 #   has_edge, has_activation, has_unstable   1 if any panel has such lines
 # style.gp is read before this file.
 
@@ -22,7 +26,7 @@ set style line 32 linecolor rgb ink linewidth 3.0                  # edge of the
 set style line 33 linecolor rgb '#D55E00' linewidth 3.0 dashtype (8, 5)   # springs switch
 set style line 34 linecolor rgb '#CC79A7' linewidth 3.0 dashtype (2, 4)   # stability is lost
 
-tic_font = font_family.',12'
+tic_font = sized(figure_font_size - 2)
 panel_size = 470.0
 left = 100.0; gap = 85.0; right = 150.0; bottom = 85.0
 top = 110.0
@@ -32,6 +36,7 @@ figure_height = bottom + panel_size + top
 set xrange [x_low:x_high]
 set yrange [y_low:y_high]
 set cbrange [value_low:value_high]
+set style textbox opaque noborder fillcolor rgb 'white' margins 0.4, 0.2
 set border 15 linecolor rgb ink linewidth 1.2
 set tics nomirror out font tic_font
 unset grid
@@ -44,10 +49,14 @@ set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center @fi
 set cblabel value_title @value_title_mode textcolor rgb ink offset 1.5, 0
 do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
 
-do for [format in 'png svg'] {
+do for [format in formats] {
   if (format eq 'png') {
     set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-  } else {
+  }
+  if (format eq 'pdf') {
+    set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
+  }
+  if (format eq 'svg') {
     set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
         background rgb 'white'
   }
@@ -74,9 +83,16 @@ do for [format in 'png svg'] {
          '$activation_'.n with lines linestyle 33 notitle, \
          '$unstable_'.n with lines linestyle 34 notitle, \
          '$edge_'.n with lines linestyle 32 notitle, \
+         '$numbers_'.n using 1:2:3 with labels boxed font tic_font textcolor rgb ink notitle, \
          NaN with lines linestyle 32 title (has_edge ? 'edge of the workspace' : ''), \
          NaN with lines linestyle 33 title (has_activation ? 'a spring switches' : ''), \
-         NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : '')
+         NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : ''), \
+         NaN with points pointtype 5 pointsize 2 linecolor rgb '#DDDDDD' \
+             title (has_gaps ? 'no value' : ''), \
+         NaN with lines linecolor rgb 'white' \
+             title (has_infinite ? 'infinite: colour at the end' : ''), \
+         NaN with lines linecolor rgb 'white' \
+             title (clipped > 0 ? sprintf('%d values beyond the colours', clipped) : '')
     unset label 1
   }
   unset multiplot

@@ -5,6 +5,8 @@
 #   figure_title_mode, x_title_mode, y_title_mode      'noenhanced', or 'enhanced' for a text in gnuplot's markup
 #   x_low, x_high, y_low, y_high                       ends of the axes
 #   figure_width, figure_height                        size in pixels
+#   figure_format                                      'png', 'svg', 'pdf' or 'tikz'
+#   figure_font, figure_font_size                      name, and points
 #   frame_left, frame_right, frame_bottom, frame_top   frame of the axes, in parts of the size
 # It has placed all labels for this size and frame and for the font sizes below. Other sizes work,
 # but labels may then touch curves.
@@ -16,25 +18,28 @@ unset colorbox
 stable_color = '#0072B2'
 driven_color = '#D55E00'
 unstable_color = '#D55E00'
+mixed_color = '#F5CBA7'
 # Branches of a diagram, one after the other.
 branch_colors = '#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #882255 #999933'
 ink = '#222222'
 pale = '#D9D9D9'
 
-font_family = 'DejaVu Sans'
-base_font = font_family.',14'
-title_font = font_family.',18'
-key_font = font_family.',13'
-point_label_font = font_family.',13'
+# LaTeX has fonts of its own: a name would be printed as a text.
+sized(points) = figure_format eq 'tikz' ? '' : sprintf('%s,%g', figure_font, points)
+base_font = sized(figure_font_size)
+title_font = sized(figure_font_size + 4)
+key_font = sized(figure_font_size - 1)
+point_label_font = sized(figure_font_size - 1)
 point_label_color = ink
-curve_label_font = font_family.',14'
+curve_label_font = sized(figure_font_size)
 curve_label_color = ink
 
-# 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 3 grid, 4 line from a label to its point,
-# 5 axes through zero
+# 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 7 beneath a line on which a less stable
+# one lies, 3 grid, 4 line from a label to its point, 5 axes through zero
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
 set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4, 5)
 set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14, 6)
+set style line 7 linecolor rgb mixed_color linewidth 11 dashtype solid
 set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
 set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
@@ -95,7 +100,7 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'UR' ? 'unresolved (UR)' : ''
 
 set border 3 linecolor rgb ink linewidth 1.2
-set minussign
+if (figure_format eq 'tikz') { unset minussign } else { set minussign }
 set format '%g'
-set tics nomirror out scale 0.7 textcolor rgb ink
+set tics nomirror out scale 0.7 textcolor rgb ink font base_font
 set grid xtics ytics back linestyle 3

@@ -161,22 +161,19 @@ PieceModes modes_on(const Ground& ground) {
   return {(k_i.array() < -zero).count(), k_i[0], (k_i.array().abs() > zero).all()};
 }
 
-/// Numbers of the unknowns that the switches are but for a constant; nothing where one is none.
-std::optional<std::vector<Index>> coordinates_of(const Terrain& terrain, const Vector& x,
-                                                 const std::vector<std::size_t>& resting) {
+/// Gradients of the switches that rest, one per column; nothing where one does not depend on the unknowns.
+std::optional<Matrix> gradients_of(const Terrain& terrain, const Vector& x,
+                                   const std::vector<std::size_t>& resting) {
   Matrix dg;
   Vector dg_dlambda;
   if (!terrain.problem.switch_gradients(x, terrain.lambda, dg, dg_dlambda)) return std::nullopt;
-  std::vector<Index> list;
-  for (const std::size_t j : resting) {
-    const auto row = dg.row(static_cast<Index>(j));
-    if ((row.array() != 0).count() != 1) return std::nullopt;
-    Index i = 0;
-    row.cwiseAbs().maxCoeff(&i);
-    if (row[i] != 1) return std::nullopt;
-    list.push_back(i);
+  Matrix gradients(dg.cols(), static_cast<Index>(resting.size()));
+  for (std::size_t k = 0; k < resting.size(); ++k) {
+    const auto row = dg.row(static_cast<Index>(resting[k]));
+    if (row.isZero(0)) return std::nullopt;
+    gradients.col(static_cast<Index>(k)) = row.transpose();
   }
-  return list;
+  return gradients;
 }
 
 /// All pieces beside a state at which springs rest, together; nothing where they do not decide it.
@@ -188,15 +185,15 @@ std::optional<Index> index_on_cones(const Landscape& landscape, const Ground& at
     if (std::any_of(pieces.begin(), pieces.end(),
                     [&](const Piece& other) { return other[j] != at.piece[j]; }))
       resting.push_back(j);
-  const auto coordinates = coordinates_of(terrain, at.x, resting);
-  if (!coordinates) return std::nullopt;
+  const auto gradients = gradients_of(terrain, at.x, resting);
+  if (!gradients) return std::nullopt;
   const auto matrix = [&](const Piece& piece) -> std::optional<Matrix> {
     Matrix A;
     Vector b;
     if (!terrain.problem.derivatives(at.x, terrain.lambda, piece, A, b)) return std::nullopt;
     return A;
   };
-  const auto decided = resting_index(matrix, at.piece, resting, *coordinates,
+  const auto decided = resting_index(matrix, at.piece, resting, *gradients,
                                      static_cast<Index>(landscape.multipliers().size()));
   if (!decided || decided->verdict == Definiteness::undecided) return std::nullopt;
   return static_cast<Index>(decided->index());

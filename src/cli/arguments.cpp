@@ -200,8 +200,15 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   run->add_flag("--no-plots", is_without_plots, "Draw no figures");
   run->add_flag("--report", arguments.makes_report,
                 "Write report.html too: curves, and the mechanism in the posture under the cursor");
-  run->add_flag("--json", arguments.prints_json,
-                "Print summary.json instead of tables on standard output");
+  const auto prints_json = run->add_flag("--json", arguments.prints_json,
+                                         "Print summary.json instead of tables on standard output");
+  const auto quiet =
+      run->add_flag("--quiet", arguments.is_quiet,
+                    "Print what happened in words, no tables; say only what is wrong");
+  run->add_flag("--verbose", arguments.is_verbose,
+                "Print refused and cut steps too, with their reasons")
+      ->excludes(quiet)
+      ->excludes(prints_json);
 
   CLI::App* verify = app.add_subcommand("verify", "Compare many cases with their expected values");
   verify

@@ -35,6 +35,8 @@ struct Arguments {
   std::string film_jump{};                              ///< animate: --jump
   int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
+  bool is_quiet = false;                       ///< run: --quiet
+  bool is_verbose = false;                     ///< run: --verbose
   bool prints_csv = false;                     ///< verify only
   std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them
   int jobs = 0;                                ///< verify: runs at a time; 0: one per processor

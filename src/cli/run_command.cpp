@@ -38,6 +38,11 @@ std::string name_of(const StudyResult& result) {
 
 void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
 
+/// What is good to know, and no trouble.
+void note(const Arguments& arguments, const Session& session, const std::string& message) {
+  if (!arguments.is_quiet) say(session, message);
+}
+
 /// Says what is missing in a result and gives its exit code.
 int judge(const Case& the_case, const StudyResult& result, const Session& session) {
   const auto planned =
@@ -122,23 +127,26 @@ bool print(const Arguments& arguments, const Case& the_case,
   if (arguments.prints_json) {
     session.out << io::summary_json(the_case, results);
   } else {
-    session.out << io::summary_table(the_case, results);
+    session.out << (arguments.is_quiet ? io::outline_text(the_case, results)
+                                       : io::summary_table(the_case, results));
+    if (arguments.is_verbose) session.out << io::steps_table(results);
     const std::string table = io::comparison_table(comparisons, the_case.expected);
-    if (!table.empty()) session.out << "\n" << table;
+    if (!table.empty() && !arguments.is_quiet) session.out << "\n" << table;
   }
   session.out.flush();
   return session.out.good();
 }
 
 /// @returns the pictures that are missing
-std::vector<std::string> draw(const fs::path& folder, const Case& the_case,
-                              const std::vector<StudyResult>& results, const Session& session) {
+std::vector<std::string> draw(const fs::path& folder, const Arguments& arguments,
+                              const Case& the_case, const std::vector<StudyResult>& results,
+                              const Session& session) {
   const io::PlotOptions options{.stop_requested = stop_request_of(session)};
   const auto outcome = io::draw_plots(folder, the_case, results, options);
   for (const auto& warning : outcome.warnings) say(session, "warning: " + warning);
   if (!outcome.files.empty())
-    say(session,
-        std::to_string(outcome.files.size()) + " pictures in " + (folder / "plots").string());
+    note(arguments, session,
+         std::to_string(outcome.files.size()) + " pictures in " + (folder / "plots").string());
   return outcome.missing;
 }
 
@@ -194,10 +202,13 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
   const std::vector<StudyResult>& results = all.list;
   const bool is_whole = all.all_done(the_case);
   const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
+  // [report] of a case is no fault where the program has no page.
+  const bool makes_report = arguments.makes_report || (the_case.wants_report && io::has_report());
+  if (the_case.wants_report && !io::has_report())
+    say(session, "no page: this springfold was built without it (-DSPRINGFOLD_REPORT=OFF)");
   const auto write = [&] {
     io::write_results(folder, the_case, results,
-                      arguments.draws_plots ? io::SetState::being_written : state,
-                      arguments.makes_report);
+                      arguments.draws_plots ? io::SetState::being_written : state, makes_report);
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
   if (!is_done(write, session)) return {input_output, gave_up};
@@ -208,12 +219,13 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
     for (const auto& hint : the_case.hints) say(session, "hint: " + hint);
   const bool has_curves = std::any_of(results.begin(), results.end(),
                                       [](const StudyResult& r) { return !r.branches.empty(); });
-  say(session, (has_curves ? "curves in " + (folder / "branches").string() + ", " : std::string{}) +
-                   "tables and summary in " + folder.string());
-  if (arguments.makes_report) say(session, "page in " + (folder / "report.html").string());
+  note(arguments, session,
+       (has_curves ? "curves in " + (folder / "branches").string() + ", " : std::string{}) +
+           "tables and summary in " + folder.string());
+  if (makes_report) note(arguments, session, "page in " + (folder / "report.html").string());
   std::vector<std::string> missing;
   if (arguments.draws_plots) {
-    missing = draw(folder, the_case, results, session);
+    missing = draw(folder, arguments, the_case, results, session);
     if (!is_done([&] { io::close_results(folder, state, missing); }, session)) code = input_output;
   }
   if (!is_printed) {
@@ -277,7 +289,9 @@ bool is_helper(const Session& session) {
 
 }  // namespace
 
-int run_command(const Arguments& arguments, const Session& session) {
+int run_command(const Arguments& arguments, const Session& given) {
+  Session session = given;
+  if (arguments.is_quiet) session.shows_progress = false;
   if (arguments.makes_report && !io::has_report()) {
     say(session, "--report: this springfold was built without the page (-DSPRINGFOLD_REPORT=OFF)");
     return wrong_usage;

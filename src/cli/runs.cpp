@@ -65,6 +65,8 @@ class Runner {
       {
         const std::scoped_lock lock{busy_};
         batch_ = batch;
+        ended_ = 0;
+        counting_ = false;
         written_ = {};  // the first row is put on the disk at once
       }
       in_parallel(batch.count, is_map ? 1 : threads(),
@@ -118,7 +120,12 @@ class Runner {
     {
       const std::scoped_lock lock{busy_};
       begun_[i] = in_work;
-      progress_.begin(planned.label.empty() ? number : number + ", " + planned.label);
+      const bool counts = is_counted(batch, is_map);
+      if (counts && !counting_)
+        progress_.begin(planned.study + ", " + std::to_string(batch.count) + " runs");
+      else if (!counts)
+        progress_.begin(planned.label.empty() ? number : number + ", " + planned.label);
+      counting_ = counts;
     }
     try {
       keep(batch, i, computed(planned, is_map));
@@ -129,6 +136,16 @@ class Runner {
     }
     const std::scoped_lock lock{busy_};
     begun_[i] = has_ended;
+    ++ended_;
+    if (is_counted(batch, is_map) && !closed_)
+      progress_.part(static_cast<double>(ended_) / static_cast<double>(batch.count));
+  }
+
+  /// Of many runs it is shown how many are done and how long the others will take, not each. Maps show
+  /// their own.
+  static bool is_counted(const Batch& batch, bool is_map) {
+    constexpr std::size_t many = 8;
+    return !is_map && batch.count >= many;
   }
 
   StudyResult computed(const PlannedRun& planned, bool is_map) {
@@ -136,7 +153,7 @@ class Runner {
                                 : session_.run_study(planned, [this](int points, double) {
                                     if (session_.signal() != 0) return false;
                                     const std::scoped_lock lock{busy_};
-                                    if (!closed_) progress_.points(points);
+                                    if (!closed_ && !counting_) progress_.points(points);
                                     return true;
                                   });
     result.study = planned.study;
@@ -273,6 +290,8 @@ class Runner {
   std::vector<char> elsewhere_{};          ///< runs that this process leaves to others
   bool is_divided_ = false;                ///< the batch, among several processes
   int ends_ = 0;                           ///< processes that have sent all their rows
+  std::size_t ended_ = 0;                  ///< runs of the batch
+  bool counting_ = false;                  ///< progress is that of the batch
   bool closed_ = false;                    ///< what was found has been taken
   std::chrono::steady_clock::time_point written_{};
   bool can_write_ = true;

@@ -119,6 +119,7 @@ class Builder {
   Case build() {
     result_.title = draft_->title;
     result_.units = draft_->units;
+    result_.wants_report = draft_->wants_report;
     list_nodes(draft_->mechanism, result_);
     for (std::size_t i = 0; i < draft_->studies.size(); ++i)
       for (int run = 1; run <= draft_->studies[i].runs(); ++run) add_run(i, run);
@@ -141,6 +142,9 @@ class Builder {
     PlannedRun planned{.study = study.name, .run = run};
     planned.label = label_of(study, run, parameters);
     planned.has_given_label = study.vary && !study.vary->labels.empty();
+    if (study.vary)
+      for (const std::size_t p : study.vary->parameters)
+        planned.varied.push_back(draft_->parameters[p].name);
     planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);
     for (model::Load& load : build_loads(study.loads, numbers))
       planned.mechanism.loads.push_back(std::move(load));
@@ -316,12 +320,13 @@ class Builder {
       PlotSpec spec = plot.spec;
       spec.x_factor = numbers[plot.x_factor];
       spec.y_factor = numbers[plot.y_factor];
+      set_numbers(plot.look, numbers, spec.look);
       for (const PlotCurves& curves : spec.curves)
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
           check_curves(spec.name, i);
           check_use(plot.x, i, 1);
-          check_use(plot.y, i, 1);
+          for (const NamedPlace& y : plot.y) check_use(y, i, 1);
         }
       result_.plots.push_back(std::move(spec));
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mechanism_draft.hpp"
+#include "plot_look_reader.hpp"
 #include "source_files.hpp"
 #include "springfold/io/case_file.hpp"
 #include "study_draft.hpp"
@@ -20,7 +21,9 @@ struct PlotDraft {
   PlotSpec spec{};  ///< without its factors
   NumberTable numbers{};
   NumberId x_factor = 0, y_factor = 0;
-  NamedPlace x{}, y{};
+  NamedPlace x{};
+  std::vector<NamedPlace> y{};
+  PlotLookDraft look{};
 };
 
 struct MapPlotDraft {
@@ -49,6 +52,7 @@ struct CaseDraft {
   std::vector<TornadoDraft> tornados{};
   std::vector<ExpectedDraft> expected{};
   std::vector<std::string> notes{};
+  bool wants_report = false;
 };
 
 /// Reads the tables of all documents (included ones first). `overrides` replace parameters.

@@ -15,7 +15,7 @@ constexpr std::size_t most_parameters = 1000;
 const std::vector<std::string> case_keys{"title",    "include", "units", "parameters", "gravity",
                                          "template", "body",    "node",  "chain",      "spring",
                                          "bar",      "load",    "study", "plot",       "map_plot",
-                                         "expected", "tornado"};
+                                         "expected", "tornado", "report"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
@@ -36,7 +36,7 @@ void check_included(const Document& document, Problems& problems) {
   if (!document.included) return;
   for (const NodeEntry& entry : document.root.entries)
     if (entry.key == "study" || entry.key == "plot" || entry.key == "map_plot" ||
-        entry.key == "tornado" || entry.key == "expected")
+        entry.key == "tornado" || entry.key == "expected" || entry.key == "report")
       problems.add(entry.place, entry.key,
                    "belongs into the case file itself, not into an included file");
 }
@@ -51,6 +51,13 @@ UnitLabels read_units(const std::vector<Document>& documents, Reading& reading) 
     units.force = table.text("force").value_or(units.force);
   }
   return units;
+}
+
+/// [report]: the page of every run. Written alone, without keys, it is wanted.
+bool read_report(const std::vector<Document>& documents, Reading& reading) {
+  const Node* node = documents.back().root.find("report");
+  if (!node || !is_table({node, "report"}, "a table [report]", reading)) return false;
+  return TableReader{*node, "report", {"write"}, reading}.flag("write", true);
 }
 
 /// Right-hand sides by name, in the order in which the names first occur; later files win.
@@ -188,6 +195,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
   for (const MapPlotDraft& plot : draft.map_plots) taken.insert(plot.spec.name);
   draft.tornados =
       read_tornados(tables_of(documents, "tornado", reading), draft.studies, taken, reading);
+  draft.wants_report = read_report(documents, reading);
   read_expectations(expected_file, draft, reading);
   return draft;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "critical_summary.hpp"
+#include "fitted_table.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -58,7 +59,7 @@ std::string control_lines(const StudyResult& result, const UnitLabels& units) {
   align.push_back(Align::left);
   std::string text = line("method", result.start.method + ", residual at the first target " +
                                         rounded(result.start.residual, 2));
-  text += line("targets", std::to_string(targets)) + aligned(rows, align, indent + 2);
+  text += line("targets", std::to_string(targets)) + fitted(rows, align, indent + 2);
   if (targets > most_targets)
     text += line("", "... and " + std::to_string(targets - most_targets) + " more in the table");
   for (const auto& event : branch.events)
@@ -112,8 +113,8 @@ std::string map_lines(const PlannedRun& planned, const StudyResult& result,
   }
   for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
   if (rows.size() == 1) return text;
-  return text + aligned(rows, {Align::left, Align::right, Align::left, Align::right, Align::left},
-                        indent + 2);
+  return text + fitted(rows, {Align::left, Align::right, Align::left, Align::right, Align::left},
+                       indent + 2);
 }
 
 std::string workspace_lines(const StudyResult& result, const UnitLabels& units) {

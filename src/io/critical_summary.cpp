@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "design_summary.hpp"
+#include "fitted_table.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -41,7 +42,7 @@ std::string point_table(const StudyResult& result, const Branch& branch,
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;
   align.push_back(Align::left);
-  return aligned(rows, align, indent);
+  return fitted(rows, align, indent);
 }
 
 /// d(lambda)/d(parameter) of every special point, one row per parameter.
@@ -65,7 +66,7 @@ std::string rate_table(const StudyResult& result, const Branch& branch) {
   }
   std::vector<Align> align(rows[0].size(), Align::right);
   align.front() = Align::left;
-  std::string text = aligned(rows, align, indent);
+  std::string text = fitted(rows, align, indent);
   for (const auto* event : points) text += line(event->label, event->detail);
   return text;
 }

@@ -7,6 +7,7 @@
 #include "label_layout.hpp"
 #include "motion_figure.hpp"
 #include "result_access.hpp"
+#include "smooth_line.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
@@ -19,54 +20,26 @@ using analysis::Branch;
 using analysis::EventKind;
 using analysis::StudyResult;
 
-/// Quantities of a figure without [[plot]]: force over deflection, otherwise lambda over the first
-/// coordinate of the pose.
-PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
-  PlotSpec spec{.name = safe_file_name(result.study), .title = result.study};
-  spec.curves.push_back({.study = result.study});
-  if (column_of(result, "path")) {  // commands along a path: what the first one compensates
-    spec.x = "path";
-    for (const auto& quantity : result.quantities)
-      if (quantity.name.ends_with(".compensation")) {
-        spec.y = quantity.name;
-        return spec;
-      }
-  }
-  if (column_of(result, "deflection") && column_of(result, "force")) return spec;
-  spec.y = "lambda";
-  const PlannedRun* planned = plan_of(the_case, result);
-  const bool has_body = planned != nullptr && !planned->mechanism.bodies.empty();
-  spec.x = has_body ? planned->mechanism.bodies.front().name + ".x" : "s";
-  return spec;
-}
-
-bool has_curve(const StudyResult& result) {
-  return std::any_of(result.branches.begin(), result.branches.end(),
-                     [](const Branch& branch) { return branch.samples.size() > 1; });
-}
-
-std::vector<PlotSpec> plots_of(const Case& the_case, const std::vector<StudyResult>& results) {
-  if (!the_case.plots.empty()) return the_case.plots;
-  std::vector<PlotSpec> specs;
-  std::vector<std::string> studies;
-  for (const auto& result : results) {
-    const bool is_new = std::find(studies.begin(), studies.end(), result.study) == studies.end();
-    const PlannedRun* planned = plan_of(the_case, result);
-    const bool is_map = planned != nullptr && planned->plan.kind == analysis::StudyKind::map;
-    if (!is_new || is_map || !has_curve(result)) continue;
-    studies.push_back(result.study);
-    specs.push_back(default_plot(the_case, result));
-  }
-  return specs;
+/// What drives a body along a rotation is a moment, and the way is an angle: columns have one name for both.
+std::string name_of(const std::string& quantity, const StudyResult& result) {
+  const auto column = column_of(result, quantity);
+  if (!column) return quantity;
+  const analysis::Unit unit = result.quantities[*column].unit == analysis::Unit::lambda
+                                  ? result.lambda_unit
+                                  : result.quantities[*column].unit;
+  if (quantity == "force" && unit == analysis::Unit::moment) return "moment";
+  if (quantity == "deflection" && unit == analysis::Unit::angle) return "rotation";
+  return quantity;
 }
 
 FigureText axis_title(const FigureText& given, const std::string& quantity, double factor,
                       const StudyResult& result, const UnitLabels& units) {
   if (!given.text.empty()) return given;
   const auto column = column_of(result, quantity);
-  const std::string title = factor == 1 ? quantity : shortest(factor) + " · " + quantity;
+  const std::string name = name_of(quantity, result);
+  const std::string title = factor == 1 ? name : shortest(factor) + " · " + name;
   if (!column) return {title};
-  const auto unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
+  const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
   return {unit.empty() ? title : title + " [" + unit + "]"};
 }
 
@@ -76,14 +49,18 @@ bool is_marked(EventKind kind) { return kind != EventKind::end_of_range; }
 struct Axes {
   const PlotSpec& spec;
   const UnitLabels& units;
+  std::string y{};         ///< the quantity that is plotted: spec.y or one of spec.more_y
+  bool is_traced = false;  ///< rows lie on curves over arc length
+  int hue = 0;             ///< of several quantities: the number of this one
 
   PlotPoint point(const StudyResult& result, const Branch& branch, std::size_t row) const {
-    return place(value_at(result, branch, row, spec.x), value_at(result, branch, row, spec.y));
+    return place(value_at(result, branch, row, spec.x), value_at(result, branch, row, y));
   }
 
-  PlotPoint place(double x, double y) const {
-    x *= spec.x_factor, y *= spec.y_factor;
-    return spec.polar ? PlotPoint{y * std::cos(x), y * std::sin(x)} : PlotPoint{x, y};
+  PlotPoint place(double across, double up) const {
+    across *= spec.x_factor, up *= spec.y_factor;
+    return spec.polar ? PlotPoint{up * std::cos(across), up * std::sin(across)}
+                      : PlotPoint{across, up};
   }
 };
 
@@ -96,12 +73,38 @@ void add_mark(Figure& figure, FigureMark mark) {
   if (is_finite(mark.at) && !is_there) figure.marks.push_back(std::move(mark));
 }
 
+/// A curve over arc length bends between its rows as it does at them; rows of commands and targets are
+/// what they are. Adds the points in between, and the stability of the steps that they make.
+void bend(const StudyResult& result, const Branch& branch, std::vector<PlotPoint>& points,
+          std::vector<Stability>& steps) {
+  if (!column_of(result, "s")) return;
+  std::vector<LineRow> rows;
+  int piece = 0;
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    if (row > 0 && branch.samples[row].piece != branch.samples[row - 1].piece) ++piece;
+    rows.push_back({points[row], value_at(result, branch, row, "s"), piece});
+  }
+  const std::vector<Polyline> between = points_between(rows);
+  std::vector<PlotPoint> all;
+  std::vector<Stability> all_steps;
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    all.push_back(points[row]);
+    if (row >= steps.size()) continue;
+    all.insert(all.end(), between[row].begin(), between[row].end());
+    all_steps.insert(all_steps.end(), between[row].size() + 1, steps[row]);
+  }
+  points = std::move(all);
+  steps = std::move(all_steps);
+}
+
 void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, const Branch& branch,
                 const FigureText& label, int hue) {
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
-  figure.curves.push_back({label, parts_of(points, stability_of_steps(result, branch)), hue});
+  std::vector<Stability> steps = stability_of_steps(result, branch);
+  if (axes.is_traced && axes.spec.look.smooth) bend(result, branch, points, steps);
+  figure.curves.push_back({label, parts_of(points, steps), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
       add_mark(figure,
@@ -159,7 +162,7 @@ void add_equilibria(Figure& figure, const Axes& axes, const StudyResult& result)
   };
   for (const auto& e : result.equilibria->list)
     add_mark(figure, {value(e.sample, "index") == 0 ? "ES" : "EU", e.label,
-                      axes.place(value(e.sample, axes.spec.x), value(e.sample, axes.spec.y))});
+                      axes.place(value(e.sample, axes.spec.x), value(e.sample, axes.y))});
 }
 
 /// Jumps that land; of a study with levels those that its cycle takes.
@@ -171,7 +174,7 @@ void add_jumps(Figure& figure, const Axes& axes, const StudyResult& result) {
       return column && *column < state.values.size() ? state.values[*column]
                                                      : std::numeric_limits<double>::quiet_NaN();
     };
-    return axes.place(value(axes.spec.x), value(axes.spec.y));
+    return axes.place(value(axes.spec.x), value(axes.y));
   };
   std::vector<bool> shown(result.snap->jumps.size(), !result.snap->cycle);
   if (result.snap->cycle)
@@ -186,11 +189,14 @@ void add_jumps(Figure& figure, const Axes& axes, const StudyResult& result) {
 }
 
 void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const FigureText& label) {
-  const auto& [spec, units] = axes;
+  const PlotSpec& spec = axes.spec;
+  const UnitLabels& units = axes.units;
   if (figure.x_title.text.empty()) {
     const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
     figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
     figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
+    for (const std::string& more : spec.y_label.empty() ? spec.more_y : std::vector<std::string>{})
+      figure.y_title.text += ", " + axis_title({}, more, spec.y_factor, result, units).text;
     if (spec.polar) {  // both axes show the distance
       const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
       if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
@@ -202,16 +208,52 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
   const bool is_diagram = result.branches.size() > 1;
   for (std::size_t b = 0; b < result.branches.size(); ++b)
     add_branch(figure, axes, result, result.branches[b], b == 0 ? label : FigureText{},
-               is_diagram ? static_cast<int>(b) + 1 : 0);
+               axes.hue > 0 ? axes.hue
+               : is_diagram ? static_cast<int>(b) + 1
+                            : 0);
   if (is_diagram && result.design)
     name_design(figure, first_curve);
-  else if (is_diagram)
+  else if (is_diagram && axes.hue == 0)
     number_branches(figure, first_curve);
   add_equilibria(figure, axes, result);
   add_jumps(figure, axes, result);
   if (result.branches.empty()) return;
   const Branch& first = result.branches.front();
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});
+}
+
+/// The curves of a run, one or several quantities over the same x. Of several each has its colour.
+void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
+                    const StudyResult& result, const FigureText& label) {
+  const PlannedRun* planned = plan_of(the_case, result);
+  Axes axes{.spec = spec, .units = the_case.units, .y = spec.y};
+  axes.is_traced = planned != nullptr &&
+                   (planned->plan.kind == analysis::StudyKind::force_deflection ||
+                    analysis::is_of_critical_points(planned->plan.kind)) &&
+                   planned->plan.path == analysis::Path::arc_length;
+  if (spec.more_y.empty()) return add_run(figure, axes, result, label);
+  std::vector<std::string> quantities{spec.y};
+  quantities.insert(quantities.end(), spec.more_y.begin(), spec.more_y.end());
+  for (const std::string& quantity : quantities) {
+    axes.y = quantity;
+    ++axes.hue;
+    const std::string name = name_of(quantity, result);
+    add_run(figure, axes, result, {label.text.empty() ? name : label.text + ": " + name});
+  }
+}
+
+/// Logarithmic axes have no place for values that are not positive.
+void say_hidden(const Figure& figure, std::vector<std::string>& problems) {
+  std::size_t hidden = 0;
+  for (const FigureCurve& curve : figure.curves)
+    for (const CurvePart& part : curve.parts)
+      for (const PlotPoint& at : part.line)
+        if ((figure.look.x_log && at.first <= 0) || (figure.look.y_log && at.second <= 0)) ++hidden;
+  if (hidden > 0)
+    problems.push_back(
+        "figure '" + figure.name +
+        "': values that are not positive have no place on a logarithmic axis and are "
+        "left out");
 }
 
 /// Runs of the study that the figure shows, with their labels. Texts that the program made are no markup.
@@ -234,52 +276,12 @@ std::vector<std::pair<const StudyResult*, FigureText>> shown_runs(
   return shown;
 }
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
-
-  /// Some room on both sides; a single value gets room of its own size.
-  Range padded() const {
-    const double room = 0.05 * (high > low ? high - low : std::max(std::abs(low), 1e-3));
-    return {low - room, high + room};
-  }
-};
-
-/// Makes a unit as long along x as along y; what lies in between stays in the middle.
-void equalise(const Canvas& canvas, Range& x, Range& y) {
-  const double wide = canvas.right - canvas.left, high = canvas.top - canvas.bottom;
-  const double unit = std::max((x.high - x.low) / wide, (y.high - y.low) / high);
-  const auto widen = [](Range& range, double length) {
-    const double middle = 0.5 * (range.low + range.high);
-    range = {middle - 0.5 * length, middle + 0.5 * length};
-  };
-  widen(x, unit * wide);
-  widen(y, unit * high);
-}
-
-/// Sets the corners; false if there is nothing to see. @param polar  the origin is seen, and angles are right
-bool fit_axes(Figure& figure, bool polar) {
-  Range x, y;
-  const auto include = [&](const PlotPoint& at) { x.include(at.first), y.include(at.second); };
-  for (const auto& curve : figure.curves)
-    for (const auto& part : curve.parts) std::for_each(part.line.begin(), part.line.end(), include);
-  for (const auto& mark : figure.marks) include(mark.at);
-  for (const auto& [from, to] : figure.arrows) include(from), include(to);
-  if (!(x.low <= x.high)) return false;
-  if (polar) include({0, 0});
-  Range padded_x = x.padded(), padded_y = y.padded();
-  if (polar) equalise(Canvas{}, padded_x, padded_y);
-  figure.low = {padded_x.low, padded_y.low};
-  figure.high = {padded_x.high, padded_y.high};
-  return true;
-}
-
 /// Are all columns that the figure needs there? Says which is not.
 bool has_columns(const PlotSpec& spec, const StudyResult& result,
                  std::vector<std::string>& problems) {
-  for (const auto& name : {spec.x, spec.y}) {
+  std::vector<std::string> names{spec.x, spec.y};
+  names.insert(names.end(), spec.more_y.begin(), spec.more_y.end());
+  for (const auto& name : names) {
     if (column_of(result, name)) continue;
     problems.push_back("figure '" + spec.name + "': " + heading_of(result) + " has no quantity '" +
                        name + "'");
@@ -297,14 +299,20 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
   for (const PlotSpec& spec : plots_of(the_case, results)) {
     Figure figure{.name = names.make(safe_file_name(spec.name)),
                   .title = {spec.title, spec.markup}};
+    figure.look = spec.look;
+    std::vector<RunCurves> runs;
     bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
     for (const auto& curves : spec.curves) {
       for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
-        if (has_columns(spec, *result, problems))
-          add_run(figure, {spec, the_case.units}, *result, label);
+        if (!has_columns(spec, *result, problems)) continue;
+        const std::size_t first = figure.curves.size();
+        add_quantities(figure, the_case, spec, *result, label);
+        runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first});
       }
     }
+    if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, figure);
+    say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))
       figures.push_back(std::move(figure));
     else if (is_wanted)

@@ -1,6 +1,7 @@
 // What a figure shows, before anything is drawn.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +36,8 @@ struct CurvePart {
 struct FigureCurve {
   FigureText label{};              ///< empty: not labelled
   std::vector<CurvePart> parts{};  ///< in the order of the branch
-  int hue = 0;  ///< n: colour of the n-th branch of a diagram; 0: colours tell stability
+  int hue = 0;           ///< n: colour of the n-th branch of a diagram; 0: colours tell stability
+  std::string colour{};  ///< "#RRGGBB": of the value of its run; empty: as `hue` says
 };
 
 /// A special point, or the start of a curve (code "start", no label).
@@ -45,6 +47,12 @@ struct FigureMark {
   PlotPoint at{};
 };
 
+/// What the colours of the runs of a sweep mean.
+struct ColourBar {
+  std::string title{};
+  double low = 0, high = 1;
+};
+
 struct Figure {
   std::string name{};  ///< file name without ending, unique in its folder
   FigureText title{}, x_title{}, y_title{};
@@ -52,6 +60,8 @@ struct Figure {
   std::vector<FigureCurve> curves{};
   std::vector<FigureMark> marks{};
   std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
+  PlotLook look{};
+  std::optional<ColourBar> bar{};  ///< none: the curves' labels say enough
 };
 
 /// The figures that the case asks for, otherwise one per study that has a curve. Curves whose runs
@@ -59,5 +69,26 @@ struct Figure {
 std::vector<Figure> figures_of(const Case& the_case,
                                const std::vector<analysis::StudyResult>& results,
                                std::vector<std::string>& problems);
+
+/// Quantities of a figure of a study without [[plot]].
+std::vector<PlotSpec> plots_of(const Case& the_case,
+                               const std::vector<analysis::StudyResult>& results);
+
+/// Sets the corners; false if there is nothing to see.
+/// @param polar  the origin is seen, and angles are right
+bool fit_axes(Figure& figure, bool polar);
+
+/// The curves of one run of a figure.
+struct RunCurves {
+  const PlannedRun* planned = nullptr;
+  std::size_t first = 0, count = 0;
+};
+
+/// Colour of a value between the smallest (0) and the largest (1), "#RRGGBB".
+std::string sweep_colour(double part);
+
+/// Gives the runs of one study that varies one number, three runs or more, colours by its value. Where
+/// they are many, numbers of runs stand for their labels, and a colour bar says the values.
+void colour_by_value(const std::vector<RunCurves>& runs, Figure& figure);
 
 }  // namespace springfold::io

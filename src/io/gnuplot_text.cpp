@@ -55,6 +55,24 @@ std::string without_markup(std::string_view text) {
   return seen;
 }
 
+std::string tex_text(std::string_view text) {
+  std::string one_line{text}, escaped;
+  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  for (const char c : shown(one_line)) {
+    if (std::string_view{"{}$&#%_"}.find(c) != std::string_view::npos)
+      escaped += std::string{'\\', c};
+    else if (c == '\\')
+      escaped += "\\textbackslash{}";
+    else if (c == '^')
+      escaped += "\\textasciicircum{}";
+    else if (c == '~')
+      escaped += "\\textasciitilde{}";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
 std::string markup_problem(std::string_view text) {
   for (std::size_t i = text.find('{'); i != std::string_view::npos; i = text.find('{', i + 1)) {
     const std::size_t begin = font_at(text, i);

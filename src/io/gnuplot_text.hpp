@@ -22,6 +22,10 @@ std::string gnuplot_assignment(const std::string& name, const FigureText& text);
 /// What is seen of a text in gnuplot's markup, about: enough to know how much room it needs.
 std::string without_markup(std::string_view text);
 
+/// The text for LaTeX, all of whose signs with a meaning there are escaped; what is not visible is
+/// written out.
+std::string tex_text(std::string_view text);
+
 /// What is wrong with a text in gnuplot's markup; empty if nothing is. Names of fonts, "{/Symbol q}", stand
 /// unquoted in SVG files: what could end them there is refused.
 std::string markup_problem(std::string_view text);

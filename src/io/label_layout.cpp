@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "gnuplot_text.hpp"
+#include "stability_parts.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double spacing = 4;         // between the points that stand for a curve [pixel]
 constexpr double mark_radius = 8;     // half size of a marker [pixel]
+constexpr double inset_room = 1.5;    // round an inset, for its numbers [text heights]
 constexpr double leader_needed = 26;  // longest gap between point and text without a line [pixel]
 
 struct Box {
@@ -51,11 +53,9 @@ struct Scene {
   Box frame{};
 };
 
-PlotPoint in_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint& at) {
-  const double u = (at.first - figure.low.first) / (figure.high.first - figure.low.first);
-  const double v = (at.second - figure.low.second) / (figure.high.second - figure.low.second);
-  return {canvas.left + u * (canvas.right - canvas.left),
-          canvas.bottom + v * (canvas.top - canvas.bottom)};
+bool is_in_frame(const PlotPoint& p, const Canvas& canvas) {
+  return p.first >= canvas.left && p.first <= canvas.right && p.second >= canvas.bottom &&
+         p.second <= canvas.top;
 }
 
 std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
@@ -66,10 +66,17 @@ std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
     double left_over = spacing;
     for (const auto& at : part.line) {
       const PlotPoint here = in_pixels(figure, canvas, at);
+      if (!is_finite(here)) {  // no place on a logarithmic axis
+        last.reset();
+        continue;
+      }
       const double length = last ? distance(*last, here) : 0;
-      for (double along = spacing - left_over; last && along <= length; along += spacing)
-        dense.emplace_back(last->first + (here.first - last->first) * along / length,
-                           last->second + (here.second - last->second) * along / length);
+      const bool is_near = length < 2 * (canvas.width + canvas.height);
+      for (double along = spacing - left_over; last && is_near && along <= length; along += spacing)
+        if (const PlotPoint p{last->first + (here.first - last->first) * along / length,
+                              last->second + (here.second - last->second) * along / length};
+            is_in_frame(p, canvas))
+          dense.push_back(p);
       left_over = std::fmod(left_over + length, spacing);
       last = here;
     }
@@ -83,6 +90,12 @@ Scene scene_of(const Figure& figure, const Canvas& canvas) {
     scene.curves.push_back(dense_points(figure, canvas, curve));
   for (const auto& mark : figure.marks)
     scene.marks.push_back({in_pixels(figure, canvas, mark.at), mark_radius, mark_radius});
+  for (const PlotInset& inset : figure.look.insets) {
+    const auto [low, high] = frame_of(inset, canvas);
+    scene.labels.push_back({{(low.first + high.first) / 2, (low.second + high.second) / 2},
+                            (high.first - low.first) / 2 + inset_room * canvas.text_height,
+                            (high.second - low.second) / 2 + inset_room * canvas.text_height});
+  }
   scene.zero = in_pixels(figure, canvas, {0, 0});
   scene.frame = {{(canvas.left + canvas.right) / 2, (canvas.bottom + canvas.top) / 2},
                  (canvas.right - canvas.left) / 2,
@@ -246,6 +259,7 @@ std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas
     labels.back().is_curve_label = is_curve_label;
   };
   for (std::size_t i = 0; i < figure.marks.size(); ++i) {
+    if (!is_in_frame(scene.marks[i].centre, canvas)) continue;
     if (is_labelled_already(figure, scene, i)) continue;
     const FigureText text{shared_label(figure, scene, i)};
     if (text.text.empty()) continue;

@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "canvas.hpp"
 #include "figure.hpp"
 
 namespace springfold::io {
-
-/// Size of a figure and its parts in pixels, origin at the lower left. The templates get the same
-/// numbers, so that what is computed here holds in the picture.
-struct Canvas {
-  double width = 1200, height = 900;
-  double left = 135, right = 1165, bottom = 95, top = 775;  ///< frame of the axes
-  double text_height = 19;                                  ///< of labels
-};
 
 /// A text centred at `at`, in pixels.
 struct PlacedLabel {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <tuple>
 
 #include "result_access.hpp"
 #include "springfold/statics/system.hpp"
@@ -119,7 +121,10 @@ std::vector<MapPlotSpec> specs_of(const Case& the_case) {
     if (planned.plan.kind != StudyKind::map || map.axes.size() < 2) continue;
     const std::string number = planned.label.empty() ? "" : "-" + std::to_string(planned.run);
     MapPlotSpec spec{.name = safe_file_name(planned.study + number), .title = planned.study};
-    spec.quantity = map.directions.empty() ? "K_trans_min" : "stiffness";
+    // What the map was asked for, before what every map has.
+    spec.quantity = map.critical             ? "critical_load"
+                    : map.directions.empty() ? "K_trans_min"
+                                             : "stiffness";
     spec.panels = {{planned.study, planned.run, planned.label, 1}};
     specs.push_back(spec);
   }
@@ -141,20 +146,44 @@ void scale(std::vector<Segment>& segments, double x, double y) {
     for (auto* point : {&a, &b}) *point = {x * point->first, y * point->second};
 }
 
+/// Ends of the colours for these values. Few values far away from all others (the outer 2 % on a side,
+/// farther than twice the range of the rest) would leave one colour to the rest: they are beyond the end.
+std::pair<double, double> range_without_outliers(std::vector<double> values) {
+  constexpr double outer = 0.02, far = 2;
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  const double low = values[static_cast<std::size_t>(std::ceil(outer * last))];
+  const double high = values[static_cast<std::size_t>(std::floor((1 - outer) * last))];
+  const double room = far * (high - low);
+  if (!(room > 0)) return {values.front(), values.back()};
+  return {values.front() < low - room ? low : values.front(),
+          values.back() > high + room ? high : values.back()};
+}
+
+/// What the key says about nodes that have no place among the colours.
+void count_special(MapFigure& figure) {
+  for (const MapPanel& panel : figure.panels)
+    for (const double v : panel.field.values) {
+      if (std::isnan(v)) figure.has_gaps = true;
+      if (std::isinf(v)) figure.has_infinite = true;
+      if (std::isfinite(v) && (v < figure.low || v > figure.high)) ++figure.clipped;
+    }
+}
+
 /// Fits the colours to all panels, unless the case says their range.
 void set_colours(const MapPlotSpec& spec, MapFigure& figure) {
-  figure.low = std::numeric_limits<double>::infinity();
-  figure.high = -figure.low;
+  std::vector<double> values;
   for (const MapPanel& panel : figure.panels)
-    for (const double v : panel.field.values)
-      if (std::isfinite(v))
-        figure.low = std::min(figure.low, v), figure.high = std::max(figure.high, v);
+    std::copy_if(panel.field.values.begin(), panel.field.values.end(), std::back_inserter(values),
+                 [](double v) { return std::isfinite(v); });
+  std::tie(figure.low, figure.high) = range_without_outliers(std::move(values));
   if (spec.range) std::tie(figure.low, figure.high) = *spec.range;
   if (!(figure.low < figure.high)) {
     const double room = std::max(1e-12, 0.05 * std::abs(figure.low));
     figure.low -= room;
     figure.high += room;
   }
+  count_special(figure);
   figure.levels = spec.levels.empty() ? round_levels(figure.low, figure.high, 10) : spec.levels;
 }
 
@@ -163,7 +192,10 @@ void add_lines(const MapPlotSpec& spec, const Plane& plane, const std::vector<do
   // Stiffness jumps where springs switch: no contour line leads through such a cell.
   const bool jumps = !plane.distances().empty();
   const std::vector<std::string> pieces = jumps ? plane.pieces() : std::vector<std::string>{};
-  for (const double level : levels) append(panel.contours, contour(panel.field, level, pieces));
+  std::vector<std::vector<Segment>> of_levels;
+  for (const double level : levels) of_levels.push_back(contour(panel.field, level, pieces));
+  for (const auto& line : of_levels) append(panel.contours, line);
+  panel.numbers = numbers_of(of_levels, levels, panel.field);
   panel.edge = contour(plane.held(), 0.5);
   panel.unstable = contour(plane.stable(), 0.5);
   if (spec.activation)
@@ -181,6 +213,7 @@ std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<St
   for (const MapPlotSpec& spec : specs_of(the_case)) {
     const auto given = [&spec](const std::string& text) { return FigureText{text, spec.markup}; };
     MapFigure figure{.name = spec.name, .title = given(spec.title)};
+    figure.formats = spec.formats;
     std::vector<Plane> planes;
     for (const MapPanelSpec& wanted : spec.panels) {
       const StudyResult* result = result_of(results, wanted.study, wanted.run);

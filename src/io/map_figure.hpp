@@ -28,10 +28,22 @@ using Segment = std::pair<std::pair<double, double>, std::pair<double, double>>;
 std::vector<Segment> contour(const GridField& field, double level,
                              const std::vector<std::string>& pieces = {});
 
+/// The number of a contour line, in the middle of a piece of it.
+struct LineNumber {
+  std::pair<double, double> at{};  ///< in the units of the axes
+  double level = 0;
+};
+
+/// At most one number for every level, as far from each other and from the frame as their lines allow;
+/// lines too short or too near have none.
+std::vector<LineNumber> numbers_of(const std::vector<std::vector<Segment>>& lines,
+                                   const std::vector<double>& levels, const GridField& field);
+
 struct MapPanel {
   FigureText title{};
   GridField field{};  ///< the quantity, in the units of the figure
   std::vector<Segment> contours{};
+  std::vector<LineNumber> numbers{};  ///< of contour lines
   std::vector<Segment> edge{};        ///< of the workspace
   std::vector<Segment> activation{};  ///< where a spring switches
   std::vector<Segment> unstable{};    ///< where stability is lost
@@ -43,6 +55,10 @@ struct MapFigure {
   double low = 0, high = 1;  ///< of the colours
   std::vector<double> levels{};
   std::vector<MapPanel> panels{};
+  std::vector<std::string> formats{"png", "svg"};
+  bool has_gaps = false;      ///< nodes without value
+  bool has_infinite = false;  ///< values beyond all bounds
+  int clipped = 0;            ///< finite values beyond the colours
 };
 
 /// The figures that the case asks for; without any, and without any [[plot]], one per map of two

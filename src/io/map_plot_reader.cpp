@@ -11,7 +11,7 @@ class MapPlotReader {
       : table_{*item.node,
                item.key,
                {"name", "title", "quantity", "label", "x_label", "y_label", "factor", "x_factor",
-                "y_factor", "levels", "range", "activation", "markup", "panels"},
+                "y_factor", "levels", "range", "activation", "markup", "panels", "formats"},
                reading},
         item_{item},
         studies_{studies},
@@ -37,6 +37,7 @@ class MapPlotReader {
     read_range();
     spec.activation = table_.truth("activation", spec.activation);
     spec.markup = read_markup(table_, item_, reading_);
+    spec.formats = read_formats(table_, {"png", "svg", "pdf"}, spec.formats, reading_);
     read_panels();
     return std::move(draft_);
   }

@@ -8,6 +8,8 @@
 namespace springfold::io {
 namespace {
 
+constexpr int number_digits = 4;  // beside contour lines
+
 std::string number(double value) { return std::isnan(value) ? "NaN" : rounded(value, 8); }
 
 void add_block(std::string& script, const std::string& name, const std::vector<Segment>& segments) {
@@ -50,6 +52,13 @@ std::string map_script(const MapFigure& figure, const std::string& style,
             gnuplot_assignment("x_title", figure.x_title) +
             gnuplot_assignment("y_title", figure.y_title) +
             gnuplot_assignment("value_title", figure.value_title);
+  const PlotLook usual;
+  assign("figure_format", "'map'");
+  assign("figure_font", gnuplot_string(usual.font));
+  assign("figure_font_size", shortest(usual.font_size));
+  std::string formats;
+  for (const std::string& format : figure.formats) formats += (formats.empty() ? "" : " ") + format;
+  assign("formats", gnuplot_string(formats));
   assign("value_low", shortest(figure.low));
   assign("value_high", shortest(figure.high));
   std::string levels;
@@ -72,6 +81,12 @@ std::string map_script(const MapFigure& figure, const std::string& style,
     script += "panel_title[" + k + "] = " + gnuplot_string(panel.title.text) + "\n";
     add_field(script, "field_" + k, panel.field, figure.low, figure.high);
     add_block(script, "contours_" + k, panel.contours);
+    script += "$numbers_" + k + " << e\n";
+    for (const LineNumber& line : panel.numbers)
+      script += number(line.at.first) + " " + number(line.at.second) + " " +
+                rounded(line.level, number_digits) + "\n";
+    if (panel.numbers.empty()) script += "NaN NaN -\n";
+    script += "e\n";
     add_block(script, "edge_" + k, panel.edge);
     add_block(script, "activation_" + k, panel.activation);
     add_block(script, "unstable_" + k, panel.unstable);
@@ -79,6 +94,9 @@ std::string map_script(const MapFigure& figure, const std::string& style,
     activation = activation || !panel.activation.empty();
     unstable = unstable || !panel.unstable.empty();
   }
+  assign("has_gaps", figure.has_gaps ? "1" : "0");
+  assign("has_infinite", figure.has_infinite ? "1" : "0");
+  assign("clipped", std::to_string(figure.clipped));
   assign("has_edge", edge ? "1" : "0");
   assign("has_activation", activation ? "1" : "0");
   assign("has_unstable", unstable ? "1" : "0");

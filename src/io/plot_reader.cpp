@@ -76,6 +76,24 @@ NamedPlace read_quantity(const TableReader& table, const std::string& name,
           table.key_of(name)};
 }
 
+/// One quantity, or a list of them.
+std::vector<NamedPlace> read_ordinates(const TableReader& table, const std::string& otherwise,
+                                       Reading& reading) {
+  const Node* node = table.find("y");
+  if (!node || node->kind != Node::Kind::array) return {read_quantity(table, "y", otherwise)};
+  std::vector<NamedPlace> ordinates;
+  for (const Item& item : table.list("y", "a quantity, or a list of them"))
+    if (item.node->kind == Node::Kind::text)
+      ordinates.push_back({item.node->text, item.node->place, item.key});
+    else
+      reading.problems.add(item.node->place, item.key,
+                           "got " + described(*item.node) + ", need a quantity such as \"force\"");
+  if (node->items.empty())
+    reading.problems.add(node->place, table.key_of("y"),
+                         "got an empty list, need at least one quantity");
+  return ordinates;
+}
+
 }  // namespace
 
 std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
@@ -131,9 +149,9 @@ bool read_markup(const TableReader& table, const Item& plot, Reading& reading) {
 
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
-  static const std::vector<std::string> keys{"name",    "title",   "x",        "y",
-                                             "x_label", "y_label", "x_factor", "y_factor",
-                                             "markup",  "curves",  "polar"};
+  std::vector<std::string> keys{"name",     "title",    "x",      "y",      "x_label", "y_label",
+                                "x_factor", "y_factor", "markup", "curves", "polar"};
+  keys.insert(keys.end(), look_keys().begin(), look_keys().end());
   std::vector<PlotDraft> plots;
   std::set<std::string> taken;
   for (const Item& item : tables) {
@@ -145,14 +163,16 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     taken.insert(spec.name);
     spec.title = table.text("title").value_or("");
     draft.x = read_quantity(table, "x", spec.x);
-    draft.y = read_quantity(table, "y", spec.y);
+    draft.y = read_ordinates(table, spec.y, reading);
     spec.x = draft.x.name;
-    spec.y = draft.y.name;
+    if (!draft.y.empty()) spec.y = draft.y.front().name;
+    for (std::size_t i = 1; i < draft.y.size(); ++i) spec.more_y.push_back(draft.y[i].name);
     spec.x_label = table.text("x_label").value_or("");
     spec.y_label = table.text("y_label").value_or("");
     spec.polar = table.flag("polar", false);
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
+    draft.look = read_look(table, spec.look, draft.numbers, reading);
     spec.markup = read_markup(table, item, reading);
     const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");
     for (const Item& curve : table.tables("curves", curves_example(curves, studies)))

@@ -80,6 +80,21 @@ const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& res
   return found == the_case.runs.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> varied_parameters(const Case& the_case) {
+  std::vector<std::string> names;
+  for (const PlannedRun& planned : the_case.runs)
+    for (const std::string& name : planned.varied)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+double varied_value(const PlannedRun* planned, const std::string& name) {
+  const bool is_varied =
+      planned != nullptr &&
+      std::find(planned->varied.begin(), planned->varied.end(), name) != planned->varied.end();
+  return is_varied ? planned->parameters.at(name) : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::map<std::string, int> event_counts(const analysis::StudyResult& result) {
   std::map<std::string, int> counts;
   std::set<std::string> seen;  // a point where branches meet stands on all of them

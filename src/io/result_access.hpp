@@ -34,6 +34,15 @@ const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>&
 /// What was planned for this result; nullptr if the case does not have it.
 const PlannedRun* plan_of(const Case& the_case, const analysis::StudyResult& result);
 
+/// "parameter.Kv": what tables and figures call a parameter that a study varies.
+inline constexpr const char* parameter_prefix = "parameter.";
+
+/// Parameters that any study varies, in the order of the studies.
+std::vector<std::string> varied_parameters(const Case& the_case);
+
+/// Value of a parameter that this run's study varies; NaN if it does not. @param planned  may be null
+double varied_value(const PlannedRun* planned, const std::string& name);
+
 /// Special points per code over all branches, each once, only codes that occur.
 std::map<std::string, int> event_counts(const analysis::StudyResult& result);
 

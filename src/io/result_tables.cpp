@@ -111,17 +111,22 @@ std::vector<std::string> equilibria_files(const std::vector<StudyResult>& result
   return files;
 }
 
-std::string events_csv(const std::vector<StudyResult>& results) {
+std::string events_csv(const Case& the_case, const std::vector<StudyResult>& results) {
   const auto names = all_quantities(results);
+  const auto parameters = varied_parameters(the_case);
   std::string csv = "study,run,label,branch,event,code,detail,row";
+  for (const auto& name : parameters) csv += "," + csv_text(parameter_prefix + name);
   for (const auto& name : names) csv += "," + csv_text(name);
   csv += "\n";
   for (const auto& result : results) {
+    std::string values;
+    for (const auto& name : parameters)
+      values += "," + csv_number(varied_value(plan_of(the_case, result), name));
     for (std::size_t b = 0; b < result.branches.size(); ++b) {
       const Branch& branch = result.branches[b];
       for (const auto& event : branch.events) {
         csv += row_start(result, b) + csv_text(event.label) + "," + analysis::code_of(event.kind) +
-               "," + csv_text(event.detail) + "," + std::to_string(event.row);
+               "," + csv_text(event.detail) + "," + std::to_string(event.row) + values;
         for (const auto& name : names)
           csv += "," + csv_number(value_at(result, branch, event.row, name));
         csv += "\n";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
 
 namespace springfold::io {
 
@@ -17,8 +18,9 @@ std::string equilibria_csv(const analysis::StudyResult& result);
 /// Per result the file of its equilibria; empty if it has none.
 std::vector<std::string> equilibria_files(const std::vector<analysis::StudyResult>& results);
 
-/// One row per special point of all runs, with every quantity that any run has.
-std::string events_csv(const std::vector<analysis::StudyResult>& results);
+/// One row per special point of all runs, with every quantity that any run has, and the values of
+/// all parameters that any study varies ("parameter.Kv").
+std::string events_csv(const Case& the_case, const std::vector<analysis::StudyResult>& results);
 
 /// One row per refused or cut step of all runs.
 std::string steps_csv(const std::vector<analysis::StudyResult>& results);

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "command_summary.hpp"
+#include "fitted_table.hpp"
 #include "jump_access.hpp"
+#include "outline.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
@@ -133,7 +135,7 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
   align.front() = Align::left;
   align.push_back(Align::left);
   rows.front().front().resize(blank_label.size() - 2, ' ');
-  return aligned(rows, align, indent);
+  return fitted(rows, align, indent);
 }
 
 std::string stop_line(std::string_view label, const analysis::Stop& stop) {
@@ -220,11 +222,13 @@ std::string arcs_text(const analysis::VerifiedArcs& arcs) {
                     counted(static_cast<int>(arcs.sampled.size()), "part"));
 }
 
-std::string branch_lines(const StudyResult& result, std::size_t b) {
-  const Branch& branch = result.branches[b];
+/// One branch, and the numbers of others of which the same is said.
+std::string branch_lines(const StudyResult& result, const std::vector<std::size_t>& numbers) {
+  const Branch& branch = result.branches[numbers.front() - 1];
   std::string text;
   if (result.branches.size() > 1)
-    text += line("branch " + std::to_string(b + 1), origin_text(result, branch));
+    text += line((numbers.size() > 1 ? "branches " : "branch ") + numbers_text(numbers),
+                 (numbers.size() > 1 ? "alike; " : "") + origin_text(result, branch));
   const std::size_t refused = branch.log.size();
   if (branch.samples.size() < 2 && branch.events.empty() && branch.backward.complete &&
       branch.forward.complete)
@@ -258,7 +262,7 @@ std::string equilibria_table(const Case& the_case, const StudyResult& result) {
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;
   align.push_back(Align::left);
-  return aligned(rows, align, indent);
+  return fitted(rows, align, indent);
 }
 
 std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
@@ -284,12 +288,21 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
                                               ": there are others");
 }
 
+/// What happened, in words.
+std::string outline_lines(const Case& the_case, const StudyResult& result) {
+  std::string text;
+  for (const std::string& sentence : outline_of(the_case, result))
+    for (const std::string& part : wrapped(sentence, table_width - 2 * indent))
+      text += std::string(indent, ' ') + shown(part) + "\n";
+  return text;
+}
+
 std::string run_block(const Case& the_case, const StudyResult& result) {
+  std::string text = heading_of(result) + "\n" + outline_lines(the_case, result);
   if (const PlannedRun* planned = plan_of(the_case, result);
       planned != nullptr && has_summary_of_its_own(planned->plan.kind))
-    return heading_of(result) + "\n" + command_lines(the_case, *planned, result);
-  std::string text =
-      heading_of(result) + "\n" + start_lines(result.start, plan_of(the_case, result));
+    return text + command_lines(the_case, *planned, result);
+  text += start_lines(result.start, plan_of(the_case, result));
   if (!result.start.outside.empty())
     text += line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
@@ -303,7 +316,7 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += way_lines(the_case, result);
   text += caution_lines(result);
   text += stiffness_lines(result);
-  for (std::size_t b = 0; b < result.branches.size(); ++b) text += branch_lines(result, b);
+  for (const auto& numbers : alike_branches(result)) text += branch_lines(result, numbers);
   return text + jump_lines(result, the_case.units) +
          diagram_lines(result, plan_of(the_case, result));
 }
@@ -331,6 +344,25 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
 }
 
 }  // namespace
+
+std::string steps_table(const std::vector<StudyResult>& results) {
+  std::vector<std::vector<std::string>> rows{{"step", "s", "length", "reason"}};
+  for (const auto& result : results)
+    for (std::size_t b = 0; b < result.branches.size(); ++b)
+      for (const auto& note : result.branches[b].log)
+        rows.push_back({heading_of(result) + ", branch " + std::to_string(b + 1),
+                        rounded(note.s, digits), rounded(note.step, digits), note.reason});
+  if (rows.size() == 1) return "\nno step was refused or cut\n";
+  return "\nRefused and cut steps\n" +
+         fitted(rows, {Align::left, Align::right, Align::right, Align::left}, indent);
+}
+
+std::string outline_text(const Case& the_case, const std::vector<StudyResult>& results) {
+  std::string text;
+  for (const auto& result : results)
+    if (!result.row) text += heading_of(result) + "\n" + outline_lines(the_case, result);
+  return text;
+}
 
 std::string summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
   std::string text;

@@ -76,6 +76,7 @@ std::vector<TornadoFigure> tornado_figures_of(const Case& the_case,
     }
     TornadoFigure figure{.name = safe_file_name(spec.name), .title = {spec.title, spec.markup}};
     const std::string made = "d ln(" + spec.quantity + ") / d ln(parameter) at " + spec.at;
+    figure.formats = spec.formats;
     figure.x_title = spec.label.empty() ? FigureText{made} : FigureText{spec.label, spec.markup};
     add_bars(*result, *planned, spec, *at, figure);
     const bool is_finite = !figure.bars.empty() &&

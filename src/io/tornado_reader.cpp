@@ -1,4 +1,5 @@
 // [[tornado]] tables.
+#include "plot_look_reader.hpp"
 #include "plot_reader.hpp"
 
 namespace springfold::io {
@@ -8,10 +9,11 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
                                         std::set<std::string> taken, Reading& reading) {
   std::vector<TornadoDraft> drafts;
   for (const Item& item : tables) {
-    const TableReader table{*item.node,
-                            item.key,
-                            {"name", "title", "study", "run", "at", "quantity", "label", "markup"},
-                            reading};
+    const TableReader table{
+        *item.node,
+        item.key,
+        {"name", "title", "study", "run", "at", "quantity", "label", "markup", "formats"},
+        reading};
     TornadoDraft draft;
     TornadoSpec& spec = draft.spec;
     spec.name = table.required_text("name", "a file name without ending").value_or("");
@@ -25,6 +27,7 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
                       table.key_of("quantity")};
     spec.label = table.text("label").value_or("");
     spec.markup = read_markup(table, item, reading);
+    spec.formats = read_formats(table, {"png", "svg", "pdf"}, spec.formats, reading);
     spec.study = table.required_text("study", "the name of a study").value_or("");
     if (!spec.study.empty()) {
       const Item at{table.find("study"), table.key_of("study")};

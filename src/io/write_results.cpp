@@ -58,7 +58,7 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   const auto sweeps = sweep_files(the_case);
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     files.push_back({sweeps[i], sweep_csv(the_case, the_case.sweeps[i], results)});
-  files.push_back({"events.csv", events_csv(results)});
+  files.push_back({"events.csv", events_csv(the_case, results)});
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
     files.push_back({"jumps.csv", jumps_csv(results)});
   for (const auto& [path, bytes] : {std::pair{"motions.csv", motions_csv(results)},

@@ -130,7 +130,7 @@ TEST(SummaryOfADiagram, InJsonHasBranchesJunctionsAndSearches) {
 
 TEST(EventCounts, CountAPointWhereBranchesMeetOnce) {
   EXPECT_EQ(event_counts(forked())["BP"], 1);
-  const std::string csv = events_csv({forked()});
+  const std::string csv = events_csv({}, {forked()});
   std::size_t rows = 0;
   for (std::size_t at = 0; (at = csv.find(",BP1,", at)) != std::string::npos; ++at) ++rows;
   EXPECT_EQ(rows, 3u);

@@ -11,6 +11,7 @@
 
 #include "springfold/analysis/history.hpp"
 #include "springfold/analysis/study.hpp"
+#include "springfold/io/plot_look.hpp"
 
 namespace springfold::io {
 
@@ -97,6 +98,8 @@ struct PlannedRun {
   /// What is looked up for its row of the sweep's table; `expected` and `tolerance` mean nothing.
   std::vector<ExpectedValue> columns{};
   bool keeps_curves = true;  ///< false: only that row is kept
+  std::vector<std::string>
+      varied{};  ///< names of the parameters that its study varies from run to run
 };
 
 /// A study with one row of a table for every run.
@@ -124,6 +127,8 @@ struct PlotSpec {
   bool polar =
       false;  ///< the plotted x is an angle [rad], the plotted y the distance from the origin
   std::vector<PlotCurves> curves{};
+  std::vector<std::string> more_y{};  ///< further quantities over the same x
+  PlotLook look{};
 };
 
 /// One map of a figure.
@@ -148,6 +153,7 @@ struct MapPlotSpec {
   bool activation = true;                            ///< lines at which springs switch
   bool markup = false;                               ///< as PlotSpec::markup
   std::vector<MapPanelSpec> panels{};
+  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
 };
 
 /// A figure of relative sensitivities of one special point, largest first.
@@ -160,6 +166,7 @@ struct TornadoSpec {
   std::string quantity = "lambda";  ///< whose sensitivities
   std::string label{};              ///< below the bars; empty: made from the quantity
   bool markup = false;              ///< as PlotSpec::markup
+  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
 };
 
 struct Expectations {
@@ -183,6 +190,7 @@ struct Case {
   std::vector<PlotSpec> plots{};
   std::vector<MapPlotSpec> map_plots{};
   std::vector<TornadoSpec> tornados{};
+  bool wants_report = false;  ///< [report]: every run writes the HTML page
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides
   std::map<std::string, std::string> overrides{};

@@ -24,6 +24,12 @@ std::vector<Comparison> compare(const Expectations& expected,
 std::string comparison_table(const std::vector<Comparison>& comparisons,
                              const Expectations& expected);
 
+/// What happened in every run, in words only: the lines with which the blocks of summary_table begin.
+std::string outline_text(const Case& the_case, const std::vector<analysis::StudyResult>& results);
+
+/// The refused and cut steps of all runs, with their reasons.
+std::string steps_table(const std::vector<analysis::StudyResult>& results);
+
 /// A readable table of all runs: start point, stiffness, special points, stop reasons.
 std::string summary_table(const Case& the_case, const std::vector<analysis::StudyResult>& results);
 

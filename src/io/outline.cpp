@@ -1,0 +1,213 @@
+#include "outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "result_access.hpp"
+#include "stability_parts.hpp"
+#include "summary_line.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::Branch;
+using analysis::ControlMode;
+using analysis::Event;
+using analysis::EventKind;
+using analysis::StudyKind;
+using analysis::StudyResult;
+
+constexpr int digits = 4;
+
+/// Rows from `from` to `to`, both included, of one stability.
+struct Stretch {
+  Stability stability = Stability::stable;
+  std::size_t from = 0, to = 0;
+};
+
+/// @param forward  from the start to the last row, otherwise from it back to the first one
+std::vector<Stretch> stretches_of(const StudyResult& result, const Branch& branch, bool forward) {
+  const std::vector<Stability> steps = stability_of_steps(result, branch);
+  std::vector<Stretch> stretches;
+  const auto add = [&](Stability stability, std::size_t from, std::size_t to) {
+    if (!stretches.empty() && stretches.back().stability == stability)
+      stretches.back().to = to;
+    else
+      stretches.push_back({stability, from, to});
+  };
+  if (forward)
+    for (std::size_t i = branch.start_row; i < steps.size(); ++i) add(steps[i], i, i + 1);
+  else
+    for (std::size_t i = branch.start_row; i-- > 0;) add(steps[i], i + 1, i);
+  return stretches;
+}
+
+/// The special point at a row, or at the other row of a switching there.
+const Event* event_at(const Branch& branch, std::size_t row) {
+  for (const Event& event : branch.events) {
+    const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
+    if (event.kind != EventKind::end_of_range && event.row <= row && row <= last) return &event;
+  }
+  return nullptr;
+}
+
+/// "0.02701 N" along the study's direction; lambda where there is no force.
+std::string value_text(const Case& the_case, const StudyResult& result, const Branch& branch,
+                       std::size_t row) {
+  for (const char* name : {"force", "lambda"}) {
+    const auto column = column_of(result, name);
+    if (!column || std::isnan(branch.samples[row].values[*column])) continue;
+    const std::string unit =
+        unit_label(result.quantities[*column].unit, result.lambda_unit, the_case.units);
+    const std::string number =
+        rounded(shown_value(result, branch.samples[row].values, *column), digits);
+    return (name == std::string{"lambda"} ? "lambda = " : "") + number +
+           (unit.empty() ? "" : " " + unit);
+  }
+  return {};
+}
+
+std::string point_text(const Case& the_case, const StudyResult& result, const Branch& branch,
+                       std::size_t row) {
+  const Event* event = event_at(branch, row);
+  const std::string value = value_text(the_case, result, branch, row);
+  if (event == nullptr || event->label.empty()) return value;
+  return event->label + (value.empty() ? "" : " at " + value);
+}
+
+/// Which column of counts says whether the mechanism stands.
+std::string state_text(Stability stability, bool is_load) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::driven:
+      return is_load ? "unstable, but it would stand if the way were driven"
+                     : "held only as it is driven, unstable under dead load";
+    case Stability::unstable:
+      return "unstable";
+  }
+  return {};
+}
+
+/// At a limit point at which stability is lost the control cannot go on: the mechanism jumps.
+bool snaps_at(const Branch& branch, std::size_t row, bool is_load, const Stretch& behind) {
+  const Event* event = event_at(branch, row);
+  const bool turns = event != nullptr && (event->kind == EventKind::limit_point ||
+                                          event->kind == EventKind::corner_limit_point);
+  return turns && (is_load ? behind.stability != Stability::stable
+                           : behind.stability == Stability::unstable);
+}
+
+/// "stable up to LP1 at 0.027 N, snaps there; unstable up to LP2 at 0.01 N; stable again to the end".
+std::string way_text(const Case& the_case, const StudyResult& result, const Branch& branch,
+                     bool forward, bool is_load) {
+  const auto stretches = stretches_of(result, branch, forward);
+  constexpr std::size_t most = 4;  // more are no picture
+  std::string text;
+  bool was_stable = false;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Stretch& stretch = stretches[i];
+    if (i == most)
+      return text + "; and so on, " + counted(static_cast<int>(stretches.size()), "change");
+    const bool is_stable = stretch.stability == Stability::stable;
+    text += (i == 0 ? "" : "; ") + state_text(stretch.stability, is_load) +
+            (is_stable && was_stable ? " again" : "");
+    was_stable = was_stable || is_stable;
+    const bool is_last = i + 1 == stretches.size();
+    text += is_last ? " to the end" : " up to " + point_text(the_case, result, branch, stretch.to);
+    if (!is_last && is_stable && snaps_at(branch, stretch.to, is_load, stretches[i + 1]))
+      text += ", where it snaps";
+  }
+  return text;
+}
+
+std::vector<std::string> curve_outline(const Case& the_case, const StudyResult& result,
+                                       const PlannedRun& planned) {
+  const Branch& first = result.branches.front();
+  if (first.samples.size() < 2 || !column_of(result, "index")) return {};
+  if (!result.non_conservative.empty()) return {};  // indices are not defined
+  const bool is_load = planned.plan.control == ControlMode::load;
+  std::vector<std::string> lines;
+  const std::string onward = way_text(the_case, result, first, true, is_load);
+  const std::string back = way_text(the_case, result, first, false, is_load);
+  if (!onward.empty()) lines.push_back("forward: " + onward);
+  if (!back.empty()) lines.push_back("backward: " + back);
+  if (result.branches.size() > 1) {
+    std::string alike;
+    int pairs = 0;
+    for (const auto& group : alike_branches(result)) {
+      if (group.size() == 2) ++pairs;
+      if (group.size() > 1) alike += (alike.empty() ? "" : "; ") + numbers_text(group);
+    }
+    lines.push_back(std::to_string(result.branches.size()) + " branches" +
+                    (pairs > 0 ? ", with " + counted(pairs, "pair") + " that look alike: " + alike
+                     : alike.empty() ? ""
+                                     : "; these look alike: " + alike));
+  }
+  return lines;
+}
+
+std::string equilibria_outline(const StudyResult& result) {
+  int stable = 0;
+  const auto column = column_of(result, "index");
+  for (const auto& e : result.equilibria->list)
+    if (column && e.sample.values[*column] == 0) ++stable;
+  const auto count = static_cast<int>(result.equilibria->list.size());
+  return "at least " + std::to_string(count) + (count == 1 ? " equilibrium" : " equilibria") +
+         ", " + std::to_string(stable) + " of them stable";
+}
+
+/// Special points of a branch with their values, and its ends, for comparison.
+bool agree(const StudyResult& result, const Branch& a, const Branch& b) {
+  if (a.events.size() != b.events.size()) return false;
+  // Both were computed, each with errors of its own: far above those, far below what is printed.
+  constexpr double near = 1e-6;
+  const auto same = [&](std::size_t i, std::size_t k) {
+    for (const char* name : {"lambda", "deflection", "force", "index"}) {
+      const double u = value_at(result, a, i, name), v = value_at(result, b, k, name);
+      if (std::isnan(u) != std::isnan(v)) return false;
+      if (std::abs(u - v) > near * std::max({1.0, std::abs(u), std::abs(v)})) return false;
+    }
+    return true;
+  };
+  for (std::size_t e = 0; e < a.events.size(); ++e)
+    if (a.events[e].kind != b.events[e].kind || !same(a.events[e].row, b.events[e].row))
+      return false;
+  return !a.samples.empty() && !b.samples.empty() && same(0, 0) &&
+         same(a.samples.size() - 1, b.samples.size() - 1);
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> alike_branches(const StudyResult& result) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t b = 0; b < result.branches.size(); ++b) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& known) {
+      return agree(result, result.branches[known.front() - 1], result.branches[b]);
+    });
+    if (group == groups.end())
+      groups.push_back({b + 1});
+    else
+      group->push_back(b + 1);
+  }
+  return groups;
+}
+
+std::string numbers_text(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ") + std::to_string(numbers[i]);
+  return text;
+}
+
+std::vector<std::string> outline_of(const Case& the_case, const StudyResult& result) {
+  const PlannedRun* planned = plan_of(the_case, result);
+  if (planned == nullptr || !result.start.found) return {};
+  if (result.threshold) return {result.threshold->message};
+  if (result.equilibria) return {equilibria_outline(result)};
+  if (planned->plan.kind != StudyKind::force_deflection || result.branches.empty()) return {};
+  return curve_outline(the_case, result, *planned);
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,25 @@
+// What happened in a run, in words: at most three lines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+#include "springfold/io/case_file.hpp"
+
+namespace springfold::io {
+
+/// Sentences about a run, each made of facts of the result alone: along which part of the first branch
+/// it is stable, held only as it is driven, or unstable, and at which special points that changes, with
+/// the force there (lambda, where there is none); how many other branches there are, and which look
+/// alike; of other kinds what was found. Empty where nothing was found.
+std::vector<std::string> outline_of(const Case& the_case, const analysis::StudyResult& result);
+
+/// Branches whose special points agree in lambda, deflection and force, such as mirror images: lists of
+/// numbers from 1, in order; each branch is in one list.
+std::vector<std::vector<std::size_t>> alike_branches(const analysis::StudyResult& result);
+
+/// "1", "2 and 3", "4, 5 and 6".
+std::string numbers_text(const std::vector<std::size_t>& numbers);
+
+}  // namespace springfold::io

@@ -1,0 +1,128 @@
+#include "smooth_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "stability_parts.hpp"
+
+namespace springfold::io {
+namespace {
+
+/// A turn of this angle between two points is not seen as a corner.
+constexpr double smallest_turn = std::numbers::pi / 60;
+constexpr int most_points = 24;  // of one step
+/// Rows nearer than this part of the branch say nothing about its slope but rounding.
+constexpr double nearest_rows = 1e-6;
+
+PlotPoint difference(const PlotPoint& a, const PlotPoint& b, double h) {
+  return {(a.first - b.first) / h, (a.second - b.second) / h};
+}
+
+PlotPoint mix(const PlotPoint& a, double u, const PlotPoint& b, double v) {
+  return {u * a.first + v * b.first, u * a.second + v * b.second};
+}
+
+class Curve {
+ public:
+  explicit Curve(const std::vector<LineRow>& rows) : rows_{rows} {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    double low[2] = {least, least}, high[2] = {most, most};
+    for (const LineRow& row : rows) {
+      if (std::isfinite(row.s)) least = std::min(least, row.s), most = std::max(most, row.s);
+      if (!is_finite(row.at)) continue;
+      low[0] = std::min(low[0], row.at.first), high[0] = std::max(high[0], row.at.first);
+      low[1] = std::min(low[1], row.at.second), high[1] = std::max(high[1], row.at.second);
+    }
+    near_ = nearest_rows * (most - least);
+    width_ = high[0] > low[0] ? high[0] - low[0] : 1;
+    height_ = high[1] > low[1] ? high[1] - low[1] : 1;
+  }
+
+  bool is_curved(std::size_t i) const {
+    const LineRow &a = rows_[i], &b = rows_[i + 1];
+    return is_finite(a.at) && is_finite(b.at) && a.piece == b.piece && b.s - a.s > near_;
+  }
+
+  Polyline between(std::size_t i) const {
+    const LineRow &a = rows_[i], &b = rows_[i + 1];
+    const double h = b.s - a.s;
+    const PlotPoint p = slope(i, true), q = slope(i, false);
+    const double angle = turn(p, q) + turn(difference(b.at, a.at, h), p);
+    const int count = std::clamp(static_cast<int>(angle / smallest_turn), 0, most_points);
+    Polyline points;
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(k) / (count + 1), u = 1 - t;
+      const PlotPoint ends = mix(a.at, u * u * (1 + 2 * t), b.at, t * t * (3 - 2 * t));
+      points.push_back(mix(ends, 1, mix(p, h * u * u * t, q, -h * u * t * t), 1));
+    }
+    return points;
+  }
+
+ private:
+  /// Slope at the first or second row of step i.
+  PlotPoint slope(std::size_t i, bool first) const {
+    const LineRow &a = rows_[i], &b = rows_[i + 1];
+    const PlotPoint chord = difference(b.at, a.at, b.s - a.s);
+    if (const auto before = neighbour(i, -1)) {
+      const LineRow& other = rows_[*before];
+      if (first)
+        return parabola(difference(a.at, other.at, a.s - other.s), a.s - other.s, chord, b.s - a.s);
+    } else if (first) {
+      return at_end(i, chord, true);
+    }
+    if (const auto after = neighbour(i + 1, 1)) {
+      const LineRow& other = rows_[*after];
+      return parabola(chord, b.s - a.s, difference(other.at, b.at, other.s - b.s), other.s - b.s);
+    }
+    return at_end(i, chord, false);
+  }
+
+  /// Slope in the middle of two chords of lengths g and h.
+  static PlotPoint parabola(const PlotPoint& one, double g, const PlotPoint& two, double h) {
+    return mix(one, h / (g + h), two, g / (g + h));
+  }
+
+  /// Slope at an end of the curve: of the parabola through the next two rows.
+  PlotPoint at_end(std::size_t i, const PlotPoint& chord, bool first) const {
+    const bool has_inner = first ? neighbour(i + 1, 1).has_value() : neighbour(i, -1).has_value();
+    if (!has_inner) return chord;
+    return mix(chord, 2, slope(i, !first), -1);
+  }
+
+  /// The next row of the same smooth curve that is far enough away. @param way  1 or -1
+  std::optional<std::size_t> neighbour(std::size_t i, int way) const {
+    for (std::size_t k = i;;) {
+      if (way < 0 ? k == 0 : k + 1 >= rows_.size()) return std::nullopt;
+      k = way < 0 ? k - 1 : k + 1;
+      const LineRow &one = rows_[i], &other = rows_[k];
+      const double gap = way * (other.s - one.s);
+      if (other.piece != one.piece || !is_finite(other.at) || !(gap >= 0)) return std::nullopt;
+      if (gap > near_) return k;
+    }
+  }
+
+  /// Angle between two slopes as the figure shows them, about.
+  double turn(const PlotPoint& a, const PlotPoint& b) const {
+    const double ax = a.first / width_, ay = a.second / height_;
+    const double bx = b.first / width_, by = b.second / height_;
+    return std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by));
+  }
+
+  const std::vector<LineRow>& rows_;
+  double near_ = 0, width_ = 1, height_ = 1;
+};
+
+}  // namespace
+
+std::vector<Polyline> points_between(const std::vector<LineRow>& rows) {
+  std::vector<Polyline> all;
+  const Curve curve{rows};
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    all.push_back(curve.is_curved(i) ? curve.between(i) : Polyline{});
+  return all;
+}
+
+}  // namespace springfold::io

@@ -1,0 +1,24 @@
+// Lines through the rows of a branch that bend as the branch does.
+#pragma once
+
+#include <vector>
+
+#include "figure.hpp"
+
+namespace springfold::io {
+
+/// A row of a branch in a figure.
+struct LineRow {
+  PlotPoint at{};
+  double s = 0;   ///< arc length along the branch
+  int piece = 0;  ///< rows of different pieces lie on different smooth curves
+};
+
+/// For each step from row i to row i + 1 the points in between, without its ends: on the cubic whose
+/// slopes at both rows are those of the parabola through the row and its neighbours of the same piece,
+/// over s (Bessel's tangents; C. de Boor, A Practical Guide to Splines, chapter IV). Its error is of
+/// third order in the step. Steps without a curve of their own (s does not grow, another piece, points
+/// that are not finite) have none: they are straight.
+std::vector<Polyline> points_between(const std::vector<LineRow>& rows);
+
+}  // namespace springfold::io

@@ -1,0 +1,71 @@
+// What happened, in words.
+#include "io/outline.hpp"
+
+#include <gmock/gmock.h>
+
+#include "io/fitted_table.hpp"
+#include "io/sample_results.hpp"
+#include "springfold/io/results.hpp"
+
+namespace springfold::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Outline, SaysAtWhichPointsStabilityChangesAndWithWhichForce) {
+  const Case the_case = sample::two_runs();
+  const auto results = sample::two_results();
+  const auto lines = outline_of(the_case, results[1]);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0],
+            "forward: stable up to LP1 at 0.02701 N, where it snaps; unstable up to LP2 at " +
+                lines[0].substr(lines[0].find("LP2 at ") + 7));
+  EXPECT_THAT(lines[0], HasSubstr("; stable again to the end"));
+  EXPECT_EQ(lines[1], "backward: stable to the end");
+}
+
+TEST(Outline, ClaimsNothingWithoutAStart) {
+  auto result = sample::two_results()[0];
+  result.start.found = false;
+  EXPECT_THAT(outline_of(sample::two_runs(), result), IsEmpty());
+}
+
+TEST(Outline, ClaimsNoStabilityUnderLoadsWithoutPotential) {
+  auto result = sample::two_results()[0];
+  result.non_conservative = {"load 1"};
+  EXPECT_THAT(outline_of(sample::two_runs(), result), IsEmpty());
+}
+
+TEST(AlikeBranches, AreThoseWhoseSpecialPointsAgree) {
+  auto result = sample::two_results()[0];
+  result.branches.push_back(result.branches[0]);
+  result.branches.push_back(sample::two_results()[1].branches[0]);
+  EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1, 2), ElementsAre(3)));
+  EXPECT_THAT(summary_table(sample::two_runs(), {result}), HasSubstr("branches 1 and 2"));
+}
+
+TEST(FittedTable, HasNoLineBeyondTheTerminalAndKeepsEveryCell) {
+  std::vector<std::vector<std::string>> rows{{"name"}, {"one"}};
+  std::vector<Align> align{Align::left};
+  for (int i = 0; i < 12; ++i) {
+    rows[0].push_back("column" + std::to_string(i));
+    rows[1].push_back(std::to_string(i) + ".123456789");
+    align.push_back(Align::right);
+  }
+  rows[1].push_back(
+      "a sentence that says so much about this row that it needs more than one line of a "
+      "table");
+  const std::string text = fitted(rows, align, 4);
+  std::size_t begin = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+    EXPECT_LE(end - begin, table_width);
+    begin = end + 1;
+  }
+  for (int i = 0; i < 12; ++i) EXPECT_THAT(text, HasSubstr(std::to_string(i) + ".123456789"));
+  for (const char* word : {"sentence", "table", "needs"}) EXPECT_THAT(text, HasSubstr(word));
+}
+
+}  // namespace
+}  // namespace springfold::io
