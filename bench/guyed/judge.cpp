@@ -103,14 +103,23 @@ struct Judge {
     if (wrong > 0) faults.push_back(first + said(", in %g rows", static_cast<double>(wrong)));
   }
 
-  /// Directions in which the result's branches leave an event.
+  /// Directions in which the result's branches leave an event, or come to it from another one.
   std::vector<Vector> directions(const std::string& label) const {
     std::vector<Vector> list;
-    for (const Branch& branch : result.branches)
-      if (branch.origin == label && branch.samples.size() > 1) {
-        const Vector w = sway(draw, at, branch.samples[1]);
-        if (w.norm() > 0) list.push_back(w.normalized());
+    const auto add = [&](const Branch& branch, std::size_t row) {
+      if (row >= branch.samples.size()) return;  // also before the first one
+      const Vector w = sway(draw, at, branch.samples[row]);
+      if (w.norm() > 0) list.push_back(w.normalized());
+    };
+    for (std::size_t b = 1; b < result.branches.size(); ++b) {
+      const Branch& branch = result.branches[b];
+      if (branch.origin == label) add(branch, 1);
+      for (const Event& event : branch.events) {
+        if (event.label != label || event.row == 0) continue;
+        add(branch, event.row - 1);
+        add(branch, event.row + 1);
       }
+    }
     return list;
   }
 

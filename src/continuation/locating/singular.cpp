@@ -56,7 +56,9 @@ bool may_turn(const WatchedStep& arc, Samples samples) {
     if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
   }
   if (is_even(A.col(1).head(m), right)) return false;
-  SmallLu(A).solve(right.data());
+  const SmallLu polynomial(A);
+  if (!(polynomial.smallest_pivot() > 0)) return true;  // samples that coincide: nothing is known
+  polynomial.solve(right.data());
   const auto& c = right;
   constexpr int parts = 24;
   constexpr double far = 0.3;  // from zero, compared with the largest rate
