@@ -39,10 +39,11 @@ several=()
 grep -qs "^MPI_CXX_LIBRARIES\|^MPI_CXX_LIB_NAMES" "$OLDPWD/build/release/CMakeCache.txt" &&
   mpirun -n 2 true >/dev/null 2>&1 && several=(mpirun -n 4)
 
+resume=()
 compute() { # FOLDER WORD...
   local folder=$1
   shift
-  "$@" run case.toml --no-plots --out "$folder" >"$folder.txt" 2>"$folder.err"
+  "$@" run case.toml --no-plots --out "$folder" "${resume[@]}" >"$folder.txt" 2>"$folder.err"
 }
 
 timed() { # TEXT FOLDER WORD...
@@ -65,7 +66,8 @@ kill_half_way() {
   local program_id children
   program_id=$(cat "/proc/$job/task/$job/children")
   children=$(cat "/proc/${program_id%% *}/task/${program_id%% *}/children" 2>/dev/null || true)
-  kill -KILL ${children:-$program_id}
+  # shellcheck disable=SC2086  # several numbers
+  kill -KILL ${children:-$program_id} 2>/dev/null || true
   wait $job 2>/dev/null || true
   echo "killed with $rows lines in the checkpoint"
 }
@@ -82,13 +84,16 @@ same() { # TEXT FOLDER
 
 timed "$runs curves, one process, $(nproc) threads" whole "$program"
 kill_half_way part "$program"
-timed "resumed" part "$program" --resume
+resume=(--resume)
+timed "resumed" part "$program"
+resume=()
 same "killed half-way and resumed" part
 if ((${#several[@]})); then
   timed "$runs curves, four processes" four "${several[@]}" "$program"
   same "four processes" four
   kill_half_way parts "${several[@]}" "$program"
-  timed "resumed, four processes" parts "${several[@]}" "$program" --resume
+  resume=(--resume)
+  timed "resumed, four processes" parts "${several[@]}" "$program"
   same "four processes killed half-way and resumed" parts
 else
   echo "no MPI in this build, or no mpirun that starts processes: several processes are not tried"

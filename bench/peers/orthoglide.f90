@@ -60,8 +60,6 @@ subroutine func(ndim, u, icp, par, ijac, f, dfdu, dfdp)
   dfdu(10, 6) = 1
   dfdu(10, 8) = 1
   if (ijac == 1) return
-  dfdp(2, 3) = u(2)
-  dfdp(4, 3) = u(4)
   dfdp(9, 1) = -diagonal
   dfdp(10, 1) = -diagonal
 end subroutine func

@@ -13,7 +13,7 @@ namespace {
 constexpr double vanishing = 1e-7;
 /// Largest entry of the nearest points of differences along directions: first and second derivatives of dF/dx.
 constexpr double first_step = 0x1p-8;
-constexpr double second_step = 0x1p-6;
+constexpr double second_step = 0x1p-8;
 
 /// A singular point of one member of the family.
 class Place {
