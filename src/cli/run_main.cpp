@@ -13,6 +13,7 @@
 #include "in_time.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
+#include "plot_command.hpp"
 #include "run_command.hpp"
 #include "springfold/continuation/interrupted.hpp"
 #include "verify_command.hpp"
@@ -74,6 +75,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return run_whole(draw_command, *parsed.arguments, session);
     case Command::animate:
       return run_whole(animate_command, *parsed.arguments, session);
+    case Command::plot:
+      return plot_command(*parsed.arguments, session);
     case Command::run:
       break;
   }
