@@ -53,6 +53,7 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
 # Blocks that are not there are never drawn, but gnuplot looks for their names.
 mixed_block = has_mixed ? '$mixed' : '$'.word(curve_parts, 1)
 bar_block = has_bar ? '$bar' : '$'.word(curve_parts, 1)
+bar_value = has_bar ? bar_low : 0
 if (!has_bar) { palette_text = '0 "black", 1 "white"' }
 if (has_bar) {
   set palette defined (@palette_text)
@@ -88,7 +89,7 @@ plot for [k = 1:has_mixed] mixed_block with lines linestyle 7 \
          linecolor rgb key_color(part) title (is_first(part) ? part_kind(part) : ''), \
      for [code in point_codes] '$point_'.code with points linestyle point_style(code) \
          title point_name(code), \
-     for [k = 1:has_bar] bar_block with dots palette notitle
+     for [k = 1:has_bar] bar_block using 1:2:(bar_value) with dots palette notitle
 do for [k = 1:insets] {
   unset title
   unset xlabel
