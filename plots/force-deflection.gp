@@ -50,6 +50,11 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
 
 
+# Blocks that are not there are never drawn, but gnuplot looks for their names.
+mixed_block = has_mixed ? '$mixed' : '$'.word(curve_parts, 1)
+bar_block = has_bar ? '$bar' : '$'.word(curve_parts, 1)
+bar_value = has_bar ? bar_low : 0
+if (!has_bar) { palette_text = '0 "black", 1 "white"' }
 if (has_bar) {
   set palette defined (@palette_text)
   set cbrange [bar_low:bar_high]
@@ -76,7 +81,7 @@ if (figure_format eq 'tikz') {
 }
 set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
 if (insets > 0) { set multiplot }
-plot for [k = 1:has_mixed] '$mixed' with lines linestyle 7 \
+plot for [k = 1:has_mixed] mixed_block with lines linestyle 7 \
          title 'with a less stable one on it', \
      for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
          linecolor rgb part_color(part) notitle, \
@@ -84,7 +89,7 @@ plot for [k = 1:has_mixed] '$mixed' with lines linestyle 7 \
          linecolor rgb key_color(part) title (is_first(part) ? part_kind(part) : ''), \
      for [code in point_codes] '$point_'.code with points linestyle point_style(code) \
          title point_name(code), \
-     for [k = 1:has_bar] '$bar' with dots palette notitle
+     for [k = 1:has_bar] bar_block using 1:2:(bar_value) with dots palette notitle
 do for [k = 1:insets] {
   unset title
   unset xlabel
@@ -107,7 +112,7 @@ do for [k = 1:insets] {
   inset_y_step = (real(word(inset_y_high, k)) - real(word(inset_y_low, k))) / 3
   set ytics inset_y_step font key_font
   set format '%.3g'
-  plot for [j = 1:has_mixed] '$mixed' with lines linestyle 7, \
+  plot for [j = 1:has_mixed] mixed_block with lines linestyle 7, \
        for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
            linecolor rgb part_color(part), \
        for [code in point_codes] '$point_'.code with points linestyle point_style(code)

@@ -29,6 +29,8 @@ constexpr const char* examples =
     "      the mechanism in its posture at a special point\n"
     "  springfold animate case.toml --study push --output push.svg\n"
     "      the mechanism moved along the curve, beside it\n"
+    "  springfold plot results/orthoglide-planar\n"
+    "      the figures of an earlier run drawn again, nothing is run\n"
     "  springfold verify cases\n"
     "      all cases of a folder against their expected values, one table\n"
     "\n"
@@ -210,6 +212,11 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
       ->excludes(quiet)
       ->excludes(prints_json);
 
+  CLI::App* plot = app.add_subcommand("plot", "Draw the figures of an earlier run again");
+  plot->add_option("RESULTS", arguments.results, "Folder of its results")->required();
+  plot->add_flag("--changed", arguments.draws_changed,
+                 "Also scripts that were changed since they were written");
+
   CLI::App* verify = app.add_subcommand("verify", "Compare many cases with their expected values");
   verify
       ->add_option("PATH", arguments.cases,
@@ -241,6 +248,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
                       : verify->parsed()  ? Command::verify
                       : draw->parsed()    ? Command::draw
                       : animate->parsed() ? Command::animate
+                      : plot->parsed()    ? Command::plot
                                           : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;

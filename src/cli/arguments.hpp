@@ -9,7 +9,7 @@
 
 namespace springfold::cli {
 
-enum class Command { run, check, verify, draw, animate };
+enum class Command { run, check, verify, draw, animate, plot };
 
 struct Arguments {
   Command command = Command::run;
@@ -35,6 +35,8 @@ struct Arguments {
   std::string film_jump{};                              ///< animate: --jump
   int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
+  std::filesystem::path results{};  ///< plot: folder of a run
+  bool draws_changed = false;       ///< plot: --changed
   bool is_quiet = false;                       ///< run: --quiet
   bool is_verbose = false;                     ///< run: --verbose
   bool prints_csv = false;                     ///< verify only

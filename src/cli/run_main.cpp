@@ -14,6 +14,7 @@
 #include "in_time.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
+#include "plot_command.hpp"
 #include "ranks.hpp"
 #include "run_command.hpp"
 #include "springfold/continuation/interrupted.hpp"
@@ -81,6 +82,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return run_whole(draw_command, *parsed.arguments, session);
     case Command::animate:
       return run_whole(animate_command, *parsed.arguments, session);
+    case Command::plot:
+      return plot_command(*parsed.arguments, session);
     case Command::run:
       break;
   }

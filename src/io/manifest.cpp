@@ -113,6 +113,19 @@ std::vector<std::string> files_listed_in(const fs::path& folder) {
   return paths;
 }
 
+std::vector<ListedFile> hashes_listed_in(const fs::path& folder) {
+  std::vector<ListedFile> files;
+  const Json manifest = read_manifest(folder);
+  if (manifest.is_null()) return files;
+  for (const auto& entry : manifest["files"]) {
+    const std::string path = path_in(entry);
+    if (!stays_in_the_set(path)) continue;
+    const bool has_hash = entry.contains("sha256") && entry["sha256"].is_string();
+    files.push_back({path, has_hash ? entry["sha256"].get<std::string>() : ""});
+  }
+  return files;
+}
+
 void set_manifest_state(const fs::path& folder, SetState state,
                         const std::vector<std::string>& pending) {
   Json manifest = read_manifest(folder);

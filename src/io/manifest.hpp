@@ -24,6 +24,9 @@ std::string manifest_text(const Case& the_case, SetState state,
 /// that would lead out of branches/ and plots/ or the folder itself are left out.
 std::vector<std::string> files_listed_in(const std::filesystem::path& folder);
 
+/// The same files with their hashes; bytes are 0.
+std::vector<ListedFile> hashes_listed_in(const std::filesystem::path& folder);
+
 /// Adds files to an existing manifest, in place of entries of the same path. Without a readable
 /// manifest nothing happens.
 /// @throws std::runtime_error when it cannot be written

@@ -160,6 +160,10 @@ std::string equilibria_outline(const StudyResult& result) {
 
 /// Special points of a branch with their values, and its ends, for comparison.
 bool agree(const StudyResult& result, const Branch& a, const Branch& b) {
+  // What is said of one is said of the other: they begin and end alike.
+  if (a.origin != b.origin || a.origin_branch != b.origin_branch || a.start != b.start)
+    return false;
+  if (a.backward.reason != b.backward.reason || a.forward.reason != b.forward.reason) return false;
   if (a.events.size() != b.events.size()) return false;
   // Both were computed, each with errors of its own: far above those, far below what is printed.
   constexpr double near = 1e-6;

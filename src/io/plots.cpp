@@ -1,7 +1,6 @@
 #include "springfold/io/plots.hpp"
 
 #include <gnuplot-iostream.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <locale>
@@ -20,32 +19,13 @@
 #include "text.hpp"
 #include "tornado_figure.hpp"
 #include "transition_access.hpp"
+#include "work_folder.hpp"
 
 namespace springfold::io {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for unfinished pictures, removed at the end of the scope. It lies beside the finished
-/// ones, so that these can be renamed into place.
-class WorkFolder {
- public:
-  explicit WorkFolder(const fs::path& parent)
-      : path_{parent / (".part" + std::to_string(::getpid()))} {
-    make_folder(path_);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  ~WorkFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 struct Templates {
   std::string style{};

@@ -227,7 +227,8 @@ std::string branch_lines(const StudyResult& result, const std::vector<std::size_
   const Branch& branch = result.branches[numbers.front() - 1];
   std::string text;
   if (result.branches.size() > 1)
-    text += line((numbers.size() > 1 ? "branches " : "branch ") + numbers_text(numbers),
+    text += line(numbers.size() > 1 ? "branches " + numbers_text(numbers) + " "
+                                    : "branch " + std::to_string(numbers.front()),
                  (numbers.size() > 1 ? "alike; " : "") + origin_text(result, branch));
   const std::size_t refused = branch.log.size();
   if (branch.samples.size() < 2 && branch.events.empty() && branch.backward.complete &&

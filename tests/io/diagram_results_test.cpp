@@ -81,7 +81,7 @@ TEST(SummaryOfADiagram, SaysWhereBranchesBeginAndWhatIsLeftOut) {
   result.junctions.push_back(
       {.kind = EventKind::branching_kink, .label = "KB1", .ways = {1, 0, 0}});
   const std::string table = summary_table(one_run(), {result});
-  EXPECT_THAT(table, HasSubstr("branch 2      begins at BP1 of branch 1"));
+  EXPECT_THAT(table, HasSubstr("branches 2 and 3 alike; begins at BP1 of branch 1"));
   EXPECT_THAT(table, HasSubstr("last row      goes on along branch 1"));
   EXPECT_THAT(table, HasSubstr("not followed, beyond branches.depth or .maximum: 2 ways at KB1"));
   EXPECT_TRUE(complete(result));

@@ -31,4 +31,11 @@ PlotOutcome draw_plots(const std::filesystem::path& folder, const Case& the_case
                        const std::vector<analysis::StudyResult>& results,
                        const PlotOptions& options = {});
 
+/// Draws the figures of an earlier run again, from the scripts that its manifest lists: nothing is run, and
+/// no table is read. Never throws, as draw_plots.
+/// @param with_changed  also scripts that were changed since they were written. A script may run other
+///                      programs: only its author's word says what it does
+PlotOutcome redraw_plots(const std::filesystem::path& folder, bool with_changed,
+                         const PlotOptions& options = {});
+
 }  // namespace springfold::io
