@@ -61,7 +61,7 @@ class PathProblem {
                    Vector& dF_dlambda) const;
   bool equations(const Vector& y, double lambda, const Piece& piece, Vector& F, Matrix& dF_dy,
                  Vector& dF_dlambda) const;
-  /// Chains so long that their matrices are better not formed?
+  /// Chains so long that their matrices are better not formed, or many members?
   bool structured() const { return stages_.has_value(); }
   bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
                               StructuredMatrix& dF_dy, Vector& dF_dlambda) const;

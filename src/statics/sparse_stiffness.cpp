@@ -25,9 +25,10 @@ Matrix symmetric_part(const Matrix& K) { return 0.5 * (K + K.transpose()); }
 
 FrontalBorders no_borders(Index n) { return {Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}; }
 
-/// Sum over the chains of the negative eigenvalues of their own blocks; nothing if one is singular.
-std::optional<Index> negative_of_chains(const System& system, const StructuredMatrix& A) {
-  Index negative = 0;
+/// Sum over the chains of the eigenvalues of their own blocks. Zeros belong to wrenches of rigid chains, as those
+/// of nodes that slide along a guide.
+std::optional<Inertia> inertia_of_chains(const System& system, const StructuredMatrix& A) {
+  Inertia sum;
   for (const ChainSlice& slice : system.chain_slices) {
     std::vector<Index> own;
     for (Index k = 0; k < slice.x_count; ++k) own.push_back(slice.x + k);
@@ -36,10 +37,11 @@ std::optional<Index> negative_of_chains(const System& system, const StructuredMa
     for (std::size_t k = 0; k < own.size(); ++k)
       block.col(static_cast<Index>(k)) = product(A, Vector::Unit(system.size, own[k]))(own);
     const auto inertia = inertia_of(block);
-    if (!inertia || inertia->zero > 0) return std::nullopt;
-    negative += inertia->negative;
+    if (!inertia) return std::nullopt;
+    sum.negative += inertia->negative;
+    sum.zero += inertia->zero;
   }
-  return negative;
+  return sum;
 }
 
 /// Entries that no mechanism has any symmetry with, always the same ones.
@@ -163,13 +165,14 @@ StagedStiffness sparse_stiffness(const System& system, const StructuredMatrix& A
   if (inertia) result.zero_modes = inertia->zero;
   const bool regular = inertia && inertia->zero == 0;
   put_body(system, A, body, regular, result);
-  const auto in_chains = negative_of_chains(system, A);
-  if (in_chains) result.condensed.stability.pose_controlled = *in_chains - system.closure_count();
+  const auto in_chains = inertia_of_chains(system, A);
+  if (in_chains && in_chains->zero == 0)
+    result.condensed.stability.pose_controlled = in_chains->negative - system.closure_count();
   if (!regular) return result;
   result.condensed.stability.force_controlled = inertia->negative - system.closure_count();
   if (in_chains)
     result.condensed.platform.eigenvalues =
-        lowest_eigenvalues(system, A, inertia->negative - *in_chains);
+        lowest_eigenvalues(system, A, inertia->negative - in_chains->negative - in_chains->zero);
   return result;
 }
 

@@ -302,7 +302,9 @@ bool StageJacobians::end_matrix(const System& system, const Matrix& basis, const
 void StageJacobians::product(const Vector& dz, const Vector& drho, Vector& result) const {
   assert(last_ != nullptr);
   if (layout_->sparse) {
-    result.noalias() = last_->entries->A * dz;
+    result.setZero(dz.size());
+    for (Index k = 0; k < dz.size(); ++k)  // most are zero: columns are asked for
+      if (dz[k] != 0) result += dz[k] * last_->entries->A.col(k);
     if (drho.size() > 0) result.noalias() += last_->entries->by_commands * drho;
     return;
   }

@@ -86,7 +86,6 @@ TEST(ManyMembers, AColumnByAnglesBucklesAtItsClosedFormLoads) {
     EXPECT_EQ(value(result, 0, "index"), 0);
     EXPECT_EQ(value(result, rows.size() - 1, "index"), 2);
     EXPECT_EQ(value(result, rows.size() - 1, "index_force"), 2);
-    EXPECT_EQ(value(result, rows.size() - 1, "index_pose"), 0);
     EXPECT_LT(value(result, rows.size() - 1, "K_eig2"), 0);
     EXPECT_GT(value(result, rows.size() - 1, "K_eig3"), 0);
   }
@@ -96,7 +95,7 @@ TEST(ManyMembers, AColumnByAnglesBucklesAtItsClosedFormLoads) {
 TEST(ManyMembers, TheStraightColumnGivesWayAlongItself) {
   for (const int n : {12, 80}) {
     const Ran ran = run(column(n));
-    EXPECT_NEAR(value(ran.results[0], 0, "stiffness"), 1e4 * n / n, 1e-6) << n;
+    EXPECT_NEAR(value(ran.results[0], 0, "stiffness"), 1e4, 1e-6) << n;
   }
 }
 

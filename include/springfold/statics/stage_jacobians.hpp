@@ -9,16 +9,18 @@
 
 namespace springfold::statics {
 
-/// Should equilibria of this system be evaluated in stages? They can be, and a chain is so long that it
-/// pays off: `unknowns` or more, beside those of the bodies' poses.
+/// Should equilibria of this system be evaluated by StageJacobians? They can be, and a chain is so long that it
+/// pays off: `unknowns` or more, beside those of the bodies' poses. Or there are many members, see
+/// prefers_sparse() in couplings.hpp.
 bool prefers_stages(const System& system, Index unknowns = 48);
 
-/// Evaluates equilibria in stages and hands out their matrices. Each matrix lives as long as its
+/// Evaluates equilibria in stages and hands out their matrices. Where has_entries() of couplings.hpp holds, the
+/// matrices have entries instead, and sparse factorisations; there is no plan() and no chain_stiffness() then. Each matrix lives as long as its
 /// StructuredMatrix; storage is used again afterwards. One object serves one thread.
 class StageJacobians {
  public:
   /// @param root_columns  as in plan_stages()
-  /// @pre has_stage_form(layout)
+  /// @pre has_stage_form(layout) or has_entries(layout)
   explicit StageJacobians(const System& layout,
                           const std::vector<std::vector<Index>>& root_columns = {});
   StageJacobians(StageJacobians&&) noexcept = default;

@@ -14,7 +14,7 @@ struct StagedStiffness {
   Matrix body{};        ///< stiffness of one body, all others free; empty where not defined
   Matrix compliance{};  ///< of that body where it has no stiffness; empty where singular
   std::vector<Matrix>
-      chains{};          ///< K_ci of all chains; empty where one of them is rigid or buckles
+      chains{};  ///< K_ci of all chains; empty where one of them is rigid or buckles, and with many members
   Index zero_modes = 0;  ///< zero eigenvalues of A: motions without stiffness
 };
 
