@@ -1,6 +1,7 @@
 // Random mechanisms that jump: a point on elastic bars, and rows of bistable units.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <random>
 #include <string>
