@@ -54,7 +54,7 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
 mixed_block = has_mixed ? '$mixed' : '$'.word(curve_parts, 1)
 bar_block = has_bar ? '$bar' : '$'.word(curve_parts, 1)
 bar_value = has_bar ? bar_low : 0
-if (!has_bar) { palette_text = '0 "black", 1 "white"' }
+if (!has_bar) { palette_text = '0 "black", 1 "white"'; set cbrange [0:1] }
 if (has_bar) {
   set palette defined (@palette_text)
   set cbrange [bar_low:bar_high]
