@@ -59,8 +59,8 @@ if (has_bar) {
   set palette defined (@palette_text)
   set cbrange [bar_low:bar_high]
   set cblabel bar_title noenhanced textcolor rgb ink offset 1, 0
-  set colorbox user origin frame_right + 25 / figure_width, frame_bottom \
-      size 20 / figure_width, frame_top - frame_bottom
+  set colorbox user origin frame_right + 25.0 / figure_width, frame_bottom \
+      size 20.0 / figure_width, frame_top - frame_bottom
 }
 
 # SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
