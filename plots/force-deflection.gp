@@ -54,13 +54,13 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
 mixed_block = has_mixed ? '$mixed' : '$'.word(curve_parts, 1)
 bar_block = has_bar ? '$bar' : '$'.word(curve_parts, 1)
 bar_value = has_bar ? bar_low : 0
-if (!has_bar) { palette_text = '0 "black", 1 "white"' }
+if (!has_bar) { palette_text = '0 "black", 1 "white"'; set cbrange [0:1] }
 if (has_bar) {
   set palette defined (@palette_text)
   set cbrange [bar_low:bar_high]
   set cblabel bar_title noenhanced textcolor rgb ink offset 1, 0
-  set colorbox user origin frame_right + 25 / figure_width, frame_bottom \
-      size 20 / figure_width, frame_top - frame_bottom
+  set colorbox user origin frame_right + 25.0 / figure_width, frame_bottom \
+      size 20.0 / figure_width, frame_top - frame_bottom
 }
 
 # SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
