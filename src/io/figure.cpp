@@ -84,6 +84,8 @@ void bend(const StudyResult& result, const Branch& branch, std::vector<PlotPoint
     if (row > 0 && branch.samples[row].piece != branch.samples[row - 1].piece) ++piece;
     rows.push_back({points[row], value_at(result, branch, row, "s"), piece});
   }
+  for (const analysis::Event& event : branch.events)
+    if (event.row < rows.size()) rows[event.row].is_special = true;
   const std::vector<Polyline> between = points_between(rows);
   std::vector<PlotPoint> all;
   std::vector<Stability> all_steps;

@@ -20,8 +20,8 @@ constexpr double parallel = 0.25;  // sine of the largest angle between lines th
 
 struct Piece {
   PlotPoint middle{}, direction{};  ///< [pixel], unit vector
-  std::size_t line = 0;             ///< which part of which curve
-  double along = 0;                 ///< way from its begin [pixel]
+  std::size_t line = 0;             ///< which curve
+  double along = 0;  ///< way from its begin, all its parts one after the other [pixel]
   Stability stability = Stability::stable;
 };
 
@@ -78,6 +78,7 @@ class Drawn {
 struct CutLine {
   std::vector<PlotPoint> ends{};  ///< one more than pieces
   std::vector<Piece> pieces{};
+  double end = 0;  ///< way from the curve's begin
 };
 
 bool is_near_frame(const PlotPoint& p, const Canvas& canvas) {
@@ -85,9 +86,9 @@ bool is_near_frame(const PlotPoint& p, const Canvas& canvas) {
          p.second < 2 * canvas.height;
 }
 
-CutLine cut(const Figure& figure, const Canvas& canvas, const CurvePart& part, std::size_t line) {
+CutLine cut(const Figure& figure, const Canvas& canvas, const CurvePart& part, std::size_t line,
+            double along) {
   CutLine all;
-  double along = 0;
   for (std::size_t i = 0; i + 1 < part.line.size(); ++i) {
     const PlotPoint a = in_pixels(figure, canvas, part.line[i]);
     const PlotPoint b = in_pixels(figure, canvas, part.line[i + 1]);
@@ -114,6 +115,7 @@ CutLine cut(const Figure& figure, const Canvas& canvas, const CurvePart& part, s
     }
     if (std::isfinite(length)) along += length;
   }
+  all.end = along;
   return all;
 }
 
@@ -154,13 +156,14 @@ DrawnLines without_overlaps(const Figure& figure, const Canvas& canvas) {
   DrawnLines lines;
   lines.curves.resize(figure.curves.size());
   Drawn drawn;
-  for (const auto level : {Stability::stable, Stability::driven, Stability::unstable}) {
-    std::size_t number = 0;
-    for (std::size_t c = 0; c < figure.curves.size(); ++c)
+  for (const auto level : {Stability::stable, Stability::driven, Stability::unstable})
+    for (std::size_t c = 0; c < figure.curves.size(); ++c) {
+      double along =
+          0;  // at a limit point the stable part ends where the unstable one begins: that is no overlap
       for (const CurvePart& part : figure.curves[c].parts) {
-        ++number;
+        const CutLine line = cut(figure, canvas, part, c, along);
+        along = line.end;
         if (part.stability != level) continue;
-        const CutLine line = cut(figure, canvas, part, number);
         std::vector<Cover> covers;
         // Solid lines do not fill each other's gaps: all are drawn. A dashed line may lie on itself.
         for (const Piece& piece : line.pieces) {
@@ -170,7 +173,7 @@ DrawnLines without_overlaps(const Figure& figure, const Canvas& canvas) {
         drop_short(line, covers);
         add_stretches(part, line, covers, lines.curves[c], lines.mixed);
       }
-  }
+    }
   return lines;
 }
 

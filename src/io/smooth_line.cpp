@@ -69,20 +69,26 @@ class Curve {
     if (const auto before = neighbour(i, -1)) {
       const LineRow& other = rows_[*before];
       if (first)
-        return parabola(difference(a.at, other.at, a.s - other.s), a.s - other.s, chord, b.s - a.s);
+        return parabola(difference(a.at, other.at, a.s - other.s), a.s - other.s, chord, b.s - a.s,
+                        a.is_special);
     } else if (first) {
       return at_end(i, chord, true);
     }
     if (const auto after = neighbour(i + 1, 1)) {
       const LineRow& other = rows_[*after];
-      return parabola(chord, b.s - a.s, difference(other.at, b.at, other.s - b.s), other.s - b.s);
+      return parabola(chord, b.s - a.s, difference(other.at, b.at, other.s - b.s), other.s - b.s,
+                      b.is_special);
     }
     return at_end(i, chord, false);
   }
 
-  /// Slope in the middle of two chords of lengths g and h.
-  static PlotPoint parabola(const PlotPoint& one, double g, const PlotPoint& two, double h) {
-    return mix(one, h / (g + h), two, g / (g + h));
+  /// Slope in the middle of two chords of lengths g and h. The largest load stands at its limit point, not beside it.
+  static PlotPoint parabola(const PlotPoint& one, double g, const PlotPoint& two, double h,
+                            bool is_special) {
+    PlotPoint slope = mix(one, h / (g + h), two, g / (g + h));
+    if (is_special && one.first * two.first < 0) slope.first = 0;
+    if (is_special && one.second * two.second < 0) slope.second = 0;
+    return slope;
   }
 
   /// Slope at an end of the curve: of the parabola through the next two rows.

@@ -12,6 +12,8 @@ struct LineRow {
   PlotPoint at{};
   double s = 0;   ///< arc length along the branch
   int piece = 0;  ///< rows of different pieces lie on different smooth curves
+  bool is_special =
+      false;  ///< a located special point: what has an extremum at it there turns exactly there
 };
 
 /// For each step from row i to row i + 1 the points in between, without its ends: on the cubic whose

@@ -41,6 +41,16 @@ TEST(PointsBetween, LieOnTheCircleOnWhichTheRowsLieToThirdOrder) {
   EXPECT_GT(coarse / fine, 6) << "half the step: an eighth of the error, about";
 }
 
+TEST(PointsBetween, KeepTheLargestLoadAtItsLimitPoint) {
+  // y = sin x has its maximum at the third row, beside which the rows are unevenly spaced.
+  std::vector<LineRow> rows;
+  for (const double s : {0.0, 0.9, std::numbers::pi / 2, 2.9, 3.4})
+    rows.push_back({{s, std::sin(s)}, s});
+  rows[2].is_special = true;
+  for (const Polyline& line : points_between(rows))
+    for (const PlotPoint& at : line) EXPECT_LT(at.second, 1);
+}
+
 TEST(PointsBetween, LeaveNoCornerThatIsSeen) {
   const auto rows = arc(16, std::numbers::pi);
   const auto lines = points_between(rows);
@@ -107,6 +117,18 @@ TEST(WithoutOverlaps, KeepsTheRestOfALineThatRunsBackOverItself) {
       length += std::hypot(part.line[i].first - part.line[i - 1].first,
                            part.line[i].second - part.line[i - 1].second);
   EXPECT_NEAR(length, 0.4 * std::sqrt(2.0) + 0.6, 0.06) << "the way back is drawn once";
+}
+
+TEST(WithoutOverlaps, DoesNotSayThatABranchLiesOnItselfAtItsLimitPoint) {
+  // A sharp turn: x = 100 (y - 0.5)^2, stable below and unstable above.
+  Figure figure{.low = {0, 0}, .high = {1, 1}};
+  CurvePart below{Stability::stable, {}}, above{Stability::unstable, {}};
+  for (int i = -20; i <= 0; ++i) below.line.push_back({100 * i * i / 4e4, 0.5 + i / 200.0});
+  for (int i = 0; i <= 20; ++i) above.line.push_back({100 * i * i / 4e4, 0.5 + i / 200.0});
+  figure.curves.push_back({.parts = {below, above}});
+  const auto drawn = without_overlaps(figure, Canvas{});
+  EXPECT_THAT(drawn.mixed, IsEmpty());
+  EXPECT_EQ(lines_in(drawn), 2u);
 }
 
 TEST(WithoutOverlaps, LeavesLinesThatCrossAlone) {
