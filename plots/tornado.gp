@@ -3,6 +3,7 @@
 # The program has set before this file is read:
 #   figure_name, figure_title, x_title   texts; figure_title_mode, x_title_mode as in style.gp
 #   bars            number of bars; bar n has parameter[n] (its name), value[n], shown[n] (the value as text)
+#   formats         'png svg', and perhaps 'pdf'; figure_font, figure_font_size as in style.gp
 #   left_out        parameters without a bar and why, or ''
 # style.gp is read before this file.
 
@@ -49,10 +50,14 @@ do for [i = 1:bars] {
 if (left_out ne '') set label 1 left_out at screen 0.5, screen 18 / figure_height center noenhanced \
     font point_label_font textcolor rgb '#777777'
 
-do for [format in 'png svg'] {
+do for [format in formats] {
   if (format eq 'png') {
     set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-  } else {
+  }
+  if (format eq 'pdf') {
+    set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
+  }
+  if (format eq 'svg') {
     set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
         background rgb 'white'
   }

@@ -100,6 +100,12 @@ std::string tornado_script(const TornadoFigure& figure, const std::string& style
   script += "figure_name = " + gnuplot_string(figure.name) + "\n";
   script += gnuplot_assignment("figure_title", figure.title) +
             gnuplot_assignment("x_title", figure.x_title);
+  const PlotLook usual;
+  script += "figure_format = 'tornado'\nfigure_font = " + gnuplot_string(usual.font) +
+            "\nfigure_font_size = " + shortest(usual.font_size) + "\n";
+  std::string formats;
+  for (const std::string& format : figure.formats) formats += (formats.empty() ? "" : " ") + format;
+  script += "formats = " + gnuplot_string(formats) + "\n";
   script += "left_out = " + gnuplot_string(figure.left_out) + "\n";
   const std::string count = std::to_string(figure.bars.size());
   script += "bars = " + count + "\n";

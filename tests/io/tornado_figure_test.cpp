@@ -3,12 +3,17 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "scratch_folder.hpp"
 #include "springfold/analysis/result.hpp"
+#include "springfold/io/plots.hpp"
 
 namespace springfold::io {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// lambda = a b^-2 c at a = 2, b = 0.5, c = 0: by a 1, by b -2; c has the value 0.
 class Tornado : public testing::Test {
@@ -63,6 +68,17 @@ TEST_F(Tornado, IsNotDrawnWhereTheQuantityIsZero) {
   EXPECT_TRUE(figures().empty());
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_THAT(problems[0], HasSubstr("lambda is 0 at LP1"));
+}
+
+TEST_F(Tornado, IsDrawnByGnuplotInEveryFormatWithoutAWarning) {
+  the_case.tornados[0].formats = {"png", "svg", "pdf"};
+  ScratchFolder scratch;
+  const PlotOutcome outcome = draw_plots(scratch.path(), the_case, {result});
+  EXPECT_THAT(outcome.warnings, IsEmpty());
+  for (const char* ending : {".gp", ".png", ".svg", ".pdf"})
+    EXPECT_TRUE(
+        std::filesystem::exists(scratch.path() / "plots" / (std::string{"figure"} + ending)))
+        << ending;
 }
 
 TEST_F(Tornado, QuotesTextsOfTheCase) {
