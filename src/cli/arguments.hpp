@@ -35,8 +35,8 @@ struct Arguments {
   std::string film_jump{};                              ///< animate: --jump
   int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
-  std::filesystem::path results{};  ///< plot: folder of a run
-  bool draws_changed = false;       ///< plot: --changed
+  std::filesystem::path results{};             ///< plot: folder of a run
+  bool draws_changed = false;                  ///< plot: --changed
   bool is_quiet = false;                       ///< run: --quiet
   bool is_verbose = false;                     ///< run: --verbose
   bool prints_csv = false;                     ///< verify only
