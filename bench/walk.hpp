@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "continuation/points/step.hpp"
 #include "load_path.hpp"
 #include "orthoglide.hpp"
 #include "springfold/continuation/trace.hpp"

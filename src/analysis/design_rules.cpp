@@ -48,7 +48,7 @@ class Checker {
     const auto at = std::find_if(columns_.begin(), columns_.end(),
                                  [&](const QuantityDefinition& q) { return q.name == name; });
     if (at == columns_.end())
-      add(key, "no quantity \"" + name + "\" in this study");
+      add(key, "\"" + name + "\" is no quantity of this study");
     else if (continuous && !is_continuous(*at))
       add(key,
           "\"" + name +

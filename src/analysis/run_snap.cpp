@@ -20,7 +20,9 @@ void doubt_cycle(const LoadCycle& cycle, const Scales& scales, StudyResult& resu
   if (cycle.end != LoadCycle::End::complete && cycle.end != LoadCycle::End::no_landing)
     result.doubts.push_back("the load cycle ended on the way to level " +
                             std::to_string(cycle.level) + ": " + to_string(cycle.end));
-  const double size = std::max({scales.moment(), std::abs(cycle.area), cycle.released});
+  double size = std::max({scales.moment(), std::abs(cycle.area), cycle.released});
+  // On the way out and back areas cancel that are much larger than what is left.
+  for (const CycleStep& step : cycle.steps) size = std::max(size, std::abs(step.area));
   if (!(std::abs(cycle.gap) <= allowed_gap * size))
     result.doubts.push_back("the area of the load cycle is not what its jumps release");
 }

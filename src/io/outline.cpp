@@ -83,7 +83,7 @@ std::string state_text(Stability stability, bool is_load) {
       return "stable";
     case Stability::driven:
       return is_load ? "unstable, but it would stand if the way were driven"
-                     : "held only as it is driven, unstable under dead load";
+                     : "stable only as it is driven, not under dead load";
     case Stability::unstable:
       return "unstable";
   }

@@ -10,7 +10,7 @@
 namespace springfold::io {
 
 /// Sentences about a run, each made of facts of the result alone: along which part of the first branch
-/// it is stable, held only as it is driven, or unstable, and at which special points that changes, with
+/// it is stable, stable only as it is driven, or unstable, and at which special points that changes, with
 /// the force there (lambda, where there is none); how many other branches there are, and which look
 /// alike; of other kinds what was found. Empty where nothing was found.
 std::vector<std::string> outline_of(const Case& the_case, const analysis::StudyResult& result);

@@ -62,7 +62,7 @@ TEST_F(DesignMessages, WantTheCaseWithinItsBounds) {
 }
 
 TEST_F(DesignMessages, WantBoundsThatIncrease) {
-  EXPECT_THAT(after("[0.5, 2]", "[2, 0.5]"), testing::Contains(HasSubstr("need low < high")));
+  EXPECT_THAT(after("[0.5, 2]", "[2, 0.5]"), testing::Contains(HasSubstr("(low < high)")));
 }
 
 TEST_F(DesignMessages, WantARequirement) {
@@ -71,9 +71,10 @@ TEST_F(DesignMessages, WantARequirement) {
 }
 
 TEST_F(DesignMessages, WantColumnsThatExist) {
-  EXPECT_THAT(after("at_least = 3,", "at_least = 3, quantity = \"forse\","),
-              ElementsAre(HasSubstr(
-                  "study[1].design.critical_load.quantity: no quantity \"forse\" in this study")));
+  EXPECT_THAT(
+      after("at_least = 3,", "at_least = 3, quantity = \"forse\","),
+      ElementsAre(HasSubstr(
+          "study[1].design.critical_load.quantity: \"forse\" is no quantity of this study")));
 }
 
 TEST_F(DesignMessages, WantATolerance) {
