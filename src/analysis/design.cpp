@@ -145,13 +145,16 @@ class Design {
         static_cast<std::size_t>(path.base().quantity(wanted.along) - quantities.data());
     const auto of =
         static_cast<std::size_t>(path.base().quantity(wanted.quantity) - quantities.data());
+    int rows = 0;
     for (const Sample& row : path.path().branch.samples) {
       const double x = row.values[along];
       if (!(wanted.from <= x && x <= wanted.to)) continue;
-      if (std::abs(row.values[of] - mean) > (wanted.within + between_nodes) * std::abs(mean))
+      ++rows;
+      if (!(std::abs(row.values[of] - mean) <= (wanted.within + between_nodes) * std::abs(mean)))
         report_.verified = false;
       if (x >= wanted.to) break;  // only the first passage counts
     }
+    if (rows == 0) report_.verified = false;
   }
 
   void say(const FoundDesign& found) {

@@ -79,6 +79,10 @@ class Grower {
     std::erase_if(curve.hits, [this](const Hit& hit) {
       return limit_passed(t_.study, t_.evaluator, t_.quantities, hit.point).has_value();
     });
+    const double end =
+        std::max(curve.points.back().s, curve.hits.empty() ? 0.0 : curve.hits.back().point.s);
+    std::erase_if(curve.arcs, [end](const continuation::Arc& arc) { return arc.s_begin >= end; });
+    if (!curve.arcs.empty()) curve.arcs.back().s_end = std::min(curve.arcs.back().s_end, end);
     curve.stop = StopReason::event;
     curve.stop_detail = *passed;
   }

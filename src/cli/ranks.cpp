@@ -13,7 +13,8 @@ namespace {
 
 /// What Open MPI, PMIx and PMI (Slurm) set in the processes that they start: how many there are.
 const char* given_count() {
-  constexpr std::array<const char*, 3> names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"};
+  constexpr std::array<const char*, 3> names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE",
+                                             "SLURM_STEP_NUM_TASKS"};
   for (const char* name : names)
     if (const char* value = std::getenv(name); value != nullptr && std::atoi(value) > 1)
       return value;

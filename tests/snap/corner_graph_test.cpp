@@ -87,6 +87,20 @@ TEST(LowestWay, GoesOverOtherStatesWhereTheirSaddlesAreLower) {
   EXPECT_EQ(report.escapes[2].to, 2);
 }
 
+TEST(LowestWay, GoesOverStatesThatWereJoinedBefore) {
+  TransitionReport report;
+  report.states.resize(3);
+  const auto barrier = [](int first, int second, double saddle) {
+    Barrier at{.first = first, .second = second, .from_first = saddle, .from_second = saddle};
+    at.saddle.energy = saddle;
+    return at;
+  };
+  report.barriers = {barrier(2, 3, 4), barrier(1, 2, 5), barrier(1, 3, 10)};  // all minima at 0
+  find_lowest_ways(report, 0);
+  EXPECT_EQ(report.barriers[2].lowest_from_first, 5);
+  EXPECT_EQ(report.barriers[2].lowest_from_second, 5);
+}
+
 /// A slide whose spring hardens by nine orders of magnitude within the range of its load.
 using HardeningCurve = io::CaseFiles;
 

@@ -12,7 +12,7 @@ namespace springfold::continuation {
 
 std::string_view to_string(ArcEvidence evidence);
 
-/// Cuts a curve at its points and special points, and tests a model u(t) of each arc between them (a polynomial through up to
+/// Cuts a curve at its points and kinks, and tests a model u(t) of each arc between them (a polynomial through up to
 /// four points with their tangents). With the matrix at the middle of the arc,
 ///
 ///     M = | F_x     F_lambda |        S = first n columns of M^-1,      e = max_t |S F(u(t))|,

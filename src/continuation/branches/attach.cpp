@@ -64,6 +64,12 @@ void prepend(std::vector<CurvePoint> points, const std::vector<Hit>& hits, doubl
     h.s_after += length;
   }
   for (StepNote& note : curve.log) note.s += length;
+  for (Arc& arc : curve.arcs) {
+    arc.s_begin += length;
+    arc.s_end += length;
+  }
+  if (!curve.arcs.empty())
+    curve.arcs.insert(curve.arcs.begin(), Arc{.s_begin = 0, .s_end = length});
   curve.points.insert(curve.points.begin(), points.begin(), points.end());
   curve.hits.insert(curve.hits.begin(), hits.begin(), hits.end());
 }
@@ -96,6 +102,7 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
   const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
   TraceOptions near = options.trace;
   near.maximum_points = 500;
+  near.verify_arcs = false;  // the piece is too near to the junction to be shown
   near.step.initial = 0.5 * gap;
   near.step.maximum = gap;
   near.step.minimum = std::min(near.step.minimum, 1e-3 * gap);

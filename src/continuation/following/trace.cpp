@@ -379,7 +379,11 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   follow(walker, events, observer, at_hit, progress, curve);
   settle_families(curve);
   check_narrow_places(walker, curve);
-  if (options.verify_arcs) curve.arcs = verified_arcs(problem, curve, options);
+  // A curve that was asked to end is handed over at once.
+  if (options.verify_arcs && curve.stop == StopReason::observer)
+    curve.arcs = {{.s_begin = curve.points.front().s, .s_end = curve.points.back().s}};
+  else if (options.verify_arcs)
+    curve.arcs = verified_arcs(problem, curve, options);
   return curve;
 }
 

@@ -31,7 +31,6 @@ class TubeTest {
   bool derivatives(const Vector& u, Matrix& J);
   bool residual(const Vector& u, Vector& F);
   bool begin(const ArcModel& model, const Window& window);
-  bool invert(const Matrix& M);
   std::optional<double> radius(double longest);
   double change(const Vector& u, const Matrix& J);
   bool sigma_is_rounding(const ArcModel& model, const Window& window);

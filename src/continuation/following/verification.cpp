@@ -52,6 +52,8 @@ class Stretches {
     return std::move(found_);
   }
 
+  std::vector<Arc> gaps{};  ///< between pieces, without a kink that was found
+
  private:
   void begin(const CurvePoint& point) { found_.push_back({point}); }
 
@@ -60,7 +62,10 @@ class Stretches {
     Stretch& stretch = found_.back();
     const CurvePoint& before = stretch.back();
     if (!(point.s > before.s)) return;
-    if (point.piece != before.piece) return begin(point);
+    if (point.piece != before.piece) {
+      gaps.push_back({.s_begin = before.s, .s_end = point.s});
+      return begin(point);
+    }
     CurvePoint next = point;
     next.x = before.x + between(walker_, before, point).dx;
     next.tangent = direction_seen_from(walker_, before.x, point);
@@ -131,7 +136,7 @@ class Verifier {
 
   void record(const Window& w, ArcEvidence evidence, double radius) {
     const double s = points_[arc_].s, step = length(arc_);
-    const double from = s + step * (w.begin / way_);
+    const double from = w.begin == 0 ? s : s + step * (w.begin / way_);
     const double to = w.end == way_ ? points_[arc_ + 1].s : s + step * (w.end / way_);
     if (!arcs_.empty() && arcs_.back().evidence == evidence && arcs_.back().s_end == from &&
         from > s) {
@@ -163,7 +168,7 @@ class Verifier {
     const WatchedStep step(walker_, to, length(arc_));
     const auto other = separation_at(step, to);
     const double off = misfit(walker_, model, points_[from], to);
-    return other && (off <= own_branch * other->distance || off <= between_samples * other->blur);
+    return other && std::isfinite(other->blur) && off <= own_branch * other->distance;
   }
 
   const Walker& walker_;
@@ -204,7 +209,8 @@ std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
     for (CurvePoint& p : hit.leaving) p = own.inside(p);
     inside.hits.push_back(std::move(hit));
   }
-  for (const Stretch& stretch : Stretches(walker).of(inside)) {
+  Stretches stretches(walker);
+  for (const Stretch& stretch : stretches.of(inside)) {
     if (problem.structured()) {
       arcs.push_back({stretch.front().s, stretch.back().s});
       continue;
@@ -212,6 +218,9 @@ std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
     Verifier verifier(walker, stretch, arcs);
     for (std::size_t k = 0; k + 1 < stretch.size(); ++k) verifier.verify(k);
   }
+  arcs.insert(arcs.end(), stretches.gaps.begin(), stretches.gaps.end());
+  std::stable_sort(arcs.begin(), arcs.end(),
+                   [](const Arc& a, const Arc& b) { return a.s_begin < b.s_begin; });
   return arcs;
 }
 
