@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 
 #include "critical_runs.hpp"
 #include "imperfection.hpp"
@@ -32,6 +34,37 @@ std::vector<std::string> parameters_of(const Study& study) {
 
 /// A worst combination is one of named parameters: all of the case have no common unit.
 bool has_worst(const Study& study) { return !study.critical.parameters.empty(); }
+
+/// A parameter whose value is 0 says nothing of its size, and the steps of differences are parts of that. Of several sizes
+/// the one is taken about which the rates of the load change least: larger ones bend, smaller ones are lost in rounding.
+std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t number,
+                                              const Member& base, const BasePath& path,
+                                              std::size_t lambda) {
+  constexpr double factor = 0x1p-3, smallest = 0x1p-18;
+  std::unique_ptr<CaseCurves> best;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> rates_before;
+  for (double size = 1; size >= smallest; size *= factor) {
+    Study sized = study;
+    sized.critical.low = -0.5 * size;
+    sized.critical.high = 0.5 * size;
+    auto curves = std::make_unique<CaseCurves>(sized, number);
+    std::vector<double> rates;
+    for (const SpecialPoint& point : path.points) {
+      const auto found = rates_at_special(*curves, base, point, column_values({lambda}));
+      rates.push_back(found ? (*found)[0] : undefined);
+    }
+    std::optional<double> change;  // nothing where the parameter keeps no point
+    for (std::size_t k = 0; k < rates_before.size(); ++k)
+      if (std::isfinite(rates[k]) && std::isfinite(rates_before[k]))
+        change = std::max(change.value_or(0), std::abs(rates[k] - rates_before[k]));
+    if (!best || (change && *change < least)) best = std::move(curves);
+    least = std::min(least, change.value_or(least));
+    if (!rates_before.empty() && (!change || least == 0)) break;
+    rates_before = std::move(rates);
+  }
+  return best;
+}
 
 void say_lost(const std::string& labels, const std::string& parameter, BasePath& path) {
   for (const SpecialPoint& point : path.points)
@@ -102,9 +135,9 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
   for (const std::string& parameter : parameters_of(study)) {
     const auto number =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
-    const CaseCurves curves(study, number);
-    const Member& base = curves.base();
+    auto own = std::make_unique<CaseCurves>(study, number);
     if (result.quantities.empty()) {
+      const Member& base = own->base();
       result.start = base.report;
       if (!base.report.found) return;
       result.lambda_unit = lambda_unit_of(base.study, base.setup.system);
@@ -122,6 +155,10 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       }
       for (const SpecialPoint& point : path.points) laws.emplace_back(point);
     }
+    if (own->value() == 0)
+      own = curves_about_zero(study, number, own->base(), path, columns[lambda]);
+    const CaseCurves& curves = *own;
+    const Member& base = curves.base();
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
     std::string lost;
