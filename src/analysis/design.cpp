@@ -36,7 +36,14 @@ class Design {
     const DesignPath before(path_case(), search_.values(Vector::Zero(count())));
     result_.start = before.base().report;
     if (!before.has_start()) return;
-    const FoundDesign found = search_.run();
+    FoundDesign found = search_.run();
+    if (rests_on_rounding(found)) {
+      found.status = DesignStatus::unresolved;
+      found.why =
+          "a requirement holds only because a parameter is moved by rounding, and not without "
+          "that: a parameter that "
+          "breaks a branch point, an imperfection, cannot be a parameter of a design";
+    }
     report_.status = found.status;
     report_.change = search_.size_of(found.changes);
     report_.optimality = found.optimality;
@@ -99,6 +106,18 @@ class Design {
   bool all_hold(const std::vector<FoundRequirement>& requirements) const {
     return std::all_of(requirements.begin(), requirements.end(),
                        [](const FoundRequirement& one) { return one.holds; });
+  }
+
+  /// Are requirements met by changes of nothing but rounding, and not without them?
+  bool rests_on_rounding(const FoundDesign& found) {
+    constexpr double rounding_change = 1e-12;  // of a parameter's unit
+    if (found.status != DesignStatus::met) return false;
+    Vector changes = found.changes;
+    for (double& change : changes)
+      if (std::abs(change) < rounding_change) change = 0;
+    if (changes == found.changes) return false;
+    const auto there = search_.assess(changes, search_.first_ways());
+    return !there || !all_hold(there->requirements);
   }
 
   /// The path of the answer is traced again; where limit points are born there, the one a little inside too.
@@ -176,7 +195,7 @@ class Design {
             limits;
         return;
       case DesignStatus::unresolved:
-        report_.message = "unresolved: " + found.why;
+        report_.message = found.why;
         return;
     }
   }

@@ -286,6 +286,13 @@ std::string lambda_text(const io::PlannedRun& planned, const io::UnitLabels& uni
   return "";
 }
 
+/// The kind as the case names it: studies with jumps are traced as others are.
+std::string kind_of(const analysis::Study& plan) {
+  if (plan.snap && plan.snap->transitions) return "transitions";
+  if (plan.snap && plan.snap->cycle) return "load_cycle";
+  return std::string(to_string(plan.kind)) + (plan.snap ? " with jumps" : "");
+}
+
 std::string study_text(const io::Case& the_case, const std::string& name) {
   std::string labels;
   Index runs = 0;
@@ -305,7 +312,7 @@ std::string study_text(const io::Case& the_case, const std::string& name) {
   if (const auto& after = first->history.earlier)
     more += ", starts from study \"" + after->study.name + "\" at " + after->at;
   const std::string line =
-      fmt::format("  study     {} ({}{}{}), {}{}\n", io::shown(name), to_string(first->plan.kind),
+      fmt::format("  study     {} ({}{}{}), {}{}\n", io::shown(name), kind_of(first->plan),
                   is_curve ? ", control " + std::string(to_string(first->plan.control)) : "",
                   io::shown(more), counted(runs, "run"), io::shown(labels));
   const bool has_lambda = is_curve || analysis::is_of_critical_points(first->plan.kind);
