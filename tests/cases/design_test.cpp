@@ -95,6 +95,7 @@ TEST(Design, FindsTheLeastChangeOfSeveralParameters) {
 TEST(Design, WithTheSumOfChangesTurnsToTheParameterThatCountsMost) {
   DesignSettings design = critical_load(0.04);
   design.changes = ChangeNorm::sum;
+  design.starts = 2;
   design.parameters = {{"Kv", 0.005, 0.015}, {"p", 0.227, 0.681}, {"L", 0.5, 1.5}};
   const StudyResult result = designed(design);
   EXPECT_NEAR(after(result, "Kv"), 0.01, 1e-9);
