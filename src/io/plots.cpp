@@ -11,6 +11,7 @@
 #include "figure.hpp"
 #include "gnuplot_process.hpp"
 #include "gnuplot_text.hpp"
+#include "jump_arrows.hpp"
 #include "label_layout.hpp"
 #include "manifest.hpp"
 #include "map_figure.hpp"
@@ -177,39 +178,12 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, b
   }
 }
 
-/// The part of a line inside the frame, from one share of it to another; nothing if it lies outside (Liang and Barsky).
-std::optional<std::pair<double, double>> inside(const Figure& figure, const PlotPoint& from,
-                                                const PlotPoint& to) {
-  double begin = 0, end = 1;
-  const auto cut = [&](double at, double way, double low, double high) {
-    if (way == 0) return low <= at && at <= high;
-    const double a = (low - at) / way, b = (high - at) / way;
-    begin = std::max(begin, std::min(a, b));
-    end = std::min(end, std::max(a, b));
-    return begin <= end;
-  };
-  const bool seen =
-      cut(from.first, to.first - from.first, figure.low.first, figure.high.first) &&
-      cut(from.second, to.second - from.second, figure.low.second, figure.high.second);
-  return seen ? std::optional(std::pair{begin, end}) : std::nullopt;
-}
-
-/// gnuplot does not clip arrows: one that leaves the frame ends there, without a head.
 void send_jumps(Gnuplot& gnuplot, const Figure& figure) {
-  for (const auto& [from, to] : figure.arrows) {
-    const auto part = inside(figure, from, to);
-    if (!part) continue;
-    const auto at = [&, from = from, to = to](double t) {
-      return PlotPoint{from.first + t * (to.first - from.first),
-                       from.second + t * (to.second - from.second)};
-    };
-    const PlotPoint begin = part->first > 0 ? at(part->first) : from;
-    const PlotPoint end = part->second < 1 ? at(part->second) : to;
-    gnuplot << "set arrow from first " << begin.first << ", first " << begin.second << " to first "
-            << end.first << ", first " << end.second
-            << (part->second < 1 ? " nohead" : " head filled size screen 0.012, 20")
+  for (const ShownArrow& arrow : arrows_inside(figure))
+    gnuplot << "set arrow from first " << arrow.from.first << ", first " << arrow.from.second
+            << " to first " << arrow.to.first << ", first " << arrow.to.second
+            << (arrow.has_head ? " head filled size screen 0.012, 20" : " nohead")
             << " linecolor rgb ink linewidth 1.2 front\n";
-  }
 }
 
 void send_insets(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
