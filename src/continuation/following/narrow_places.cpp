@@ -73,17 +73,6 @@ bool one_piece(const Curve& curve, std::size_t first, std::size_t last) {
          });
 }
 
-/// How far the model passes from a point of the curve.
-double misfit(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
-              const CurvePoint& p) {
-  const Direction from{p.x - origin.x, p.lambda - origin.lambda};
-  CurvePoint expected;
-  model.point(walker.weights, origin, metric_product(walker.weights, from, origin.tangent),
-              expected);
-  const Direction off{expected.x - p.x, expected.lambda - p.lambda};
-  return std::sqrt(metric_product(walker.weights, off, off));
-}
-
 /// Two points before the stretch and two behind it make a model; a point nearer to it on each side is compared.
 /// @param far  from how far off
 /// @returns nothing where the curve does not reach so far, or turns
@@ -103,7 +92,7 @@ std::optional<bool> is_smooth_across(const Walker& walker, const Curve& curve,
   if (!model.go_through(walker.weights, point(1), nodes)) return std::nullopt;
   for (const std::size_t i : {2, 3}) {
     const auto s = separation(walker, curve, at[i]);
-    const double off = misfit(walker, model, point(1), point(i));
+    const double off = distance_of(walker.weights, model, point(1), point(i));
     if (s && off > changed * s->distance && off > between_samples * s->blur) return false;
   }
   return true;

@@ -76,17 +76,6 @@ class Stretches {
   std::vector<Stretch> found_{};
 };
 
-/// How far a model passes from a point.
-double misfit(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
-              const CurvePoint& p) {
-  const Direction from{p.x - origin.x, p.lambda - origin.lambda};
-  CurvePoint expected;
-  model.point(walker.weights, origin, metric_product(walker.weights, from, origin.tangent),
-              expected);
-  const Direction off{expected.x - p.x, expected.lambda - p.lambda};
-  return std::sqrt(metric_product(walker.weights, off, off));
-}
-
 /// One arc after the other, each cut into windows as the test needs them.
 class Verifier {
  public:
@@ -167,7 +156,7 @@ class Verifier {
     if (!model.go_through(walker_.weights, points_[from], nodes)) return false;
     const WatchedStep step(walker_, to, length(arc_));
     const auto other = separation_at(step, to);
-    const double off = misfit(walker_, model, points_[from], to);
+    const double off = distance_of(walker_.weights, model, points_[from], to);
     return other && std::isfinite(other->blur) && off <= own_branch * other->distance;
   }
 

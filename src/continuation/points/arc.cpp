@@ -86,4 +86,13 @@ void ArcModel::point(const Vector& weights, const CurvePoint& origin, double t,
   point.negative.reset();
 }
 
+double distance_of(const Vector& weights, const ArcModel& model, const CurvePoint& origin,
+                   const CurvePoint& point) {
+  const Direction from{point.x - origin.x, point.lambda - origin.lambda};
+  CurvePoint expected;
+  model.point(weights, origin, metric_product(weights, from, origin.tangent), expected);
+  const Direction off{expected.x - point.x, expected.lambda - point.lambda};
+  return std::sqrt(metric_product(weights, off, off));
+}
+
 }  // namespace springfold::continuation

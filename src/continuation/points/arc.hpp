@@ -41,4 +41,8 @@ class ArcModel {
   mutable Vector u_{}, rate_{};
 };
 
+/// How far a model passes from a point.
+double distance_of(const Vector& weights, const ArcModel& model, const CurvePoint& origin,
+                   const CurvePoint& point);
+
 }  // namespace springfold::continuation
