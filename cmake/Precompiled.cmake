@@ -15,6 +15,14 @@ set(springfold_arithmetic_headers
 set(springfold_text_headers ${springfold_arithmetic_headers} <filesystem> <sstream>)
 set(springfold_test_headers ${springfold_text_headers} <gmock/gmock.h> <gtest/gtest.h> <random>)
 
+# Files of one kind, compiled as one: what they all instantiate (Eigen above all) is compiled once. Names in unnamed
+# namespaces of a layer or a folder of tests must differ for this.
+set(springfold_files_at_once 10)
+if(SPRINGFOLD_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${springfold_files_at_once})
+endif()
+
 # springfold_precompile(<target> arithmetic|text|test): the headers are parsed for a target of their own, and taken
 # from there. All but `arithmetic` are compiled plainly.
 function(springfold_precompile target kind)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "number_text.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
@@ -12,8 +13,6 @@
 
 namespace springfold::analysis {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<const char*>& wrench_names(model::TaskSpace space) {
   static const std::vector<const char*> xy{"Fx", "Fy"}, planar{"Fx", "Fy", "Mz"},

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
 #include "control_leg.hpp"
 #include "cpu_time.hpp"
@@ -14,8 +15,6 @@
 
 namespace springfold::analysis {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// How the events end that stand for a target, not for a place on the way.
 constexpr const char* at_target = " is exactly on its threshold at this target";

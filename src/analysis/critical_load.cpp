@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
 #include "number_text.hpp"
 #include "path_problem.hpp"
@@ -15,8 +16,6 @@ namespace {
 using continuation::CurvePoint;
 using continuation::Hit;
 using continuation::HitKind;
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Index> unstable_modes(const PathProblem& problem, const CurvePoint& point) {
   continuation::Linearisation at;

@@ -16,7 +16,7 @@ namespace {
 
 /// How far inside of its limits a design is traced again, if it is bounded by the birth of limit points: on the limit
 /// they are one point to rounding.
-constexpr double beside = 1e-6;
+constexpr double one_point = 1e-6;
 /// Rows of the traced path may miss a range by this much, relative: it is known between nodes by interpolation.
 constexpr double between_nodes = 1e-6;
 constexpr int digits = 10;
@@ -130,9 +130,9 @@ class Design {
     const bool jumps = found.status == DesignStatus::met && !(found.optimality < 1);
     if (climbs && !jumps) {
       const auto inside =
-          search_.assess(found.changes + search_.inwards(found, beside), search_.first_ways());
+          search_.assess(found.changes + search_.inwards(found, one_point), search_.first_ways());
       const auto outside =
-          search_.assess(found.changes - search_.inwards(found, beside), search_.first_ways());
+          search_.assess(found.changes - search_.inwards(found, one_point), search_.first_ways());
       report_.verified =
           inside && outside && all_hold(inside->requirements) && !all_hold(outside->requirements);
       // On the limit itself whether the merging points are seen is rounding.

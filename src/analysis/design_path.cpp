@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "path_slope.hpp"
 
 namespace springfold::analysis {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 /// A mark this near to the value at the start is the start, in units of the column.
 constexpr double at_start_itself = 1e-12;
 /// Part of a limit by which it is moved away from a mark that lies on it: both are then met.

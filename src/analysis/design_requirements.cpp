@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
 #include "first_unwanted.hpp"
 #include "number_text.hpp"
@@ -12,7 +13,6 @@
 namespace springfold::analysis {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// What a requirement is measured in.

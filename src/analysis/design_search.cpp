@@ -12,7 +12,7 @@ constexpr double active = 1e-7;
 /// Multipliers that are smaller, relative to the objective's slope, are none.
 constexpr double no_multiplier = 1e-7;
 /// Below this residual a point is a minimum; beyond it a jump of the requirements ended the search.
-constexpr double is_minimum = 1e-5;
+constexpr double optimal = 1e-5;
 /// Changes are drawn back to what still meets the requirements this closely, relative.
 constexpr double closely = 1e-14;
 /// A rough search meets the requirements this well, and ends as near to others that end at the same place.
@@ -338,7 +338,7 @@ FoundDesign DesignSearch::run() {
     return best;
   }
   conditions(best);
-  if (best.status == DesignStatus::met && !(best.optimality <= is_minimum)) {
+  if (best.status == DesignStatus::met && !(best.optimality <= optimal)) {
     best.changes = drawn_back(best.changes);
     conditions(best);
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "analysis/random_fraction.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/model/rotation_vector.hpp"
@@ -15,11 +16,6 @@ namespace {
 struct Box {
   Vector middle{}, side{};
 };
-
-/// Bits of the generator are used as they are: library distributions differ between libraries.
-double random_fraction(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 /// Wrenches are not drawn: those that suit best are computed.
 Box box_of(const PathProblem& problem, const Study& study,

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "closure_rank.hpp"
 #include "quantities.hpp"
 
@@ -9,7 +10,6 @@ namespace springfold::analysis {
 namespace {
 
 using Kind = QuantityDefinition::Kind;
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "quantities.hpp"
 #include "resting.hpp"
 
@@ -27,7 +28,6 @@ double Evaluator::displacement_rate(const continuation::CurvePoint& point) const
 /// With the matrix A of all motions and the load's rate b the count under the constraint that b does no
 /// work is that of A, less one where b . A^-1 b < 0: where the displacement falls while the load grows.
 double Evaluator::driven_index(const continuation::CurvePoint& point, double index) const {
-  constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
   if (std::isnan(index) || index == 0) return index;  // what is stable free is so constrained
   if (point.tangent.dx.size() != point.x.size() || !resting_switches(problem_, point).empty())
     return undefined;

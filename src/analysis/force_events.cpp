@@ -15,14 +15,14 @@ using continuation::Hit;
 using continuation::HitKind;
 
 /// Hits closer than this in arc length are one point.
-constexpr double same_place = 1e-6;
+constexpr double same_hit = 1e-6;
 
 bool has_tag(const Hit& hit, EventTag tag) { return hit.kind == HitKind::user && hit.tag == tag; }
 
 template <class Test>
 bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test) {
   return std::any_of(hits.begin(), hits.end(), [&](const Hit& hit) {
-    return std::abs(hit.point.s - place.point.s) <= same_place && test(hit);
+    return std::abs(hit.point.s - place.point.s) <= same_hit && test(hit);
   });
 }
 

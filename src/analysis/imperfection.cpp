@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
+
 namespace springfold::analysis {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// The branch point to rounding.
 continuation::CriticalStart polished(const CaseCurves& curves, const Member& base,

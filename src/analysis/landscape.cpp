@@ -11,7 +11,7 @@ namespace {
 /// Closures that hold to this are closed: the residual tolerance of equilibria, with room for rounding.
 constexpr double closed = 1e-13;
 /// Two states of one equilibrium, both polished to about 1e-12, are much nearer than this.
-constexpr double near = 1e-7;
+constexpr double same_state = 1e-7;
 /// A switch nearer to zero than this rests at its threshold: both are solved to about 1e-12. As for special points.
 constexpr double at_threshold = 1e-10;
 /// Where more springs rest at once, their pieces are too many to be looked at.
@@ -132,7 +132,7 @@ bool Landscape::same(const Vector& a, const Vector& b) const {
   if (terrain_.same) return terrain_.same(a, b);
   for (const Index i : moving_) {
     const double d = a[i] - b[i];
-    if (std::abs(periods_[i] > 0 ? std::remainder(d, periods_[i]) : d) > near) return false;
+    if (std::abs(periods_[i] > 0 ? std::remainder(d, periods_[i]) : d) > same_state) return false;
   }
   return true;
 }

@@ -10,8 +10,8 @@
 namespace springfold::analysis {
 namespace {
 
-/// Where steps or violations are as small as this, nothing but rounding is left.
-constexpr double rounding = 1e-13;
+/// Where steps or violations are as small as this, nothing but least_step is left.
+constexpr double least_step = 1e-13;
 constexpr double allowed_violation = 1e-11;
 /// Steps of a rough search end there; minima that are told apart differ by far more.
 constexpr double rough = 1e-4;
@@ -81,8 +81,8 @@ Vector search_minimum(const InequalityProblem& problem, const Vector& start, Dep
   if (problem.inequalities > 0)
     nlopt_add_inequality_mconstraint(search.get(), static_cast<unsigned>(problem.inequalities),
                                      inequalities, &memory, tolerances.data());
-  nlopt_set_xtol_rel(search.get(), to_the_end ? rounding : rough);
-  nlopt_set_xtol_abs1(search.get(), to_the_end ? rounding : rough);
+  nlopt_set_xtol_rel(search.get(), to_the_end ? least_step : rough);
+  nlopt_set_xtol_abs1(search.get(), to_the_end ? least_step : rough);
   nlopt_set_maxeval(search.get(), to_the_end ? most_evaluations : most_rough_evaluations);
   Vector x = start;
   double f = 0;

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <thread>
 
+#include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
 #include "critical_load.hpp"
 #include "grow_diagram.hpp"
@@ -34,16 +35,14 @@ int MapSettings::nodes() const {
 
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 /// A mechanism, and where its plain inverse kinematics begins.
-struct Ground {
+struct MapGround {
   CommandSetup setup{};
   statics::KinematicInverse own{};
 };
 
-Ground ground_of(const model::Mechanism& mechanism, const Study& study, const Vector& load) {
-  Ground ground{command_setup(mechanism, study, load), {}};
+MapGround ground_of(const model::Mechanism& mechanism, const Study& study, const Vector& load) {
+  MapGround ground{command_setup(mechanism, study, load), {}};
   ground.own = at_own_pose(ground.setup);
   return ground;
 }
@@ -78,7 +77,7 @@ class NodeMaker {
       number /= axis.points;
       if (!axis.pose) parameters.push_back(at.back());
     }
-    Ground own;
+    MapGround own;
     if (varies_) {
       const Situation situation = study_.map.situation(parameters);
       if (const auto mistakes = model::problems_in(situation.mechanism); !mistakes.empty())
@@ -191,7 +190,7 @@ class NodeMaker {
   const Study& study_;
   std::size_t columns_ = 0;
   bool varies_ = false;  ///< an axis is a parameter: every node has its own mechanism
-  Ground ground_{};      ///< otherwise: of all nodes
+  MapGround ground_{};   ///< otherwise: of all nodes
 };
 
 /// Rows that threads take one after the other.

@@ -14,7 +14,7 @@ using continuation::Direction;
 using continuation::Hit;
 using continuation::HitKind;
 
-constexpr double step = 0x1p-9;  ///< of the six-point differences
+constexpr double slope_step = 0x1p-9;  ///< of the six-point differences
 /// Half of the digits of a number: a minimum is not better known from values.
 constexpr int bits = 26;
 
@@ -152,7 +152,7 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
     const auto slope = slope_at(*member, there, reference);
     return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
   };
-  const auto rate = six_point_derivative(along, 0, step);
+  const auto rate = six_point_derivative(along, 0, slope_step);
   return rate ? std::optional<double>{(*rate)[0] / curves.scale()} : std::nullopt;
 }
 

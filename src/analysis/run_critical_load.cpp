@@ -18,8 +18,8 @@ using continuation::CriticalStart;
 using continuation::Degeneracy;
 
 /// Parts of the range: how far before its end a piece is looked at, how far behind it the next one is looked for,
-/// and how closely ends are bracketed.
-constexpr double beside = 1e-7, next_piece = 1e-6, closely = 1e-11;
+/// and how closest_bracket ends are bracketed.
+constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;
 /// Critical loads that differ by less are the same, relative to 1 + |lambda|.
@@ -195,7 +195,7 @@ class LoadsOverParameter {
   void verify(const LoadPiece& piece, Side& side, double mu, double sense) {
     double good = mu;
     std::vector<double> values = grid_;
-    const double near = side.end - sense * beside * width_;
+    const double near = side.end - sense * before_end * width_;
     values.push_back(near);
     std::sort(values.begin(), values.end());
     if (sense < 0) std::reverse(values.begin(), values.end());
@@ -245,7 +245,7 @@ class LoadsOverParameter {
 
   /// The critical point comes first at `good` and does not at `bad`.
   void end_before(const LoadPiece& piece, Side& side, double good, double bad) {
-    while (std::abs(bad - good) > closely * width_) {
+    while (std::abs(bad - good) > closest_bracket * width_) {
       const double middle = good + 0.5 * (bad - good);
       (is_first(piece, side.curve, middle) ? good : bad) = middle;
       known_.erase(middle);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/undefined.hpp"
 #include "critical_runs.hpp"
 #include "imperfection.hpp"
 #include "run_kinds.hpp"
@@ -13,14 +14,12 @@
 namespace springfold::analysis {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 /// Columns whose rates are given: loads, positions, energy.
 bool is_rated(const QuantityDefinition& q, const statics::System& system) {
-  using Kind = QuantityDefinition::Kind;
-  if (q.kind == Kind::unknown) return !system.is_wrench[static_cast<std::size_t>(q.entry)];
-  return q.kind == Kind::lambda || q.kind == Kind::force || q.kind == Kind::deflection ||
-         q.kind == Kind::energy;
+  using QuantityKind = QuantityDefinition::Kind;
+  if (q.kind == QuantityKind::unknown) return !system.is_wrench[static_cast<std::size_t>(q.entry)];
+  return q.kind == QuantityKind::lambda || q.kind == QuantityKind::force ||
+         q.kind == QuantityKind::deflection || q.kind == QuantityKind::energy;
 }
 
 std::string name_of(const std::string& column, const std::string& parameter) {

@@ -9,7 +9,7 @@ namespace springfold::analysis {
 namespace {
 
 /// Step of the six-point differences, where rates are of size 1.
-constexpr double step = 0x1p-9;
+constexpr double rate_step = 0x1p-9;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::optional<Vector> rates_at_special(const CaseCurves& curves, const Member& b
                             .piece = start->piece});
   };
   const double size = std::max({1.0, rate->dx.lpNorm<Eigen::Infinity>(), std::abs(rate->dlambda)});
-  auto found = six_point_derivative(along, 0, step / size);
+  auto found = six_point_derivative(along, 0, rate_step / size);
   if (found) *found /= curves.scale();
   return found;
 }
@@ -39,7 +39,7 @@ std::optional<Vector> rates_at_start(const CaseCurves& curves, const StateValues
     if (member == nullptr) return std::nullopt;
     return values(*member, member->start());
   };
-  auto found = six_point_derivative(along, 0, step);
+  auto found = six_point_derivative(along, 0, rate_step);
   if (found) *found /= curves.scale();
   return found;
 }

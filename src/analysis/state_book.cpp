@@ -5,19 +5,15 @@
 #include <numbers>
 #include <random>
 
+#include "analysis/random_fraction.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
 
-/// Bits of the generator are used as they are: library distributions differ between libraries.
-double random_fraction(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
-
 /// First distance from a saddle, along an unstable mode; halved until the energy is lower there.
 constexpr double kick = 0.02;
-constexpr int halvings = 20;
+constexpr int most_halvings = 20;
 
 }  // namespace
 
@@ -60,7 +56,7 @@ void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
     for (const double sign : {1.0, -1.0}) {
       std::optional<Vector> x;
       double length = kick;
-      for (int h = 0; h < halvings; ++h, length /= 2) {
+      for (int h = 0; h < most_halvings; ++h, length /= 2) {
         x = landscape_.moved(*at, sign * length * modes.vectors.col(i));
         if (x && landscape_.energy(*x) < state.energy) break;
         x.reset();

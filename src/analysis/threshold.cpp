@@ -16,9 +16,9 @@ using continuation::CriticalHit;
 using continuation::CriticalPoint;
 
 /// Relative distance at which an answer is traced again, on both sides.
-constexpr double beside = 1e-6;
+constexpr double traced_beside = 1e-6;
 /// Pieces of the boundary that are followed one after the other.
-constexpr int most_pieces = 40;
+constexpr int most_boundary_pieces = 40;
 
 class Threshold {
  public:
@@ -37,15 +37,15 @@ class Threshold {
     const double end = (s.smallest ? s.high : s.low) / curves_.scale();
     double mu = begin;
     bool any = false;
-    for (int piece = 0; piece < most_pieces; ++piece) {
+    for (int piece = 0; piece < most_boundary_pieces; ++piece) {
       if (towards_ * (mu - end) > 0) return none("");
       const auto bad = unwanted_at(mu);
       if (!why_.empty()) return doubt(mu);
       if (!bad) return found(any ? last_ : begin, any);
       if (!follow(*bad, mu)) return;
       any = true;
-      mu = last_ + towards_ * beside * std::max(std::abs(last_), 1e-3);
-      // What ends beside where it began is taken up again a little farther on.
+      mu = last_ + towards_ * traced_beside * std::max(std::abs(last_), 1e-3);
+      // What ends traced_beside where it began is taken up again a little farther on.
     }
     why_ = "the boundary has more pieces than are followed";
     doubt(mu);
@@ -142,11 +142,11 @@ class Threshold {
                       ", decided by: " + report_.decides;
     if (any) {
       why_.clear();
-      const double side = towards_ * beside * std::max(std::abs(mu), 1e-3);
+      const double side = towards_ * traced_beside * std::max(std::abs(mu), 1e-3);
       report_.verified =
           unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
       if (!report_.verified)
-        result_.doubts.push_back("traced again beside " + study_.critical.parameter + " = " +
+        result_.doubts.push_back("traced again traced_beside " + study_.critical.parameter + " = " +
                                  rounded(report_.value) + ", the path does not confirm it");
       mark();
     }

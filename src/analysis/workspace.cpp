@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/undefined.hpp"
 #include "commanded.hpp"
 #include "cpu_time.hpp"
 #include "number_text.hpp"
@@ -18,7 +19,6 @@
 namespace springfold::analysis {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double beyond =
     -10;  ///< margin where the chains do not close or the factors are undefined
 

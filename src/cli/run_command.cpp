@@ -36,8 +36,6 @@ std::string name_of(const StudyResult& result) {
          (result.label.empty() ? "" : " (" + result.label + ")");
 }
 
-void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
-
 /// What is good to know, and no trouble.
 void note(const Arguments& arguments, const Session& session, const std::string& message) {
   if (!arguments.is_quiet) say(session, message);

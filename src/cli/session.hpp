@@ -4,6 +4,7 @@
 #include <functional>
 #include <ostream>
 
+#include "messages.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -34,5 +35,7 @@ inline std::function<bool()> stop_request_of(const Session& session) {
   if (!session.signal) return {};
   return [signal = session.signal] { return signal() != 0; };
 }
+
+inline void say(const Session& session, const std::string& message) { say(session.err, message); }
 
 }  // namespace springfold::cli

@@ -15,8 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using io::VerifiedCase;
 
-void say(const Session& session, const std::string& message) { cli::say(session.err, message); }
-
 bool is_case_file(const fs::path& path) {
   const std::string name = path.filename().string();
   return fs::is_regular_file(path) && name.starts_with("case") && path.extension() == ".toml";

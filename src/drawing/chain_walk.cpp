@@ -11,7 +11,7 @@ namespace {
 using model::Joint;
 using model::JointKind;
 using model::JointRole;
-using Frame = model::Pose<double>;
+using Pose = model::Pose<double>;
 
 /// What a joint with several coordinates is drawn as: the role that says most.
 int rank_of(JointRole role) {
@@ -36,8 +36,8 @@ std::string common_name(const Joint& joint, bool is_composed) {
 
 class Walk {
  public:
-  Walk(const statics::System& system, std::size_t number, const Posture& posture,
-       const Frame& start, Scene& scene)
+  Walk(const statics::System& system, std::size_t number, const Posture& posture, const Pose& start,
+       Scene& scene)
       : chain_{system.mechanism.chains[number]},
         slice_{system.chain_slices[number]},
         number_{static_cast<Index>(number)},
@@ -156,7 +156,7 @@ class Walk {
     if (!joint.spring || is_nothing(*joint.spring)) return;
     const SpringState state = spring_state(*joint.spring, coordinate(i));
     for (const double threshold : thresholds_of(*joint.spring)) {
-      Frame there = frame_;
+      Pose there = frame_;
       there.R = there.R * model::rotation_about<double>(joint.axis, command(i) + threshold);
       stops_.push_back({scene_.stops.size(), there.R, chain_.elements.size()});
       stops_.back().element = i + 1;
@@ -173,7 +173,7 @@ class Walk {
 
   std::size_t slide(std::size_t i) {
     const Joint& joint = *joint_at(i);
-    const Frame begin = frame_;
+    const Pose begin = frame_;
     const PointId from = here_;
     PointId spring_from = from;
     if (joint.role == JointRole::actuated && joint.spring) {
@@ -211,7 +211,7 @@ class Walk {
           scene_.springs[spirals_[k]].to = link.to;
     for (const PendingStop& stop : stops_) {
       StopPart& part = scene_.stops[stop.number];
-      const Frame& joint = frames_.behind[stop.element];
+      const Pose& joint = frames_.behind[stop.element];
       model::Vec3<double> ahead = model::Vec3<double>::UnitX();  // where nothing follows
       for (std::size_t i = stop.element; i < frames_.behind.size(); ++i) {
         const model::Vec3<double> way = frames_.behind[i].p - joint.p;
@@ -234,7 +234,7 @@ class Walk {
   Index number_;
   const Posture& posture_;
   Scene& scene_;
-  Frame frame_;
+  Pose frame_;
   PointId here_ = 0;
   std::vector<bool> is_elastic_;  ///< per element
   ChainFrames frames_;

@@ -5,19 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "drawing/brief.hpp"
 #include "glyphs.hpp"
 #include "name_places.hpp"
 #include "painter.hpp"
 
 namespace springfold::drawing {
 namespace {
-
-std::string brief(double value) {
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr;
-  return {buffer, end};
-}
 
 /// Smallest and largest value, a little wider; a range around a single one.
 void measure(std::vector<double> values, double& from, double& to) {

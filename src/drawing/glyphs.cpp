@@ -16,7 +16,7 @@ Place polar(Place centre, double radius, double angle) {
 /// On the screen y runs down; angles are counted as on paper.
 double angle_of(Place a) { return std::atan2(-a.y, a.x); }
 
-Path head(Place tip, Place along, const Ink& ink) {
+Path arrow_head(Place tip, Place along, const Ink& ink) {
   constexpr double longness = 9, half_width = 4;
   const Place back = tip - longness * along;
   return {{tip, back + half_width * across(along), back - half_width * across(along)},
@@ -68,7 +68,7 @@ std::vector<Path> arrow(Place from, Place to, const Ink& ink) {
   const Place along = direction(to - from);
   Ink shaft = ink;
   shaft.fill.clear();
-  return {{{from, to - 7 * along}, false, shaft, ""}, head(to, along, ink)};
+  return {{{from, to - 7 * along}, false, shaft, ""}, arrow_head(to, along, ink)};
 }
 
 std::vector<Path> turning_arrow(Place centre, double radius, double sign, const Ink& ink) {
@@ -82,7 +82,7 @@ std::vector<Path> turning_arrow(Place centre, double radius, double sign, const 
   const Place out = direction(tip - centre);
   // Counterclockwise on the screen is to the left of the way out.
   const Place along = sign > 0 ? Place{out.y, -out.x} : Place{-out.y, out.x};
-  return {arc, head(tip + 5 * along, along, ink)};
+  return {arc, arrow_head(tip + 5 * along, along, ink)};
 }
 
 std::vector<Path> ground(Place at, Place away, double size, const Ink& ink) {

@@ -5,23 +5,18 @@
 #include <cmath>
 #include <functional>
 
+#include "drawing/brief.hpp"
+
 namespace springfold::drawing {
 namespace {
 
-constexpr double line_height = 18, size = 11, sample = 22, margin = 14;
+constexpr double line_height = 18, font_size = 11, sample = 22, margin = 14;
 
 struct Entry {
   std::string text{};
   Ink ink{};
   bool is_disc = false;
 };
-
-std::string brief(double value) {
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
-  return {buffer, end};
-}
 
 class Legend {
  public:
@@ -63,7 +58,7 @@ class Legend {
     const std::string what = is_force ? "force" : "energy of a spring";
     const std::string unit = is_force ? options.force_unit : options.energy_unit;
     for (const double part : {0.0, 0.5, 1.0})
-      entries_.push_back({(part == 0 ? what + " " : "") + brief(part * sheet_.largest_value) +
+      entries_.push_back({(part == 0 ? what + " " : "") + brief(part * sheet_.largest_value, 3) +
                               (unit.empty() ? "" : " " + unit),
                           {ramp_colour(part), "", 4, {}}});
   }
@@ -129,14 +124,14 @@ double add_legend(const std::vector<Panel>& panels, const Sheet& sheet,
   double x = margin, y = top + line_height;
   const Legend legend{panels, sheet, options};
   for (const Entry& entry : legend.entries()) {
-    Words words{.at = {0, y}, .text = entry.text, .size = size, .colour = "#333333"};
+    Words words{.at = {0, y}, .text = entry.text, .size = font_size, .colour = "#333333"};
     const Box box = box_of(words);
     const double width = sample + 6 + box.right - box.left;
     if (x > margin && x + width > picture.width - margin) {
       x = margin;
       y += line_height;
     }
-    const Place middle{x + sample / 2, y - 0.35 * size};
+    const Place middle{x + sample / 2, y - 0.35 * font_size};
     if (entry.is_disc)
       picture.marks.emplace_back(Disc{middle, 4.5, entry.ink, ""});
     else

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "drawing/brief.hpp"
 #include "glyphs.hpp"
 #include "name_places.hpp"
 
@@ -11,13 +12,6 @@ namespace springfold::drawing {
 namespace {
 
 using Vec = model::Vec3<double>;
-
-std::string brief(double value) {
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr;
-  return {buffer, end};
-}
 
 class Painter {
  public:

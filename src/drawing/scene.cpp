@@ -13,11 +13,11 @@
 namespace springfold::drawing {
 namespace {
 
-using Frame = model::Pose<double>;
+using Pose = model::Pose<double>;
 using Vec = model::Vec3<double>;
 
-Frame frame_of(const model::Body& body, const Vector& t) {
-  Frame frame;
+Pose frame_of(const model::Body& body, const Vector& t) {
+  Pose frame;
   frame.p = Vec(t[0], t[1], translations(body.task_space) == 3 ? t[2] : 0);
   if (body.task_space == model::TaskSpace::planar)
     frame.R = model::rotation_about<double>(Vec::UnitZ(), t[2]);
@@ -47,8 +47,8 @@ class Builder {
   }
 
  private:
-  Frame body_frame(Index body) const {
-    return body == 0 ? Frame{} : bodies_[static_cast<std::size_t>(body - 1)];
+  Pose body_frame(Index body) const {
+    return body == 0 ? Pose{} : bodies_[static_cast<std::size_t>(body - 1)];
   }
 
   void add_bodies() {
@@ -104,9 +104,9 @@ class Builder {
     return at;
   }
 
-  static Frame shift(const Vec& p) { return {model::Mat3<double>::Identity(), p}; }
+  static Pose shift(const Vec& p) { return {model::Mat3<double>::Identity(), p}; }
 
-  Frame frame_at(const model::Anchor& anchor) const {
+  Pose frame_at(const model::Anchor& anchor) const {
     if (anchor.chain < 0) return body_frame(anchor.body) * shift(anchor.at);
     const auto chain = static_cast<std::size_t>(anchor.chain);
     const model::ChainPoint& point = mechanism_.chains[chain].points[anchor.point];
@@ -160,7 +160,7 @@ class Builder {
   void add_loads() {
     for (const model::Load& load : mechanism_.loads) {
       if (load.kind == model::LoadKind::pressure) continue;  // add_shapes
-      const Frame frame = frame_at(load.on);
+      const Pose frame = frame_at(load.on);
       const double factor = load.with_lambda ? posture_.lambda : 1;
       const Vec vector = factor * (load.follows ? Vec(frame.R * load.vector) : load.vector);
       scene_.loads.push_back(
@@ -193,7 +193,7 @@ class Builder {
   const model::Mechanism& mechanism_;
   const Posture& posture_;
   Scene scene_;
-  std::vector<Frame> bodies_;
+  std::vector<Pose> bodies_;
   std::vector<ChainFrames> chains_;
 };
 

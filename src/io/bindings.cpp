@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "characters.hpp"
 #include "formula.hpp"
 #include "problems.hpp"
 
 namespace springfold::io {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -21,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
 /// Length of the name or number at the begin of `text`.
 std::size_t word_length(std::string_view text) {
   std::size_t n = 0;
-  while (n < text.size() && (begins_name(text[n]) || is_digit(text[n]))) ++n;
+  while (n < text.size() && (is_letter(text[n]) || is_digit(text[n]))) ++n;
   return n;
 }
 
@@ -153,7 +151,7 @@ std::string with_bindings(const std::string& formula, const Bindings& bindings) 
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
     const std::string_view rest = text.substr(at);
-    const bool name = begins_name(rest.front());
+    const bool name = is_letter(rest.front());
     std::size_t length = name ? word_length(rest) : number_length(rest);
     length = std::max<std::size_t>(length, 1);
     const std::string_view word = rest.substr(0, length);

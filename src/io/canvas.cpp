@@ -11,7 +11,7 @@ double part_of(double value, double low, double high, bool is_log) {
   return std::log(value / low) / std::log(high / low);
 }
 
-double value_at(double part, double low, double high, bool is_log) {
+double value_between(double part, double low, double high, bool is_log) {
   if (!is_log) return low + part * (high - low);
   return low * std::pow(high / low, part);
 }
@@ -42,8 +42,8 @@ PlotPoint in_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint&
 PlotPoint from_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint& pixel) {
   const double u = (pixel.first - canvas.left) / (canvas.right - canvas.left);
   const double v = (pixel.second - canvas.bottom) / (canvas.top - canvas.bottom);
-  return {value_at(u, figure.low.first, figure.high.first, figure.look.x_log),
-          value_at(v, figure.low.second, figure.high.second, figure.look.y_log)};
+  return {value_between(u, figure.low.first, figure.high.first, figure.look.x_log),
+          value_between(v, figure.low.second, figure.high.second, figure.look.y_log)};
 }
 
 std::pair<PlotPoint, PlotPoint> frame_of(const PlotInset& inset, const Canvas& canvas) {

@@ -42,7 +42,7 @@ std::vector<std::string> wrench_words(TaskSpace space) {
 const std::string axes_example = "axes = [{ pose = \"x\", from = -0.5, to = 0.5, points = 21 }]";
 const std::vector<std::string> solver_words{"newton", "paper"};
 const std::vector<std::string> command_words{"kinetostatic", "geometric", "given"};
-const std::vector<std::string> shape_words{"square", "disc", "cube", "ball"};
+const std::vector<std::string> region_shapes{"square", "disc", "cube", "ball"};
 
 class CommandReader {
  public:
@@ -320,9 +320,9 @@ class CommandReader {
   }
 
   void read_workspace() {
-    draft_.shape = std::array{analysis::RegionShape::square, analysis::RegionShape::disc,
-                              analysis::RegionShape::cube,
-                              analysis::RegionShape::ball}[table_.choice("shape", shape_words, 0)];
+    draft_.shape = std::array{
+        analysis::RegionShape::square, analysis::RegionShape::disc, analysis::RegionShape::cube,
+        analysis::RegionShape::ball}[table_.choice("shape", region_shapes, 0)];
     draft_.centre = optional_vector("centre", pose_units(), ": the body's pose");
     draft_.velocity = read_bounds("velocity_factors");
     draft_.force = read_bounds("force_factors");

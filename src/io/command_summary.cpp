@@ -5,6 +5,7 @@
 #include "critical_summary.hpp"
 #include "fitted_table.hpp"
 #include "result_access.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -14,14 +15,7 @@ using analysis::Branch;
 using analysis::StudyKind;
 using analysis::StudyResult;
 
-constexpr int digits = 10;
-constexpr std::size_t indent = 4;
 constexpr std::size_t most_targets = 24;
-
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max<std::size_t>(label.size(), 14), ' ');
-  return std::string(indent, ' ') + label + shown(text) + "\n";
-}
 
 std::string with_unit(const StudyResult& result, std::size_t column, const UnitLabels& units) {
   const auto unit = unit_label(result.quantities[column].unit, result.lambda_unit, units);
@@ -29,7 +23,8 @@ std::string with_unit(const StudyResult& result, std::size_t column, const UnitL
 }
 
 std::string stop_lines(const Branch& branch) {
-  return line("end", (branch.forward.complete ? "" : "INCOMPLETE: ") + branch.forward.reason);
+  return summary_line("end",
+                      (branch.forward.complete ? "" : "INCOMPLETE: ") + branch.forward.reason);
 }
 
 /// Commands of the first targets, and the special points on the way.
@@ -53,19 +48,23 @@ std::string control_lines(const StudyResult& result, const UnitLabels& units) {
     if (!sample.event.empty() || ++targets > most_targets) continue;
     auto& row = rows.emplace_back();
     for (const std::size_t i : columns)
-      row.push_back(std::isnan(sample.values[i]) ? "-" : rounded(sample.values[i], digits));
+      row.push_back(std::isnan(sample.values[i]) ? "-" : rounded(sample.values[i], summary_digits));
     row.push_back(sample.status);
   }
   align.push_back(Align::left);
-  std::string text = line("method", result.start.method + ", residual at the first target " +
-                                        rounded(result.start.residual, 2));
-  text += line("targets", std::to_string(targets)) + fitted(rows, align, indent + 2);
+  std::string text =
+      summary_line("method", result.start.method + ", residual at the first target " +
+                                 rounded(result.start.residual, 2));
+  text +=
+      summary_line("targets", std::to_string(targets)) + fitted(rows, align, summary_indent + 2);
   if (targets > most_targets)
-    text += line("", "... and " + std::to_string(targets - most_targets) + " more in the table");
+    text += summary_line(
+        "", "... and " + std::to_string(targets - most_targets) + " more in the table");
   for (const auto& event : branch.events)
-    text += line(event.label,
-                 "at path = " + rounded(value_at(result, branch, event.row, "path"), digits) +
-                     ": " + event.detail);
+    text += summary_line(
+        event.label,
+        "at path = " + rounded(value_at(result, branch, event.row, "path"), summary_digits) + ": " +
+            event.detail);
   return text + stop_lines(branch);
 }
 
@@ -98,7 +97,7 @@ std::string map_lines(const PlannedRun& planned, const StudyResult& result,
   for (const auto& axis : map.axes)
     grid += (grid.empty() ? "" : ", ") + axis.name + " from " + rounded(axis.from, 6) + " to " +
             rounded(axis.to, 6) + " in " + std::to_string(axis.points);
-  std::string text = line("grid", grid) + stop_lines(result.branches.front());
+  std::string text = summary_line("grid", grid) + stop_lines(result.branches.front());
   std::vector<std::vector<std::string>> rows{{"", "least", "", "greatest"}};
   for (std::size_t i = 0; i < result.quantities.size(); ++i) {
     const std::string& name = result.quantities[i].name;
@@ -111,20 +110,21 @@ std::string map_lines(const PlannedRun& planned, const StudyResult& result,
     if (auto row = range_row(result, i, map.axes.size(), units); !row.empty())
       rows.push_back(std::move(row));
   }
-  for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
+  for (const auto& doubt : result.doubts) text += summary_line("UNRESOLVED", doubt);
   if (rows.size() == 1) return text;
   return text + fitted(rows, {Align::left, Align::right, Align::left, Align::right, Align::left},
-                       indent + 2);
+                       summary_indent + 2);
 }
 
 std::string workspace_lines(const StudyResult& result, const UnitLabels& units) {
   const Branch& branch = result.branches.front();
-  std::string text = line("region", branch.samples.front().status);
+  std::string text = summary_line("region", branch.samples.front().status);
   for (std::size_t i = 0; i < result.quantities.size(); ++i) {
     const double value = branch.samples.front().values[i];
     if (std::isnan(value)) continue;
     const auto unit = unit_label(result.quantities[i].unit, result.lambda_unit, units);
-    text += line(result.quantities[i].name, rounded(value, 12) + (unit.empty() ? "" : " " + unit));
+    text += summary_line(result.quantities[i].name,
+                         rounded(value, 12) + (unit.empty() ? "" : " " + unit));
   }
   return text;
 }
@@ -135,7 +135,7 @@ std::string command_lines(const Case& the_case, const PlannedRun& planned,
                           const StudyResult& result) {
   if (analysis::is_of_critical_points(planned.plan.kind)) return critical_lines(planned, result);
   if (!result.start.found || result.branches.empty())
-    return line("start", "NOT FOUND: " + result.start.message);
+    return summary_line("start", "NOT FOUND: " + result.start.message);
   if (planned.plan.kind == StudyKind::control) return control_lines(result, the_case.units);
   if (planned.plan.kind == StudyKind::map) return map_lines(planned, result, the_case.units);
   return workspace_lines(result, the_case.units);

@@ -5,6 +5,7 @@
 
 #include "compared_quantity.hpp"
 #include "comparison_text.hpp"
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/shown_text.hpp"
@@ -15,8 +16,6 @@ namespace springfold::io {
 namespace {
 
 using analysis::StudyResult;
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// False for NaN.
 bool agrees(const ExpectedValue& expected, double ours) {

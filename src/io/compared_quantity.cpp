@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "jump_access.hpp"
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/design.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -20,7 +21,6 @@ using analysis::Branch;
 using analysis::Event;
 using analysis::StudyResult;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view count_prefix = "count.";
 constexpr std::string_view equilibrium_code = "EQ";
 
@@ -36,7 +36,7 @@ struct Point {
   const std::vector<double>*rates_before = nullptr, *rates_after = nullptr;
 };
 
-double value_at(const StudyResult& result, const Point& point, const std::string& quantity) {
+double value_of_point(const StudyResult& result, const Point& point, const std::string& quantity) {
   if (quantity == "potential") return point.potential;
   const auto column = column_of(result, quantity);
   return column && *column < point.sample->values.size() ? point.sample->values[*column] : nothing;
@@ -92,7 +92,7 @@ double count_of(const analysis::EquilibriaReport& report, const StudyResult& res
   const std::string wanted{what.substr(dot + 1)};
   return static_cast<double>(
       std::count_if(report.list.begin(), report.list.end(), [&](const analysis::Equilibrium& e) {
-        return rounded(value_at(result, point_of(e), "index"), 3) == wanted;
+        return rounded(value_of_point(result, point_of(e), "index"), 3) == wanted;
       }));
 }
 
@@ -133,7 +133,7 @@ std::vector<Point> points_with(const StudyResult& result, const std::string& cod
 double spread_of(const StudyResult& result, const std::string& quantity) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto add = [&](const Point& point) {
-    const double v = value_at(result, point, quantity);
+    const double v = value_of_point(result, point, quantity);
     low = std::fmin(low, v);
     high = std::fmax(high, v);
   };
@@ -152,7 +152,7 @@ std::optional<Point> nearest_point(const StudyResult& result, const std::vector<
   for (const NearValue& wanted : near) {
     const double spread = spread_of(result, wanted.quantity);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double v = value_at(result, points[i], wanted.quantity);
+      const double v = value_of_point(result, points[i], wanted.quantity);
       const double d = std::isnan(v) ? std::numeric_limits<double>::infinity()
                                      : std::abs(v - wanted.value) / spread;
       distance[i] = std::max(distance[i], d);
@@ -296,7 +296,7 @@ double found_value(const ExpectedValue& expected, const StudyResult& result) {
   const std::optional<Point> point = on_side(*found, expected.side, quantity);
   if (quantity == "corank" || quantity == "ways") return of_junction(result, *point, quantity);
   if (!expected.per.empty()) return slope(expected, result, *point);
-  if (!expected.entry) return value_at(result, *point, quantity);
+  if (!expected.entry) return value_of_point(result, *point, quantity);
   const MatrixEntry& entry = *expected.entry;
   if (entry.is_compliance && point->compliance && point->compliance->size() > 0)
     return (*point->compliance)(entry.row, entry.column);

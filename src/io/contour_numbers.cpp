@@ -13,14 +13,14 @@ constexpr double from_each_other = 0.13;  // about the width of a number
 
 using Spot = std::pair<double, double>;
 
-double gap(const Spot& a, const Spot& b) {
+double spot_distance(const Spot& a, const Spot& b) {
   return std::hypot(a.first - b.first, a.second - b.second);
 }
 
-/// How much room there is round a place: the distance to the nearest number, at most one side.
+/// How much room there is round a place: the spot_distance to the nearest number, at most one side.
 double room_at(const Spot& at, const std::vector<Spot>& taken) {
   double room = 1;
-  for (const Spot& other : taken) room = std::min(room, gap(at, other));
+  for (const Spot& other : taken) room = std::min(room, spot_distance(at, other));
   return room;
 }
 

@@ -9,7 +9,7 @@ namespace {
 using model::Definiteness;
 using model::JointRole;
 
-const std::string example =
+const std::string coupled_example =
     "coupled_springs = [{ joints = [\"a\", \"b\"], stiffness = [[2, 1], [1, 2]] }]";
 
 std::string law_of(const SpringDraft& spring) {
@@ -144,7 +144,7 @@ std::set<std::string> coupled_joint_names(const Node& chain) {
 
 void read_coupled_springs(const TableReader& table, NumberTable& numbers, ChainDraft& chain,
                           Reading& reading) {
-  for (const Item& item : table.tables("coupled_springs", example))
+  for (const Item& item : table.tables("coupled_springs", coupled_example))
     chain.coupled.push_back(CoupledReader{item, chain, numbers, reading}.read());
 }
 

@@ -23,7 +23,7 @@ std::vector<std::string> known_keys(StudyKind kind) {
   }
 }
 
-std::string example(StudyKind kind) {
+std::string critical_example(StudyKind kind) {
   switch (kind) {
     case StudyKind::critical_curve:
       return "a table such as { of = \"LP1\", parameter = \"k\", range = [0, 1] }";
@@ -66,12 +66,12 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
       reading.problems.add(node->place, study.key_of(other),
                            "has no meaning here, need kind = \"" + other + "\" with it");
   if (!analysis::is_of_critical_points(kind) || kind == StudyKind::design) return draft;
-  static const Node nothing;
+  static const Node no_table;
   const bool needed = kind != StudyKind::sensitivity;
-  const Node* node = needed ? study.require(name, example(kind)) : study.find(name);
-  const Item item{node ? node : &nothing, study.key_of(name)};
-  const bool usable = node != nullptr && is_table(item, example(kind), reading);
-  const TableReader table{usable ? *node : nothing, item.key, known_keys(kind), reading};
+  const Node* node = needed ? study.require(name, critical_example(kind)) : study.find(name);
+  const Item item{node ? node : &no_table, study.key_of(name)};
+  const bool usable = node != nullptr && is_table(item, critical_example(kind), reading);
+  const TableReader table{usable ? *node : no_table, item.key, known_keys(kind), reading};
   draft.tied = table.flag("tied", true);
   if (kind == StudyKind::sensitivity) {
     draft.parameters =

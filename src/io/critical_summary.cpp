@@ -6,6 +6,7 @@
 #include "design_summary.hpp"
 #include "fitted_table.hpp"
 #include "result_access.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -14,15 +15,9 @@ namespace {
 using analysis::Branch;
 using analysis::StudyResult;
 
-constexpr int digits = 10;
-constexpr std::size_t indent = 4;
-
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max<std::size_t>(label.size(), 14), ' ');
-  return std::string(indent, ' ') + label + text + "\n";
+std::string number_cell(double value) {
+  return std::isnan(value) ? "" : rounded(value, summary_digits);
 }
-
-std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, digits); }
 
 /// The special points of a critical curve, with the parameter.
 std::string point_table(const StudyResult& result, const Branch& branch,
@@ -35,14 +30,14 @@ std::string point_table(const StudyResult& result, const Branch& branch,
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back(std::vector<std::string>{event.label});
     for (const std::string& name : columns)
-      row.push_back(cell(value_at(result, branch, event.row, name)));
+      row.push_back(number_cell(value_at(result, branch, event.row, name)));
     const bool unresolved = event.kind == analysis::EventKind::unresolved;
     row.push_back((unresolved ? "UNRESOLVED: " : "") + event.detail);
   }
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;
   align.push_back(Align::left);
-  return fitted(rows, align, indent);
+  return fitted(rows, align, summary_indent);
 }
 
 /// d(lambda)/d(parameter) of every special point, one row per parameter.
@@ -61,30 +56,31 @@ std::string rate_table(const StudyResult& result, const Branch& branch) {
         quantity.name.substr(prefix.size(), quantity.name.size() - prefix.size() - 1)});
     for (const auto* event : points) {
       const double rate = value_at(result, branch, event->row, quantity.name);
-      row.push_back(std::isnan(rate) ? "-" : rounded(rate, digits));
+      row.push_back(std::isnan(rate) ? "-" : rounded(rate, summary_digits));
     }
   }
   std::vector<Align> align(rows[0].size(), Align::right);
   align.front() = Align::left;
-  std::string text = fitted(rows, align, indent);
-  for (const auto* event : points) text += line(event->label, event->detail);
+  std::string text = fitted(rows, align, summary_indent);
+  for (const auto* event : points) text += summary_line(event->label, event->detail);
   return text;
 }
 
 std::string doubts_of(const StudyResult& result) {
   std::string text;
-  for (const auto& doubt : result.doubts) text += line("UNRESOLVED", doubt);
+  for (const auto& doubt : result.doubts) text += summary_line("UNRESOLVED", doubt);
   return text;
 }
 
 }  // namespace
 
 std::string critical_lines(const PlannedRun& planned, const StudyResult& result) {
-  if (!result.start.found) return line("start", "NOT FOUND: " + result.start.message);
+  if (!result.start.found) return summary_line("start", "NOT FOUND: " + result.start.message);
   std::string text;
   if (result.threshold)
-    text += line("threshold", result.threshold->message +
-                                  (result.threshold->verified ? "; traced again beside it" : ""));
+    text += summary_line(
+        "threshold",
+        result.threshold->message + (result.threshold->verified ? "; traced again beside it" : ""));
   if (result.design) return design_lines(*result.design) + doubts_of(result);
   const std::string& parameter = planned.plan.critical.parameter;
   const bool is_curve = planned.plan.kind != analysis::StudyKind::sensitivity;
@@ -93,10 +89,10 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
       text += rate_table(result, branch);
       continue;
     }
-    text += line("curve", std::to_string(branch.samples.size()) + " points");
+    text += summary_line("curve", std::to_string(branch.samples.size()) + " points");
     text += point_table(result, branch, parameter);
     for (const auto* stop : {&branch.backward, &branch.forward})
-      if (!stop->complete) text += line("STOPPED", stop->reason);
+      if (!stop->complete) text += summary_line("STOPPED", stop->reason);
   }
   return text + doubts_of(result);
 }

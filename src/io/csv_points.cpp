@@ -7,7 +7,7 @@
 namespace springfold::io {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
@@ -38,7 +38,7 @@ std::vector<ContentLine> content_lines(std::string_view text) {
     const std::string_view line = text.substr(at, end - at);
     at = end + 1;
     ++number;
-    const std::string_view content = trimmed(line.substr(0, line.find('#')));
+    const std::string_view content = without_blanks(line.substr(0, line.find('#')));
     if (!content.empty()) lines.push_back({line, content, number});
   }
   return lines;
@@ -55,8 +55,8 @@ std::vector<CsvPoint> read_csv_points(const TextFile& file, Problems& problems) 
     const std::size_t comma = content.find(',');
     const bool pair =
         comma != std::string_view::npos && content.find(',', comma + 1) == std::string_view::npos;
-    const auto x = pair ? number_in(trimmed(content.substr(0, comma))) : std::nullopt;
-    const auto y = pair ? number_in(trimmed(content.substr(comma + 1))) : std::nullopt;
+    const auto x = pair ? number_in(without_blanks(content.substr(0, comma))) : std::nullopt;
+    const auto y = pair ? number_in(without_blanks(content.substr(comma + 1))) : std::nullopt;
     if (x && y) {
       points.push_back({*x, *y, number, static_cast<int>(line.find(',')) + 2});
     } else if (!(may_be_words && pair && !x && !y)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "summary_line.hpp"
@@ -17,17 +18,10 @@ using analysis::CycleStep;
 using analysis::LoadCycle;
 using analysis::StudyResult;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 const std::string level_word = "level ";
 
 const LoadCycle* cycle_of(const StudyResult& result) {
   return result.snap && result.snap->cycle ? &*result.snap->cycle : nullptr;
-}
-
-double column_value(const StudyResult& result, const analysis::SnapState& state,
-                    std::string_view name) {
-  const auto column = column_of(result, name);
-  return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
 std::string step_text(const StudyResult& result, const CycleStep& step, const std::string& energy) {

@@ -6,7 +6,7 @@ namespace {
 
 using analysis::StudyKind;
 
-const std::string example =
+const std::string design_example =
     "a table such as { parameters = { k = [1, 2] }, critical_load = { at_least = 3 } }";
 
 class DesignReader {
@@ -163,8 +163,9 @@ class DesignReader {
 DesignDraft read_design(StudyKind kind, const TableReader& study, NumberTable& numbers,
                         Reading& reading) {
   if (kind != StudyKind::design) return {};
-  const Node* node = study.require("design", example);
-  if (node == nullptr || !is_table({node, study.key_of("design")}, example, reading)) return {};
+  const Node* node = study.require("design", design_example);
+  if (node == nullptr || !is_table({node, study.key_of("design")}, design_example, reading))
+    return {};
   const TableReader table{*node,
                           study.key_of("design"),
                           {"parameters", "scale", "critical_load", "no_limit_point", "curve",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "summary_line.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -14,16 +15,8 @@ using analysis::FoundParameter;
 using analysis::FoundRequirement;
 using Json = nlohmann::ordered_json;
 
-constexpr int digits = 10;
-constexpr std::size_t indent = 4;
-
-std::string line(std::string label, const std::string& text) {
-  label.resize(std::max<std::size_t>(label.size(), 14), ' ');
-  return std::string(indent, ' ') + label + text + "\n";
-}
-
-std::string number(double value) {
-  return std::isnan(value) ? "-" : std::isinf(value) ? "none" : rounded(value, digits);
+std::string shown_number(double value) {
+  return std::isnan(value) ? "-" : std::isinf(value) ? "none" : rounded(value, summary_digits);
 }
 
 std::string bound_words(BoundState bound) {
@@ -39,29 +32,31 @@ std::string bound_words(BoundState bound) {
 }
 
 std::string wanted_words(const FoundRequirement& one) {
-  if (one.tolerance > 0) return rounded(one.wanted, digits) + " +- " + rounded(one.tolerance, 4);
+  if (one.tolerance > 0)
+    return rounded(one.wanted, summary_digits) + " +- " + rounded(one.tolerance, 4);
   if (std::isinf(one.wanted)) return one.wanted > 0 ? "none" : "-";
-  return (one.is_upper ? "at most " : "at least ") + rounded(one.wanted, digits);
+  return (one.is_upper ? "at most " : "at least ") + rounded(one.wanted, summary_digits);
 }
 
 std::string parameter_table(const DesignReport& report) {
   std::vector<std::vector<std::string>> rows{{"parameter", "before", "after", "change", "bounds"}};
   for (const FoundParameter& one : report.parameters)
-    rows.push_back({one.name, number(one.before), number(one.after), rounded(one.change, digits),
+    rows.push_back({one.name, shown_number(one.before), shown_number(one.after),
+                    rounded(one.change, summary_digits),
                     rounded(one.low, 6) + " to " + rounded(one.high, 6), bound_words(one.bound)});
   return aligned(rows,
                  {Align::left, Align::right, Align::right, Align::right, Align::left, Align::left},
-                 indent);
+                 summary_indent);
 }
 
 std::string requirement_table(const DesignReport& report) {
   std::vector<std::vector<std::string>> rows{{"requirement", "wanted", "before", "after"}};
   for (const FoundRequirement& one : report.requirements)
-    rows.push_back({one.name, wanted_words(one), number(one.before), number(one.after),
+    rows.push_back({one.name, wanted_words(one), shown_number(one.before), shown_number(one.after),
                     one.holds ? "" : "NOT MET", one.limits ? "decides" : ""});
   return aligned(rows,
                  {Align::left, Align::left, Align::right, Align::right, Align::left, Align::left},
-                 indent);
+                 summary_indent);
 }
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -69,8 +64,9 @@ Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 }  // namespace
 
 std::string design_lines(const DesignReport& report) {
-  std::string text = line("design", report.message + (report.verified ? "; traced again" : ""));
-  text += line("search", std::to_string(report.designs) + " designs traced");
+  std::string text =
+      summary_line("design", report.message + (report.verified ? "; traced again" : ""));
+  text += summary_line("search", std::to_string(report.designs) + " designs traced");
   return text + parameter_table(report) + requirement_table(report);
 }
 

@@ -12,13 +12,13 @@ using model::ElasticDirection;
 using Kind = ElasticDraft::Kind;
 using Shape = SectionDraft::Shape;
 
-const std::vector<std::string> kind_words{"beam", "stiffness", "compliance"};
+const std::vector<std::string> elastic_words{"beam", "stiffness", "compliance"};
 const std::vector<std::string> direction_words{"Tx", "Ty", "Tz", "Rx", "Ry", "Rz"};
 const std::vector<std::string> own_section{"A", "Iy", "Iz", "J"};
 
 bool is_kind(const Node* kind) {
   return kind->kind == Node::Kind::text &&
-         std::find(kind_words.begin(), kind_words.end(), kind->text) != kind_words.end();
+         std::find(elastic_words.begin(), elastic_words.end(), kind->text) != elastic_words.end();
 }
 
 /// Keys of one kind; of all kinds where it is unknown.
@@ -42,7 +42,7 @@ class ElasticReader {
         numbers_{numbers},
         reading_{reading} {
     link_.kind = std::array{Kind::beam, Kind::stiffness,
-                            Kind::compliance}[table_.choice("elastic", kind_words, 0)];
+                            Kind::compliance}[table_.choice("elastic", elastic_words, 0)];
     link_.name = table_.text("name").value_or(default_name);
     if (const Node* name = table_.find("name"); name && name->kind == Node::Kind::text)
       is_plain_name(name->text, {name, table_.key_of("name")}, reading);

@@ -9,7 +9,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr std::size_t gap = 2;               // between columns, as aligned() has it
+constexpr std::size_t column_gap = 2;        // between columns, as aligned() has it
 constexpr std::size_t narrowest_words = 24;  // of a column of sentences
 
 std::vector<std::size_t> widths_of(const Rows& rows) {
@@ -56,17 +56,17 @@ std::string fitted(const Rows& rows, const std::vector<Align>& align, std::size_
   std::string text;
   for (std::size_t begin = 1; begin < columns;) {
     std::size_t used = indent + widths[0], end = begin;
-    while (end < columns && (end == begin || used + gap + widths[end] <= table_width))
-      used += gap + widths[end++];
+    while (end < columns && (end == begin || used + column_gap + widths[end] <= table_width))
+      used += column_gap + widths[end++];
     const bool has_words =
         columns > 1 && (columns > align.size() || align[columns - 1] == Align::left);
     std::vector<Align> some_align{align.empty() ? Align::left : align[0]};
     // Words that do not fit are broken, if they have some room behind the numbers.
     std::size_t room = 0;
-    if (has_words && end + 1 == columns && used + gap + narrowest_words <= table_width)
-      room = table_width - used - gap, ++end;
+    if (has_words && end + 1 == columns && used + column_gap + narrowest_words <= table_width)
+      room = table_width - used - column_gap, ++end;
     else if (has_words && end == columns && begin + 1 == columns && used > table_width)
-      room = table_width - std::min(table_width - narrowest_words, indent + widths[0] + gap);
+      room = table_width - std::min(table_width - narrowest_words, indent + widths[0] + column_gap);
     for (std::size_t c = begin; c < end; ++c)
       some_align.push_back(c < align.size() ? align[c] : Align::left);
     const Rows some = some_columns(rows, begin, end);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "characters.hpp"
 #include "problems.hpp"
 #include "unit_text.hpp"
 
@@ -29,10 +30,6 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
 /// The end of the number that begins at `at`: "2", "0.5", ".5e-3".
 std::size_t end_of_number(std::string_view text, std::size_t at) {
   while (at < text.size() && (is_digit(text[at]) || text[at] == '.')) ++at;
@@ -44,13 +41,13 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
   return digits;
 }
 
-struct Word {
+struct FormulaWord {
   std::string name{};
   bool called = false;  ///< an opening parenthesis follows
 };
 
-std::vector<Word> words_of(std::string_view text) {
-  std::vector<Word> words;
+std::vector<FormulaWord> words_of(std::string_view text) {
+  std::vector<FormulaWord> words;
   for (std::size_t at = 0; at < text.size();) {
     if (is_digit(text[at]) || text[at] == '.') {
       at = std::max(end_of_number(text, at), at + 1);
@@ -84,7 +81,7 @@ bool has_assignment(std::string_view text) {
 }
 
 /// What is wrong with a word, or nothing.
-std::string problem_of(const Word& word, const std::vector<std::string>& variables) {
+std::string problem_of(const FormulaWord& word, const std::vector<std::string>& variables) {
   const bool is_function = contains(function_names(), word.name);
   if (word.called && is_function) return {};
   if (word.called) {
@@ -199,7 +196,7 @@ FormulaBook::Added FormulaBook::add(const std::string& text) {
   if (has_assignment(text)) return {{}, "\"=\" has no meaning here"};
 
   std::set<std::string> names;
-  for (const Word& word : words_of(text)) {
+  for (const FormulaWord& word : words_of(text)) {
     if (std::string problem = problem_of(word, state.variables); !problem.empty())
       return {{}, problem};
     names.insert(word.name);

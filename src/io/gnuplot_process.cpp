@@ -99,18 +99,18 @@ int spawn(const GnuplotCall& call, int error_pipe, pid_t& process) {
   return error;
 }
 
-enum class Reading { got_some, nothing_yet, ended };
+enum class PipeState { got_some, nothing_yet, ended };
 
 /// Appends what can be read within `wait_ms`.
-Reading read_some(int file, int wait_ms, std::string& text) {
+PipeState read_some(int file, int wait_ms, std::string& text) {
   pollfd wanted{.fd = file, .events = POLLIN, .revents = 0};
-  if (::poll(&wanted, 1, wait_ms) <= 0) return Reading::nothing_yet;  // or a signal came
+  if (::poll(&wanted, 1, wait_ms) <= 0) return PipeState::nothing_yet;  // or a signal came
   std::array<char, 4096> part{};
   const ssize_t count = ::read(file, part.data(), part.size());
-  if (count < 0) return errno == EINTR ? Reading::nothing_yet : Reading::ended;
+  if (count < 0) return errno == EINTR ? PipeState::nothing_yet : PipeState::ended;
   text.append(part.data(), static_cast<std::size_t>(count));
   if (text.size() > 2 * kept_bytes) text.erase(0, text.size() - kept_bytes);
-  return count > 0 ? Reading::got_some : Reading::ended;
+  return count > 0 ? PipeState::got_some : PipeState::ended;
 }
 
 std::string last_lines(const std::string& text) {
@@ -191,11 +191,11 @@ std::optional<std::string> run_gnuplot(const GnuplotCall& call) {
       return is_stopped ? "stopped on request" : timeout_text(call.timeout_seconds);
     }
     if (is_open)
-      is_open = read_some(errors.ends[0], longest_wait_ms, messages) != Reading::ended;
+      is_open = read_some(errors.ends[0], longest_wait_ms, messages) != PipeState::ended;
     else
       std::this_thread::sleep_for(nap);
   }
-  while (is_open && read_some(errors.ends[0], 0, messages) == Reading::got_some) {
+  while (is_open && read_some(errors.ends[0], 0, messages) == PipeState::got_some) {
   }
   const auto status = finish(process);
   return status ? reason_of(*status, messages) : "gnuplot's exit code was lost";

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cycle_access.hpp"
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "transition_access.hpp"
@@ -16,7 +17,6 @@ using analysis::Jump;
 using analysis::SnapState;
 using analysis::StudyResult;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 const std::string critical_prefix = "critical.", inertial_prefix = "inertial.",
                   saddle_prefix = "saddle.";
 
@@ -29,11 +29,6 @@ bool has_prefix(const std::string& name) {
 bool is_number(std::string_view text) {
   return !text.empty() && text.size() < 7 && text.front() != '0' &&
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-double column_value(const StudyResult& result, const SnapState& state, const std::string& name) {
-  const auto column = column_of(result, name);
-  return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
 /// Height of the lowest saddle of the jump's basin above a state.

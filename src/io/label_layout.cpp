@@ -15,7 +15,7 @@ namespace springfold::io {
 
 namespace {
 
-constexpr double spacing = 4;         // between the points that stand for a curve [pixel]
+constexpr double curve_spacing = 4;   // between the points that stand for a curve [pixel]
 constexpr double mark_radius = 8;     // half size of a marker [pixel]
 constexpr double inset_room = 1.5;    // round an inset, for its numbers [text heights]
 constexpr double leader_needed = 26;  // longest gap between point and text without a line [pixel]
@@ -63,7 +63,7 @@ std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
   std::vector<PlotPoint> dense;
   for (const auto& part : curve.parts) {
     std::optional<PlotPoint> last;  // end of the last stretch, `left_over` pixels after a point
-    double left_over = spacing;
+    double left_over = curve_spacing;
     for (const auto& at : part.line) {
       const PlotPoint here = in_pixels(figure, canvas, at);
       if (!is_finite(here)) {  // no place on a logarithmic axis
@@ -72,12 +72,13 @@ std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
       }
       const double length = last ? distance(*last, here) : 0;
       const bool is_near = length < 2 * (canvas.width + canvas.height);
-      for (double along = spacing - left_over; last && is_near && along <= length; along += spacing)
+      for (double along = curve_spacing - left_over; last && is_near && along <= length;
+           along += curve_spacing)
         if (const PlotPoint p{last->first + (here.first - last->first) * along / length,
                               last->second + (here.second - last->second) * along / length};
             is_in_frame(p, canvas))
           dense.push_back(p);
-      left_over = std::fmod(left_over + length, spacing);
+      left_over = std::fmod(left_over + length, curve_spacing);
       last = here;
     }
   }

@@ -7,12 +7,14 @@
 #include <optional>
 #include <string_view>
 
+#include "characters.hpp"
+
 namespace springfold::io {
 namespace {
 
 using Operation = model::FormulaStep::Operation;
 
-constexpr std::size_t longest_formula = 1000, deepest = 100;
+constexpr std::size_t longest_law = 1000, deepest_formula = 100;
 
 /// A part of the text: with the variable a step of the formula, without it still text.
 struct Part {
@@ -37,8 +39,8 @@ class Parser {
   Parser(const std::string& text, const std::string& variable) : text_{text}, variable_{variable} {}
 
   LawFormula run() {
-    if (text_.size() > longest_formula) {
-      fail("longer than " + std::to_string(longest_formula) + " characters");
+    if (text_.size() > longest_law) {
+      fail("longer than " + std::to_string(longest_law) + " characters");
     } else {
       const Part whole = conditional();
       skip_blanks();
@@ -76,7 +78,6 @@ class Parser {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
            c == '.';
   }
-  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
   void skip_blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
@@ -106,7 +107,8 @@ class Parser {
   }
 
   Part conditional() {
-    if (++depth_ > deepest) fail("more than " + std::to_string(deepest) + " parentheses deep");
+    if (++depth_ > deepest_formula)
+      fail("more than " + std::to_string(deepest_formula) + " parentheses deep");
     Part part = compared(0);
     if (take("?")) {
       const Part yes = conditional();
@@ -169,7 +171,7 @@ class Parser {
     skip_blanks();
     const std::size_t begin = at_;
     if (take("-")) {
-      if (++depth_ > deepest) fail("too many signs");
+      if (++depth_ > deepest_formula) fail("too many signs");
       Part part = signed_power();
       --depth_;
       part.begin = begin;
@@ -179,7 +181,7 @@ class Parser {
     if (take("+")) return signed_power();
     const Part base = operand();
     if (!take("^")) return base;
-    if (++depth_ > deepest) fail("too many powers");
+    if (++depth_ > deepest_formula) fail("too many powers");
     const Part exponent = signed_power();
     --depth_;
     return joined(Operation::power, base, exponent);

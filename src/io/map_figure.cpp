@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/statics/system.hpp"
 #include "text.hpp"
@@ -16,8 +17,6 @@ namespace {
 using analysis::NodeState;
 using analysis::StudyKind;
 using analysis::StudyResult;
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The nodes of one plane of a map: the first two axes, the third one fixed.
 class Plane {

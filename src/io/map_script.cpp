@@ -10,13 +10,13 @@ namespace {
 
 constexpr int number_digits = 4;  // beside contour lines
 
-std::string number(double value) { return std::isnan(value) ? "NaN" : rounded(value, 8); }
+std::string script_number(double value) { return std::isnan(value) ? "NaN" : rounded(value, 8); }
 
 void add_block(std::string& script, const std::string& name, const std::vector<Segment>& segments) {
   script += "$" + name + " << e\n";
   for (const auto& [a, b] : segments)
-    script += number(a.first) + " " + number(a.second) + "\n" + number(b.first) + " " +
-              number(b.second) + "\n\n";
+    script += script_number(a.first) + " " + script_number(a.second) + "\n" +
+              script_number(b.first) + " " + script_number(b.second) + "\n\n";
   if (segments.empty()) script += "NaN NaN\n";
   script += "e\n";
 }
@@ -30,9 +30,10 @@ void add_field(std::string& script, const std::string& name, const GridField& fi
   script += "$" + name + " << e\n";
   for (std::size_t j = 0; j < field.ys.size(); ++j) {
     for (std::size_t i = 0; i < field.xs.size(); ++i)
-      script += number(field.xs[i]) + " " + number(field.ys[j]) + " " +
-                number(std::isinf(value(i, j)) ? (value(i, j) > 0 ? high : low) : value(i, j)) +
-                "\n";
+      script +=
+          script_number(field.xs[i]) + " " + script_number(field.ys[j]) + " " +
+          script_number(std::isinf(value(i, j)) ? (value(i, j) > 0 ? high : low) : value(i, j)) +
+          "\n";
     script += "\n";
   }
   script += "e\n";
@@ -83,7 +84,7 @@ std::string map_script(const MapFigure& figure, const std::string& style,
     add_block(script, "contours_" + k, panel.contours);
     script += "$numbers_" + k + " << e\n";
     for (const LineNumber& line : panel.numbers)
-      script += number(line.at.first) + " " + number(line.at.second) + " " +
+      script += script_number(line.at.first) + " " + script_number(line.at.second) + " " +
                 rounded(line.level, number_digits) + "\n";
     if (panel.numbers.empty()) script += "NaN NaN -\n";
     script += "e\n";

@@ -7,7 +7,7 @@
 namespace springfold::io {
 namespace {
 
-const std::vector<std::string> axes{"x", "y", "z"};
+const std::vector<std::string> axis_words{"x", "y", "z"};
 const std::string place_need = "[x, y] or, in space, [x, y, z]";
 const std::string fixed_need =
     "true, false or a list of directions such as [\"x\"] in which the node is held";
@@ -42,8 +42,8 @@ std::vector<std::string> read_fixed(const TableReader& table, std::size_t dimens
                                     Reading& reading) {
   const Node* fixed = table.find("fixed");
   if (!fixed) return {};
-  const std::vector<std::string> own(axes.begin(),
-                                     axes.begin() + static_cast<std::ptrdiff_t>(dimension));
+  const std::vector<std::string> own(axis_words.begin(),
+                                     axis_words.begin() + static_cast<std::ptrdiff_t>(dimension));
   if (fixed->kind == Node::Kind::boolean)
     return fixed->number != 0 ? own : std::vector<std::string>{};
   std::vector<std::string> held;
@@ -67,8 +67,9 @@ ChainDraft guide_of(const BodyDraft& node, Index body, NumberTable& numbers) {
   ChainDraft guide{.name = node.name + ".guide", .to = body, .place = node.place, .key = node.key};
   guide.from_at.at = node.pose;
   for (std::size_t i = 0; i < node.pose.size(); ++i) {
-    if (std::find(node.fixed.begin(), node.fixed.end(), axes[i]) != node.fixed.end()) continue;
-    JointDraft slide{.name = axes[i], .kind = model::JointKind::prismatic};
+    if (std::find(node.fixed.begin(), node.fixed.end(), axis_words[i]) != node.fixed.end())
+      continue;
+    JointDraft slide{.name = axis_words[i], .kind = model::JointKind::prismatic};
     slide.axis.fixed = model::Vec3<double>::Unit(static_cast<Index>(i));
     slide.initial = numbers.add(0);
     guide.elements.push_back({std::move(slide), node.place, node.key});

@@ -62,7 +62,7 @@ std::string range_in_words(Range range) {
 }
 
 /// "-0.5" or "\"Kv - 1\" = -0.5".
-std::string shown(const Definition& definition, double value) {
+std::string shown_definition(const Definition& definition, double value) {
   return definition.formula ? definition.shown + " = " + shortest(value) : shortest(value);
 }
 
@@ -134,8 +134,8 @@ std::string NumberTable::broken(const Relation& relation, const Values& values) 
   }
   const double lower = values.values[relation.ids[0]], upper = values.values[relation.ids[1]];
   if (!(lower >= upper)) return {};
-  return "got " + shown(entries_[relation.ids[1]].definition, upper) + ", need more than " +
-         shortest(lower) + " (" + relation.what + ")";
+  return "got " + shown_definition(entries_[relation.ids[1]].definition, upper) +
+         ", need more than " + shortest(lower) + " (" + relation.what + ")";
 }
 
 void NumberTable::check(const Values& values, const std::string& when, Problems& problems,
@@ -145,10 +145,10 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
     const auto& [definition, rule] = entries_[id];
     if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
     reported[id] = true;
-    problems.add(
-        definition.place, definition.key,
-        "got " + shown(definition, values.values[id]) + ", need " + need_of(rule) + rule.hint,
-        definition.formula ? when : "");
+    problems.add(definition.place, definition.key,
+                 "got " + shown_definition(definition, values.values[id]) + ", need " +
+                     need_of(rule) + rule.hint,
+                 definition.formula ? when : "");
   }
   for (std::size_t i = 0; i < relations_.size(); ++i) {
     const std::string problem = broken(relations_[i], values);

@@ -18,7 +18,7 @@ using analysis::EventKind;
 using analysis::StudyKind;
 using analysis::StudyResult;
 
-constexpr int digits = 4;
+constexpr int outline_digits = 4;
 
 /// Rows from `from` to `to`, both included, of one stability.
 struct Stretch {
@@ -61,7 +61,7 @@ std::string value_text(const Case& the_case, const StudyResult& result, const Br
     const std::string unit =
         unit_label(result.quantities[*column].unit, result.lambda_unit, the_case.units);
     const std::string number =
-        rounded(shown_value(result, branch.samples[row].values, *column), digits);
+        rounded(shown_value(result, branch.samples[row].values, *column), outline_digits);
     return (name == std::string{"lambda"} ? "lambda = " : "") + number +
            (unit.empty() ? "" : " " + unit);
   }

@@ -11,11 +11,11 @@ namespace springfold::io {
 namespace {
 
 // All in pixels.
-constexpr double piece_length = 3;  // curves are looked at in pieces of about this length
-constexpr double line_width = 2;    // nearer lines lie on each other
-constexpr double cell = 4;          // of the grid in which near pieces are looked up
-constexpr double shortest = 18;     // about one period of the shorter dashes
-constexpr double same_turn = 40;    // along one line: nearer pieces belong to the same turn
+constexpr double piece_length = 3;       // curves are looked at in pieces of about this length
+constexpr double line_width = 2;         // nearer lines lie on each other
+constexpr double cell_size = 4;          // of the grid in which near pieces are looked up
+constexpr double shortest_overlap = 18;  // about one period of the shorter dashes
+constexpr double same_turn = 40;         // along one line: nearer pieces belong to the same turn
 constexpr double parallel = 0.25;  // sine of the largest angle between lines that lie on each other
 
 struct Piece {
@@ -54,8 +54,8 @@ class Drawn {
 
  private:
   static std::pair<std::int64_t, std::int64_t> cell_of(const PlotPoint& at) {
-    return {static_cast<std::int64_t>(std::floor(at.first / cell)),
-            static_cast<std::int64_t>(std::floor(at.second / cell))};
+    return {static_cast<std::int64_t>(std::floor(at.first / cell_size)),
+            static_cast<std::int64_t>(std::floor(at.second / cell_size))};
   }
   static std::uint64_t key(std::int64_t i, std::int64_t j) {
     return (static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
@@ -66,7 +66,7 @@ class Drawn {
     const double across = gap.first * b.direction.second - gap.second * b.direction.first;
     const double turn =
         a.direction.first * b.direction.second - a.direction.second * b.direction.first;
-    return std::abs(across) < line_width && std::hypot(gap.first, gap.second) < cell &&
+    return std::abs(across) < line_width && std::hypot(gap.first, gap.second) < cell_size &&
            std::abs(turn) < parallel;
   }
 
@@ -127,7 +127,7 @@ void drop_short(const CutLine& line, std::vector<Cover>& covers) {
       ++end;
     const bool is_whole = begin == 0 && end == covers.size();
     const double length = line.pieces[end - 1].along - line.pieces[begin].along;
-    if (covers[begin] != Cover::none && !is_whole && length < shortest)
+    if (covers[begin] != Cover::none && !is_whole && length < shortest_overlap)
       std::fill(covers.begin() + static_cast<std::ptrdiff_t>(begin),
                 covers.begin() + static_cast<std::ptrdiff_t>(end), Cover::none);
     begin = end;

@@ -25,12 +25,6 @@ Node text_node(std::string text, const Place& place) {
   return node;
 }
 
-Node* find_in(Node& table, std::string_view key) {
-  const auto found = std::find_if(table.entries.begin(), table.entries.end(),
-                                  [key](const NodeEntry& entry) { return entry.key == key; });
-  return found == table.entries.end() ? nullptr : &found->value;
-}
-
 class Turner {
  public:
   Turner(const Node& pattern, const std::string& index, const Bindings& bindings,
@@ -75,7 +69,7 @@ class Turner {
 
   /// A frame of a chain: its place, and a rotation.
   void turn_frame(Node& table, const std::string& key) {
-    Node* frame = find_in(table, key);
+    Node* frame = table.find(key);
     if (frame == nullptr) {
       Node at;
       at.kind = Node::Kind::array;
@@ -91,12 +85,12 @@ class Turner {
       *frame = std::move(whole);
     }
     if (frame->kind != Node::Kind::table) return;
-    if (Node* at = find_in(*frame, "at"))
+    if (Node* at = frame->find("at"))
       turn_vector(*at, false);
     else if (!centre_.empty())
       return report(frame->place, key, "need at = [...] beside rotate: the pattern has about");
     const std::string axis = std::string(negative_ ? "-" : "") + "xyz"[axis_];
-    Node* rotate = find_in(*frame, "rotate");
+    Node* rotate = frame->find("rotate");
     if (rotate == nullptr) {
       Node turn;
       turn.place = frame->place;
@@ -106,7 +100,7 @@ class Turner {
       return;
     }
     const Node* own = rotate->find("axis");
-    Node* angle = find_in(*rotate, "angle");
+    Node* angle = rotate->find("angle");
     if (own == nullptr || angle == nullptr) return;  // reported elsewhere
     if (own->text != axis)
       return report(rotate->place, key + ".rotate.axis",
@@ -117,7 +111,7 @@ class Turner {
 
   /// Position of a point; of a planar body its angle too.
   void turn_pose(Node& table) {
-    Node* pose = find_in(table, "pose");
+    Node* pose = table.find("pose");
     const Node* space = table.find("task_space");
     const std::string word = space ? space->text : "";
     if (word == "spatial")
@@ -175,12 +169,12 @@ class Turner {
 
 void turn_places(Node& table, Turner& turner) {
   for (const char* key : {"at", "from_at", "to_at"})
-    if (Node* at = find_in(table, key)) turner.turn_vector(*at, false);
-  Node* of = find_in(table, "of");
+    if (Node* at = table.find(key)) turner.turn_vector(*at, false);
+  Node* of = table.find("of");
   if (of == nullptr) return;
   for (Node& point : of->items)
     if (point.kind == Node::Kind::table)
-      if (Node* at = find_in(point, "at")) turner.turn_vector(*at, false);
+      if (Node* at = point.find("at")) turner.turn_vector(*at, false);
 }
 
 }  // namespace
@@ -206,7 +200,7 @@ void turn_copy(Node& copy, const std::string& part, const Node& pattern, const s
                          "in a pattern");
   turn_places(copy, turner);
   for (const char* name : {"force", "moment"})
-    if (Node* vector = find_in(copy, name)) turner.turn_vector(*vector, true);
+    if (Node* vector = copy.find(name)) turner.turn_vector(*vector, true);
 }
 
 }  // namespace springfold::io

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/run.hpp"
 #include "text.hpp"
@@ -16,8 +17,6 @@ using analysis::ControlMode;
 using analysis::Sample;
 using analysis::StudyKind;
 using analysis::StudyResult;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A wrench of d entries as vectors of space.
 drawing::BodyWrench wrench_of(const PlannedRun& planned, const Vector& w) {
@@ -71,7 +70,7 @@ RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
 }
 
 double RowScenes::value(const Sample& row, std::optional<std::size_t> column) const {
-  return column && *column < row.values.size() ? row.values[*column] : unknown;
+  return column && *column < row.values.size() ? row.values[*column] : nothing;
 }
 
 statics::System RowScenes::system_of(const Sample& row, double lambda) const {

@@ -34,12 +34,6 @@ void remove_key(Node& table, std::string_view key) {
   std::erase_if(table.entries, [key](const NodeEntry& entry) { return entry.key == key; });
 }
 
-Node* find_in(Node& table, std::string_view key) {
-  const auto found = std::find_if(table.entries.begin(), table.entries.end(),
-                                  [key](const NodeEntry& entry) { return entry.key == key; });
-  return found == table.entries.end() ? nullptr : &found->value;
-}
-
 class Expander {
  public:
   Expander(std::vector<Document>& documents, Problems& problems)
@@ -52,11 +46,11 @@ class Expander {
     }
     for (Document& document : documents_) {
       for (const std::string& part : parts_of_mechanism())
-        if (Node* list = find_in(document.root, part)) expand_list(*list, part, {}, 0);
-      Node* studies = find_in(document.root, "study");
+        if (Node* list = document.root.find(part)) expand_list(*list, part, {}, 0);
+      Node* studies = document.root.find("study");
       if (studies == nullptr) continue;
       for (std::size_t n = 0; n < studies->items.size(); ++n)
-        if (Node* loads = find_in(studies->items[n], "loads"))
+        if (Node* loads = studies->items[n].find("loads"))
           expand_list(*loads, "study[" + std::to_string(n + 1) + "].loads", {}, 0);
     }
   }
@@ -151,7 +145,7 @@ class Expander {
       if (const Node* pattern = item.find("pattern"))
         turn_copy(copy, key, *pattern, index_of(*pattern), *bindings, own_key, problems_);
       // A group: elements that are no chain of their own.
-      Node* elements = find_in(copy, "elements");
+      Node* elements = copy.find("elements");
       const bool is_group = elements && key.ends_with(".elements");
       if (is_group) {
         for (const NodeEntry& entry : copy.entries)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
 #include "springfold/drawing/illustration.hpp"
@@ -20,9 +21,6 @@ using Json = nlohmann::ordered_json;
 using analysis::Sample;
 using analysis::StudyKind;
 using analysis::StudyResult;
-using drawing::Scene;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 Json json_of(const model::Vec3<double>& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -59,7 +57,7 @@ const char* word_of(model::JointRole role) {
 }
 
 /// Parts and the numbers of their points: the same for all rows of a run.
-Json parts_of(const Scene& scene) {
+Json parts_of(const drawing::Scene& scene) {
   const drawing::View view = drawing::natural_view(scene);
   Json json = {{"dimension", scene.is_planar ? 2 : 3},
                {"points", scene.points.size()},
@@ -102,23 +100,24 @@ void add(const model::Vec3<double>& v, Index dimension, std::vector<double>& lis
 }
 
 /// Numbers of the rows of a branch, row after row.
-struct Rows {
+struct RowNumbers {
   std::vector<double> values{}, points{}, springs{}, loads{};
 };
 
-void add_row(const StudyResult& result, const Sample& row, const std::optional<Scene>& scene,
-             const Scene& first, Rows& rows) {
+void add_row(const StudyResult& result, const Sample& row,
+             const std::optional<drawing::Scene>& scene, const drawing::Scene& first,
+             RowNumbers& rows) {
   for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    rows.values.push_back(i < row.values.size() ? row.values[i] : unknown);
+    rows.values.push_back(i < row.values.size() ? row.values[i] : nothing);
   const Index d = first.is_planar ? 2 : 3;
   const auto is_alike = scene && scene->points.size() == first.points.size() &&
                         scene->springs.size() == first.springs.size() &&
                         scene->loads.size() == first.loads.size();
   if (!is_alike) {
     rows.points.insert(rows.points.end(), first.points.size() * static_cast<std::size_t>(d),
-                       unknown);
-    rows.springs.insert(rows.springs.end(), 2 * first.springs.size(), unknown);
-    rows.loads.insert(rows.loads.end(), 3 * first.loads.size(), unknown);
+                       nothing);
+    rows.springs.insert(rows.springs.end(), 2 * first.springs.size(), nothing);
+    rows.loads.insert(rows.loads.end(), 3 * first.loads.size(), nothing);
     return;
   }
   for (const auto& p : scene->points) add(p, d, rows.points);
@@ -157,7 +156,7 @@ Json json_of(const analysis::Event& event, const analysis::Branch& branch,
 }
 
 /// The first row whose posture is known says what parts there are.
-std::optional<Scene> first_scene(const StudyResult& result, const RowScenes& scenes) {
+std::optional<drawing::Scene> first_scene(const StudyResult& result, const RowScenes& scenes) {
   if (!scenes.has_postures()) return std::nullopt;
   for (const auto& branch : result.branches)
     for (const Sample& row : branch.samples)
@@ -188,10 +187,10 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
   if (first) json["mechanism"] = parts_of(*first);
   for (std::size_t b = 0; b < result.branches.size(); ++b) {
     const analysis::Branch& branch = result.branches[b];
-    Rows rows;
+    RowNumbers rows;
     for (const Sample& row : branch.samples)
-      add_row(result, row, first ? scenes.scene_of(row) : std::nullopt, first ? *first : Scene{},
-              rows);
+      add_row(result, row, first ? scenes.scene_of(row) : std::nullopt,
+              first ? *first : drawing::Scene{}, rows);
     Json events = Json::array();
     for (const auto& event : branch.events) events.push_back(json_of(event, branch, scenes));
     json["branches"].push_back({{"file", b < files.size() ? files[b] : ""},

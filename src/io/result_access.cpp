@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "nothing.hpp"
 #include "springfold/io/shown_text.hpp"
 
 namespace springfold::io {
@@ -120,6 +121,12 @@ std::string heading_of(const analysis::StudyResult& result) {
   std::string heading = shown(result.study) + ", run " + std::to_string(result.run);
   if (!result.label.empty()) heading += " (" + shown(result.label) + ")";
   return heading;
+}
+
+double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
+                    std::string_view name) {
+  const auto column = column_of(result, name);
+  return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
 double shown_against(double value, double scale) {

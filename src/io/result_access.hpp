@@ -9,6 +9,7 @@
 
 #include "springfold/analysis/event_rows.hpp"
 #include "springfold/analysis/result.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/case_file.hpp"
 
 namespace springfold::io {
@@ -19,6 +20,10 @@ std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::s
 /// Value in one row of the branch; NaN if the row or the quantity does not exist.
 double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
                 std::size_t row, std::string_view quantity);
+
+/// Value of a state of rest; NaN if the quantity does not exist.
+double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
+                    std::string_view name);
 
 /// The number for people: 0 where it is nothing but rounding beside the scale.
 double shown_against(double value, double scale);

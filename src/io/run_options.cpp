@@ -28,7 +28,7 @@ Json json_of(const analysis::JointDamping& damping) {
 }
 
 template <class T>
-Json json_of(const std::vector<T>& items) {
+Json list_of(const std::vector<T>& items) {
   Json list = Json::array();
   for (const auto& item : items) list.push_back(json_of(item));
   return list;
@@ -37,10 +37,10 @@ Json json_of(const std::vector<T>& items) {
 /// null where no jumps are wanted.
 Json json_of(const std::optional<analysis::SnapSettings>& snap) {
   if (!snap) return nullptr;
-  Json json = {{"starts", snap->starts}, {"seed", snap->seed}, {"damping", json_of(snap->damping)}};
+  Json json = {{"starts", snap->starts}, {"seed", snap->seed}, {"damping", list_of(snap->damping)}};
   if (snap->inertia)
     json["inertia"] = {{"damping_ratio", snap->inertia->damping_ratio},
-                       {"damping", json_of(snap->inertia->damping)}};
+                       {"damping", list_of(snap->inertia->damping)}};
   if (snap->cycle) json["cycle"] = {{"levels", snap->cycle->levels}, {"times", snap->cycle->times}};
   if (snap->transitions)
     json["transitions"] = {{"search_at", snap->transitions->search_at},
@@ -58,7 +58,7 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"body", body},
           {"direction", json_of(study.direction)},
           {"constant_load", json_of(study.constant_load)},
-          {"actuators", json_of(study.actuators)},
+          {"actuators", list_of(study.actuators)},
           {"parameter", study.parameter},
           {"start.solve", std::string(to_string(study.start.solve))},
           {"start.solver", std::string(to_string(study.start.solver))},
@@ -66,8 +66,8 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"start.attempts", study.start.attempts},
           {"start.seed", study.start.seed},
           {"start.maximum_move", study.start.maximum_move},
-          {"until", json_of(study.until)},
-          {"marks", json_of(study.marks)},
+          {"until", list_of(study.until)},
+          {"marks", list_of(study.marks)},
           {"trace.initial_step", initial},
           {"trace.minimum_step", minimum},
           {"trace.maximum_step", maximum},
@@ -83,7 +83,7 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"search.starts", study.search.starts},
           {"search.seed", study.search.seed},
           {"search.maximum", study.search.maximum},
-          {"search.box", json_of(study.search.box)},
+          {"search.box", list_of(study.search.box)},
           {"snap", json_of(study.snap)}};
 }
 

@@ -12,20 +12,20 @@ namespace {
 using model::ShapeKind;
 
 /// Second derivatives of a shape are one matrix of its points: 18 MB for so many.
-constexpr std::size_t most_points = 500;
+constexpr std::size_t most_shape_points = 500;
 
-struct Word {
+struct ShapeWord {
   const char* text;
   ShapeKind kind;
 };
-constexpr Word shape_words[]{
+constexpr ShapeWord shape_words[]{
     {"distance", ShapeKind::path}, {"path", ShapeKind::path},   {"angle", ShapeKind::angle},
     {"fold", ShapeKind::dihedral}, {"area", ShapeKind::area},   {"volume", ShapeKind::volume},
     {"line", ShapeKind::line},     {"plane", ShapeKind::plane},
 };
 
 ShapeKind kind_of(const std::string& word) {
-  for (const Word& known : shape_words)
+  for (const ShapeWord& known : shape_words)
     if (word == known.text) return known.kind;
   return ShapeKind::path;
 }
@@ -176,10 +176,10 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
   table.require("of", "a list of points");
   for (const Item& item : table.list("of", "a list of points"))
     shape.points.push_back(read_anchor(item, draft, numbers, reading));
-  if (shape.points.size() > most_points)
+  if (shape.points.size() > most_shape_points)
     reading.problems.add(table.find("of")->place, table.key_of("of"),
                          "got " + std::to_string(shape.points.size()) + " points, need at most " +
-                             std::to_string(most_points));
+                             std::to_string(most_shape_points));
   if (shape.kind == ShapeKind::volume) {
     table.require("triangles", "a list of triangles such as [1, 2, 3]");
     shape.triangles = read_triangles(table, shape.points.size(), reading);

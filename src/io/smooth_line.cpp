@@ -13,7 +13,7 @@ namespace {
 
 /// A turn of this angle between two points is not seen as a corner.
 constexpr double smallest_turn = std::numbers::pi / 60;
-constexpr int most_points = 24;  // of one step
+constexpr int most_inner_points = 24;  // of one step
 /// Rows nearer than this part of the branch say nothing about its slope but rounding.
 constexpr double nearest_rows = 1e-6;
 
@@ -51,7 +51,7 @@ class Curve {
     const double h = b.s - a.s;
     const PlotPoint p = slope(i, true), q = slope(i, false);
     const double angle = turn(p, q) + turn(difference(b.at, a.at, h), p);
-    const int count = std::clamp(static_cast<int>(angle / smallest_turn), 0, most_points);
+    const int count = std::clamp(static_cast<int>(angle / smallest_turn), 0, most_inner_points);
     Polyline points;
     for (int k = 1; k <= count; ++k) {
       const double t = static_cast<double>(k) / (count + 1), u = 1 - t;

@@ -23,11 +23,11 @@ std::vector<analysis::JointDamping> built(const std::vector<JointDampingDraft>& 
   return list;
 }
 
-/// A table of the study, or nothing; keys of another kind of study are refused.
+/// A table of the study, or no_table; keys of another kind of study are refused.
 TableReader table_of(const TableReader& study, const std::string& name, bool belongs,
                      const std::string& kind, const std::string& example,
                      const std::vector<std::string>& known, Reading& reading) {
-  static const Node nothing;
+  static const Node no_table;
   const Node* node = study.find(name);
   const bool is_table = node != nullptr && node->kind == Node::Kind::table;
   if (node != nullptr && !belongs)
@@ -36,13 +36,13 @@ TableReader table_of(const TableReader& study, const std::string& name, bool bel
   else if (node != nullptr && !is_table)
     reading.problems.add(node->place, study.key_of(name),
                          "got " + described(*node) + ", need " + example);
-  return {is_table && belongs ? *node : nothing, study.key_of(name), known, reading};
+  return {is_table && belongs ? *node : no_table, study.key_of(name), known, reading};
 }
 
 /// `inertia = true`, or a table of settings, which means true.
 void read_inertia(const TableReader& snap, NumberTable& numbers, Reading& reading,
                   SnapDraft& draft) {
-  static const Node nothing;
+  static const Node no_table;
   const std::string need = "true, or a table such as { damping_ratio = 0.05 }";
   const Node* node = snap.find("inertia");
   const bool is_settings = node != nullptr && node->kind == Node::Kind::table;
@@ -51,8 +51,10 @@ void read_inertia(const TableReader& snap, NumberTable& numbers, Reading& readin
     reading.problems.add(node->place, snap.key_of("inertia"),
                          "got " + described(*node) + ", need " + need);
   draft.has_inertia = is_settings || (is_truth && node->number != 0);
-  const TableReader table{
-      is_settings ? *node : nothing, snap.key_of("inertia"), {"damping_ratio", "damping"}, reading};
+  const TableReader table{is_settings ? *node : no_table,
+                          snap.key_of("inertia"),
+                          {"damping_ratio", "damping"},
+                          reading};
   draft.damping_ratio = table.number("damping_ratio", {Range::positive, ""}, numbers,
                                      analysis::InertialSettings{}.damping_ratio);
   draft.inertial_damping = read_damping(table, numbers, reading);
@@ -122,7 +124,7 @@ void read_transitions(const TableReader& study, NumberTable& numbers, Reading& r
 }  // namespace
 
 SnapDraft read_snap(const TableReader& study, NumberTable& numbers, Reading& reading) {
-  static const Node nothing;
+  static const Node no_table;
   const analysis::SnapSettings defaults;
   const std::string need = "true, or a table such as { starts = 32 }";
   SnapDraft draft;
@@ -146,7 +148,7 @@ SnapDraft read_snap(const TableReader& study, NumberTable& numbers, Reading& rea
                          "got " + described(*node) + ", need " + need);
   }
   draft.on = draft.on || is_settings;
-  const TableReader table{is_settings ? *node : nothing,
+  const TableReader table{is_settings ? *node : no_table,
                           study.key_of("snap"),
                           {"starts", "seed", "damping", "inertia"},
                           reading};

@@ -15,7 +15,7 @@ using analysis::ControlMode;
 using analysis::StartSolve;
 using analysis::StudyKind;
 
-const std::vector<std::string> kind_words{
+const std::vector<std::string> study_words{
     "force_deflection", "equilibrium",    "equilibria", "control",       "map",
     "workspace",        "critical_curve", "threshold",  "sensitivity",   "critical_load",
     "design",           snap_kind,        cycle_kind,   transitions_kind};
@@ -35,7 +35,7 @@ const std::array kinds{StudyKind::force_deflection,
                        StudyKind::force_deflection};
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
-const std::vector<std::string> solver_words{"newton", "fixed_point"};
+const std::vector<std::string> start_solvers{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
 const std::string loads_example = "loads = [{ name = \"...\", on = \"...\", force = [...] }]";
 const std::vector<std::string> study_keys{
@@ -49,9 +49,9 @@ const std::vector<std::string> study_keys{
 std::vector<std::string> keys_of(const Node& study) {
   const Node* kind = study.find("kind");
   const auto word =
-      kind ? std::find(kind_words.begin(), kind_words.end(), kind->text) : kind_words.end();
-  if (word == kind_words.end()) return study_keys;
-  const StudyKind found = kinds[static_cast<std::size_t>(word - kind_words.begin())];
+      kind ? std::find(study_words.begin(), study_words.end(), kind->text) : study_words.end();
+  if (word == study_words.end()) return study_keys;
+  const StudyKind found = kinds[static_cast<std::size_t>(word - study_words.begin())];
   return analysis::is_of_commands(found) ? command_keys(found) : study_keys;
 }
 
@@ -124,7 +124,7 @@ class StudyReader {
 
  private:
   bool read_kind() {
-    draft_.kind = kinds[table_.choice("kind", kind_words, 0)];
+    draft_.kind = kinds[table_.choice("kind", study_words, 0)];
     const bool traces =
         draft_.kind == StudyKind::force_deflection || analysis::is_of_critical_points(draft_.kind);
     if (traces) table_.require("control", choices(control_words));
@@ -249,7 +249,7 @@ class StudyReader {
                                     StartSolve::wrench}[start.choice("solve", solve_words, 0)];
     draft_.start_solver =
         std::array{analysis::StartSolver::newton,
-                   analysis::StartSolver::fixed_point}[start.choice("solver", solver_words, 0)];
+                   analysis::StartSolver::fixed_point}[start.choice("solver", start_solvers, 0)];
     draft_.attempts =
         start.number("attempts", {Range::small_count, ""}, draft_.numbers, defaults.attempts);
     draft_.seed = start.number("seed", {Range::whole, ""}, draft_.numbers,

@@ -13,18 +13,12 @@ namespace {
 
 using analysis::StudyResult;
 
-constexpr int digits = summary_digits;
-
-std::string line(std::string_view label, const std::string& text) {
-  return summary_line(label, text);
-}
-
 }  // namespace
 std::string start_lines(const analysis::StartReport& start, const PlannedRun* planned) {
   if (!start.found) {
     const std::string tried =
         start.attempts > 0 ? " after " + counted(start.attempts, "attempt") : "";
-    return line("start", "NOT FOUND" + tried + ": " + start_problem(start, planned));
+    return summary_line("start", "NOT FOUND" + tried + ": " + start_problem(start, planned));
   }
   std::string how = start.method.empty() ? "found" : start.method;
   how += ", " + counted(start.attempts, "attempt") + ", " + counted(start.iterations, "iteration");
@@ -33,10 +27,11 @@ std::string start_lines(const analysis::StartReport& start, const PlannedRun* pl
     for (const int count : start.chain_iterations) how += " " + std::to_string(count);
     how += ")";
   }
-  std::string text = line("start", how + ", residual " + rounded(start.residual, 2));
+  std::string text = summary_line("start", how + ", residual " + rounded(start.residual, 2));
   if (start.moved > 1e-9)
-    text += line("", "moved by " + rounded(start.moved, 3) + " (" + start.moved_most +
-                         ") from the guess, whose residual is " + rounded(start.guess_residual, 2));
+    text += summary_line("", "moved by " + rounded(start.moved, 3) + " (" + start.moved_most +
+                                 ") from the guess, whose residual is " +
+                                 rounded(start.guess_residual, 2));
   return text;
 }
 
@@ -45,25 +40,27 @@ std::string caution_lines(const StudyResult& result) {
   if (!result.non_conservative.empty()) {
     std::string loads;
     for (const auto& load : result.non_conservative) loads += (loads.empty() ? "" : ", ") + load;
-    text += line("load", "NON-CONSERVATIVE: " + loads);
-    text += line("",
-                 "no potential: unstable modes are not counted; static bifurcations are zeros of "
-                 "det T");
-    text += line("",
-                 "(T: tangent stiffness, not symmetric); flutter is a matter of masses and not "
-                 "examined");
+    text += summary_line("load", "NON-CONSERVATIVE: " + loads);
+    text += summary_line(
+        "",
+        "no potential: unstable modes are not counted; static bifurcations are zeros of "
+        "det T");
+    text +=
+        summary_line("",
+                     "(T: tangent stiffness, not symmetric); flutter is a matter of masses and not "
+                     "examined");
     std::string values;
     for (const auto& [real, imaginary] : result.start.tangent)
-      values += (values.empty() ? "" : ", ") + rounded(real, digits) +
+      values += (values.empty() ? "" : ", ") + rounded(real, summary_digits) +
                 (imaginary == 0 ? ""
                                 : (imaginary < 0 ? " - " : " + ") +
-                                      rounded(std::abs(imaginary), digits) + "i");
-    if (!values.empty()) text += line("", "eigenvalues of T: " + values);
+                                      rounded(std::abs(imaginary), summary_digits) + "i");
+    if (!values.empty()) text += summary_line("", "eigenvalues of T: " + values);
   }
   const int zeros = result.start.zero_modes;
   if (zeros > 0)
-    text +=
-        line("singular", "the stiffness is singular: " + counted(zeros, "motion") +
+    text += summary_line("singular",
+                         "the stiffness is singular: " + counted(zeros, "motion") +
                              " without stiffness (neutral equilibrium)" +
                              (result.start.free_motions.empty()
                                   ? ""
@@ -72,21 +69,22 @@ std::string caution_lines(const StudyResult& result) {
   if (redundant.count == 0) return text;
   std::string chains;
   for (const auto& chain : redundant.chains) chains += (chains.empty() ? "" : ", ") + chain;
-  text +=
-      line("redundant", std::to_string(redundant.count) + " of " +
-                            counted(redundant.of, "closure equation") + ", among chains " + chains);
-  return text + line("",
-                     "statics does not determine their wrenches: those of smallest norm are "
-                     "shown; singular values " +
-                         rounded(redundant.largest_dropped, 2) + " dropped, " +
-                         rounded(redundant.smallest_kept, 2) + " kept");
+  text += summary_line("redundant", std::to_string(redundant.count) + " of " +
+                                        counted(redundant.of, "closure equation") +
+                                        ", among chains " + chains);
+  return text +
+         summary_line("",
+                      "statics does not determine their wrenches: those of smallest norm are "
+                      "shown; singular values " +
+                          rounded(redundant.largest_dropped, 2) + " dropped, " +
+                          rounded(redundant.smallest_kept, 2) + " kept");
 }
 
 namespace {
 
 /// A matrix under its name.
 std::string matrix_lines(const std::string& name, const Matrix& matrix) {
-  const int shown = matrix.rows() <= 3 ? digits : 6;
+  const int shown = matrix.rows() <= 3 ? summary_digits : 6;
   // Coupling terms are compared with what they couple, whatever the units of both.
   const auto scale = [&](Index r, Index c) {
     return r == c ? 0 : std::sqrt(std::abs(matrix(r, r) * matrix(c, c)));
@@ -110,10 +108,10 @@ std::string eigenvalue_line(const StudyResult& result) {
   for (int i = 1; column_of(result, "K_eig" + std::to_string(i)); ++i) {
     const double value = value_at(result, first, first.start_row, "K_eig" + std::to_string(i));
     values += (values.empty() ? "" : ", ") +
-              (std::isnan(value) ? std::string("infinite") : rounded(value, digits));
+              (std::isnan(value) ? std::string("infinite") : rounded(value, summary_digits));
   }
   const bool known = values.find_first_of("0123456789") != std::string::npos;
-  return known ? line("K_eig", values) : "";
+  return known ? summary_line("K_eig", values) : "";
 }
 
 }  // namespace
@@ -123,22 +121,24 @@ std::string stiffness_lines(const StudyResult& result) {
   if (!start.sides.empty()) {  // one matrix would be that of one side
     std::string text;
     for (const analysis::StartSide& side : start.sides) {
-      text += line("segments", side.piece + ", springs on their thresholds taken on this side");
+      text +=
+          summary_line("segments", side.piece + ", springs on their thresholds taken on this side");
       if (side.stiffness.size() > 0)
         text += matrix_lines("stiffness", side.stiffness);
       else if (side.compliance.size() > 0)
         text += matrix_lines("compliance", side.compliance);
       else
-        text += line("stiffness", "not defined on this side");
+        text += summary_line("stiffness", "not defined on this side");
     }
     return text;
   }
   if (start.stiffness.size() > 0)
     return matrix_lines("stiffness", start.stiffness) + eigenvalue_line(result);
   if (start.compliance.size() == 0)
-    return line("stiffness",
-                "not defined here: rigid in some direction, or a chain is critical by itself");
-  return line("stiffness", "infinite in some direction: the body is rigid there; its compliance:") +
+    return summary_line(
+        "stiffness", "not defined here: rigid in some direction, or a chain is critical by itself");
+  return summary_line("stiffness",
+                      "infinite in some direction: the body is rigid there; its compliance:") +
          matrix_lines("compliance", start.compliance) + eigenvalue_line(result);
 }
 

@@ -19,13 +19,7 @@ namespace {
 using analysis::Branch;
 using analysis::StudyResult;
 
-constexpr int digits = summary_digits;
-constexpr std::size_t indent = summary_indent;
 const std::string blank_label(summary_label_width, ' ');
-
-std::string line(std::string_view label, const std::string& text) {
-  return summary_line(label, text);
-}
 
 /// Columns of the mechanism's bodies ("tool.x") or actuator commands ("leg.drive.rho").
 std::vector<std::string> pose_names(const model::Mechanism& mechanism, const StudyResult& result) {
@@ -52,10 +46,10 @@ std::string named_values(std::string_view label, const std::vector<std::string>&
     const auto& quantity = result.quantities[column];
     const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
     const double value = shown_value(result, first.samples[first.start_row].values, column);
-    text += (text.empty() ? "" : ", ") + name + " = " + rounded(value, digits);
+    text += (text.empty() ? "" : ", ") + name + " = " + rounded(value, summary_digits);
     if (!unit.empty()) text += " " + unit;
   }
-  return text.empty() ? text : line(label, text);
+  return text.empty() ? text : summary_line(label, text);
 }
 
 /// "lambda 0, tip.x -0.7, tip.y 0.7": rates along a way out of the start.
@@ -79,19 +73,20 @@ std::string way_lines(const Case& the_case, const StudyResult& result) {
   const analysis::StartReport& start = result.start;
   if (start.situation.empty()) return "";
   const auto count = static_cast<int>(start.ways.size());
-  std::string text =
-      line("", "the start is " + start.situation + (count > 0 ? ": " + counted(count, "way") : ""));
+  std::string text = summary_line(
+      "", "the start is " + start.situation + (count > 0 ? ": " + counted(count, "way") : ""));
   for (std::size_t i = 0; i < start.ways.size(); ++i) {
     const int branch = start.ways[i].branch;
-    text += line("", "way " + std::to_string(i + 1) + ": " +
-                         (branch > 0 ? "branch " + std::to_string(branch) : "not followed") +
-                         ", d/ds " + rates_text(the_case, result, start.ways[i].rates));
+    text +=
+        summary_line("", "way " + std::to_string(i + 1) + ": " +
+                             (branch > 0 ? "branch " + std::to_string(branch) : "not followed") +
+                             ", d/ds " + rates_text(the_case, result, start.ways[i].rates));
   }
   return text;
 }
 
 /// Empty where the quantity is not defined, as in the tables.
-std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, digits); }
+std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, summary_digits); }
 
 /// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
 std::string index_text(const StudyResult& result, const Branch& branch,
@@ -108,12 +103,13 @@ std::string index_text(const StudyResult& result, const Branch& branch,
   const double before = value_at(result, branch, first, name);
   const double after = value_at(result, branch, second, name);
   if (before == after || std::isnan(after)) return cell(before);
-  return (std::isnan(before) ? "?" : rounded(before, digits)) + " > " + rounded(after, digits);
+  return (std::isnan(before) ? "?" : rounded(before, summary_digits)) + " > " +
+         rounded(after, summary_digits);
 }
 
 /// The special points as a table; only the columns that the run has.
 std::string point_lines(const StudyResult& result, const Branch& branch) {
-  if (branch.events.empty()) return line("points", "none");
+  if (branch.events.empty()) return summary_line("points", "none");
   std::vector<std::string> columns;
   for (const char* name : {"lambda", "deflection", "force"})
     if (column_of(result, name)) columns.emplace_back(name);
@@ -135,11 +131,11 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
   align.front() = Align::left;
   align.push_back(Align::left);
   rows.front().front().resize(blank_label.size() - 2, ' ');
-  return fitted(rows, align, indent);
+  return fitted(rows, align, summary_indent);
 }
 
 std::string stop_line(std::string_view label, const analysis::Stop& stop) {
-  return line(label, (stop.complete ? "" : "STOPPED EARLY: ") + stop.reason);
+  return summary_line(label, (stop.complete ? "" : "STOPPED EARLY: ") + stop.reason);
 }
 
 /// Where a branch begins, if it does not run through the start.
@@ -149,7 +145,7 @@ std::string origin_text(const StudyResult& result, const Branch& branch) {
   int before = 0;  // equilibria of earlier searches
   for (const auto& search : result.searches) {
     if (branch.start <= before + search.found)
-      return "found by the search at lambda = " + rounded(search.lambda, digits);
+      return "found by the search at lambda = " + rounded(search.lambda, summary_digits);
     before += search.found;
   }
   return "";
@@ -175,7 +171,7 @@ std::string left_out(const StudyResult& result) {
 }
 
 std::string search_text(const analysis::Search& search) {
-  std::string text = "search at lambda = " + rounded(search.lambda, digits) + ": ";
+  std::string text = "search at lambda = " + rounded(search.lambda, summary_digits) + ": ";
   if (search.found == 0)
     text += "no other equilibrium found in " + counted(search.starts, "start");
   else
@@ -197,7 +193,7 @@ std::string diagram_lines(const StudyResult& result, const PlannedRun* planned) 
   std::string text;
   std::string label = "branches";
   const auto add = [&](const std::string& sentence) {
-    text += line(label, sentence);
+    text += summary_line(label, sentence);
     label.clear();
   };
   add(std::to_string(result.branches.size()));
@@ -227,16 +223,16 @@ std::string branch_lines(const StudyResult& result, const std::vector<std::size_
   const Branch& branch = result.branches[numbers.front() - 1];
   std::string text;
   if (result.branches.size() > 1)
-    text += line(numbers.size() > 1 ? "branches " + numbers_text(numbers) + " "
-                                    : "branch " + std::to_string(numbers.front()),
-                 (numbers.size() > 1 ? "alike; " : "") + origin_text(result, branch));
+    text += summary_line(numbers.size() > 1 ? "branches " + numbers_text(numbers) + " "
+                                            : "branch " + std::to_string(numbers.front()),
+                         (numbers.size() > 1 ? "alike; " : "") + origin_text(result, branch));
   const std::size_t refused = branch.log.size();
   if (branch.samples.size() < 2 && branch.events.empty() && branch.backward.complete &&
       branch.forward.complete)
     return text;  // an equilibrium study: all is said by the start
-  text += line("curve", counted(static_cast<int>(branch.samples.size()), "point") + ", " +
-                            counted(static_cast<int>(refused), "refused or cut step"));
-  if (branch.arcs) text += line("", arcs_text(*branch.arcs));
+  text += summary_line("curve", counted(static_cast<int>(branch.samples.size()), "point") + ", " +
+                                    counted(static_cast<int>(refused), "refused or cut step"));
+  if (branch.arcs) text += summary_line("", arcs_text(*branch.arcs));
   text += point_lines(result, branch);
   if (branch.origin.empty()) text += stop_line("first row", branch.backward);
   return text + stop_line("last row", branch.forward);
@@ -263,7 +259,7 @@ std::string equilibria_table(const Case& the_case, const StudyResult& result) {
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;
   align.push_back(Align::left);
-  return fitted(rows, align, indent);
+  return fitted(rows, align, summary_indent);
 }
 
 std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
@@ -277,24 +273,25 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
     found += "; " + std::to_string(report.out_of_range) + " further out of range";
   if (report.locked > 0)
     found += "; " + std::to_string(report.locked) + " further with locked joints";
-  text += line("found", found);
+  text += summary_line("found", found);
   if (report.limit_reached)
-    text += line("", "the search ended because so many were found: there may well be more");
+    text += summary_line("", "the search ended because so many were found: there may well be more");
   const analysis::MorseCount& morse = report.morse;
-  if (!morse.applies) return text + line("Morse count", "does not apply: " + morse.why);
+  if (!morse.applies) return text + summary_line("Morse count", "does not apply: " + morse.why);
   const std::string sum = "the sum of (-1)^index is " + std::to_string(morse.found);
-  return text + line("Morse count", morse.found == morse.expected
-                                        ? sum + ", as it must be"
-                                        : sum + ", it must be " + std::to_string(morse.expected) +
-                                              ": there are others");
+  return text +
+         summary_line("Morse count", morse.found == morse.expected
+                                         ? sum + ", as it must be"
+                                         : sum + ", it must be " + std::to_string(morse.expected) +
+                                               ": there are others");
 }
 
 /// What happened, in words.
 std::string outline_lines(const Case& the_case, const StudyResult& result) {
   std::string text;
   for (const std::string& sentence : outline_of(the_case, result))
-    for (const std::string& part : wrapped(sentence, table_width - 2 * indent))
-      text += std::string(indent, ' ') + shown(part) + "\n";
+    for (const std::string& part : wrapped(sentence, table_width - 2 * summary_indent))
+      text += std::string(summary_indent, ' ') + shown(part) + "\n";
   return text;
 }
 
@@ -305,7 +302,7 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
     return text + command_lines(the_case, *planned, result);
   text += start_lines(result.start, plan_of(the_case, result));
   if (!result.start.outside.empty())
-    text += line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
+    text += summary_line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
   if (!result.start.found || result.branches.empty()) return text;
   if (const PlannedRun* planned = plan_of(the_case, result))
@@ -313,7 +310,8 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += named_values("commands", command_names(result), result, the_case.units);
   const Branch& first = result.branches.front();
   const double index = value_at(result, first, first.start_row, "index");
-  text += line("index", std::isnan(index) ? "not defined at this point" : rounded(index, digits));
+  text += summary_line(
+      "index", std::isnan(index) ? "not defined at this point" : rounded(index, summary_digits));
   text += way_lines(the_case, result);
   text += caution_lines(result);
   text += stiffness_lines(result);
@@ -335,11 +333,12 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
       parameters += (parameters.empty() ? "" : ", ") + name;
     text += (is_first && text.empty() ? "" : "\n") + shown(sweep.study) + ", " +
             counted(counts.planned, "run") + " over " + parameters + "\n";
-    text += line("complete", std::to_string(counts.complete) + " of " +
-                                 std::to_string(counts.planned) + ", table " + shown(files[i]));
+    text +=
+        summary_line("complete", std::to_string(counts.complete) + " of " +
+                                     std::to_string(counts.planned) + ", table " + shown(files[i]));
     if (counts.done < counts.planned)
-      text += line("NOT RUN",
-                   std::to_string(counts.planned - counts.done) + " of them, interrupted before");
+      text += summary_line(
+          "NOT RUN", std::to_string(counts.planned - counts.done) + " of them, interrupted before");
   }
   return text;
 }
@@ -352,10 +351,11 @@ std::string steps_table(const std::vector<StudyResult>& results) {
     for (std::size_t b = 0; b < result.branches.size(); ++b)
       for (const auto& note : result.branches[b].log)
         rows.push_back({heading_of(result) + ", branch " + std::to_string(b + 1),
-                        rounded(note.s, digits), rounded(note.step, digits), note.reason});
+                        rounded(note.s, summary_digits), rounded(note.step, summary_digits),
+                        note.reason});
   if (rows.size() == 1) return "\nno step was refused or cut\n";
   return "\nRefused and cut steps\n" +
-         fitted(rows, {Align::left, Align::right, Align::right, Align::left}, indent);
+         fitted(rows, {Align::left, Align::right, Align::right, Align::left}, summary_indent);
 }
 
 std::string outline_text(const Case& the_case, const std::vector<StudyResult>& results) {
@@ -374,7 +374,7 @@ std::string summary_table(const Case& the_case, const std::vector<StudyResult>& 
   for (const auto& planned : the_case.runs)
     if (planned.keeps_curves && result_of(results, planned.study, planned.run) == nullptr)
       text += "\n" + shown(planned.study) + ", run " + std::to_string(planned.run) + "\n" +
-              line("NOT RUN", "interrupted before");
+              summary_line("NOT RUN", "interrupted before");
   return text;
 }
 

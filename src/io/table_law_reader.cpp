@@ -7,7 +7,7 @@
 namespace springfold::io {
 namespace {
 
-constexpr std::size_t most_points = 10000;
+constexpr std::size_t most_table_points = 10000;
 
 const std::string need_points =
     "a list of at least two pairs [deformation, torque], deformations increasing";
@@ -85,11 +85,11 @@ SpringDraft read_table_law(const SpringReader& reader) {
     read_file(t, reader, draft);
   }
   const std::size_t count = draft.deformations.size();
-  if (reader.reading.problems.size() == before && (count < 2 || count > most_points))
+  if (reader.reading.problems.size() == before && (count < 2 || count > most_table_points))
     reader.report(t, t.has("file") ? "file" : "points",
                   "got " + std::to_string(count) + (count == 1 ? " point" : " points") +
-                      ", need 2 to " + std::to_string(most_points));
-  if (count > most_points) draft = {};
+                      ", need 2 to " + std::to_string(most_table_points));
+  if (count > most_table_points) draft = {};
   require_order(reader, draft);
   while (draft.deformations.size() < 2) {  // reported: one mistake must not cause others
     draft.deformations.push_back(

@@ -8,7 +8,7 @@
 namespace springfold::io {
 namespace {
 
-std::string trimmed(std::string_view text) {
+std::string unquoted(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
@@ -19,7 +19,7 @@ std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   while (true) {
     const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
+    fields.push_back(unquoted(line.substr(0, comma)));
     if (comma == std::string_view::npos) return fields;
     line.remove_prefix(comma + 1);
   }
@@ -65,7 +65,7 @@ void read_target_file(const TargetFile& file, const std::string& shown_name,
     at = end + 1;
     ++number;
     line = line.substr(0, line.find('#'));
-    if (trimmed(line).empty()) continue;
+    if (unquoted(line).empty()) continue;
     const Place place{shown_name, number, 1};
     const std::vector<std::string> fields = fields_of(line);
     if (header.empty()) {

@@ -138,6 +138,8 @@ const Node* Node::find(std::string_view key) const {
   return found == entries.end() ? nullptr : &found->value;
 }
 
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
 std::string described(const Node& node) {
   constexpr std::size_t longest = 80;
   switch (node.kind) {

@@ -33,6 +33,7 @@ struct Node {
 
   /// The value under `key`, nullptr if the table has none. @pre kind is table
   const Node* find(std::string_view key) const;
+  Node* find(std::string_view key);
 };
 
 struct NodeEntry {

@@ -26,7 +26,7 @@ std::optional<Found> point_with(const StudyResult& result, const std::string& la
   return std::nullopt;
 }
 
-void add_word(std::string& list, const std::string& word) {
+void add_name(std::string& list, const std::string& word) {
   list += (list.empty() ? "" : ", ") + word;
 }
 
@@ -43,9 +43,9 @@ void add_bars(const StudyResult& result, const PlannedRun& planned, const Tornad
     const auto known = planned.parameters.find(parameter);
     const double rate = value_at(result, *at.branch, at.row, quantity.name);
     if (known == planned.parameters.end() || std::isnan(rate))
-      add_word(unknown, parameter);
+      add_name(unknown, parameter);
     else if (known->second == 0)
-      add_word(zero, parameter);
+      add_name(zero, parameter);
     else
       figure.bars.push_back({parameter, rate * known->second / value});
   }

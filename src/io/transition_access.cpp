@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 
@@ -17,8 +18,7 @@ using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-const std::string saddle_prefix = "saddle.";
+const std::string over_saddle_prefix = "saddle.";
 
 /// 12 of "S12"; 0 for anything else.
 int state_number(std::string_view text) {
@@ -38,12 +38,6 @@ std::optional<std::pair<int, int>> pair_of(std::string_view text) {
   const int first = state_number(text.substr(0, dash)),
             second = state_number(text.substr(dash + 1));
   return first > 0 && second > 0 ? std::optional{std::pair{first, second}} : std::nullopt;
-}
-
-double column_value(const StudyResult& result, const analysis::SnapState& state,
-                    std::string_view name) {
-  const auto column = column_of(result, name);
-  return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
 double count_if(const std::vector<StableState>& states, bool StableState::*flag) {
@@ -141,8 +135,9 @@ double transition_value(const ExpectedValue& expected, const StudyResult& result
   const Barrier* highest = nullptr;
   const double barrier = barrier_between(report, from, to, &highest);
   if (expected.quantity == "barrier" || highest == nullptr) return barrier;
-  if (expected.quantity.starts_with(saddle_prefix))
-    return column_value(result, highest->saddle, expected.quantity.substr(saddle_prefix.size()));
+  if (expected.quantity.starts_with(over_saddle_prefix))
+    return column_value(result, highest->saddle,
+                        expected.quantity.substr(over_saddle_prefix.size()));
   return nothing;
 }
 

@@ -6,9 +6,15 @@
 #include <vector>
 
 #include "springfold/analysis/result.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/case_file.hpp"
 
 namespace springfold::io {
+
+/// nullptr for other studies.
+inline const analysis::TransitionReport* report_of(const analysis::StudyResult& result) {
+  return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
+}
 
 /// "transitions", the whole; "S1", a state; "S1-S2", the lowest barrier between two.
 bool is_transition_place(const std::string& at);

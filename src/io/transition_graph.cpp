@@ -12,10 +12,6 @@ using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
 
-const TransitionReport* report_of(const StudyResult& result) {
-  return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
-}
-
 std::string key(const std::string& id, const std::string& of, const std::string& type) {
   return "  <key id=\"" + id + "\" for=\"" + of + "\" attr.name=\"" + id + "\" attr.type=\"" +
          type + "\"/>\n";

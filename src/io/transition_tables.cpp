@@ -20,10 +20,6 @@ using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
 
-const TransitionReport* report_of(const StudyResult& result) {
-  return result.snap && result.snap->transitions ? &*result.snap->transitions : nullptr;
-}
-
 std::string name_of(int state) { return state > 0 ? "S" + std::to_string(state) : ""; }
 
 Json name_or_null(int state) { return state > 0 ? Json(name_of(state)) : Json(nullptr); }

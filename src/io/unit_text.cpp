@@ -2,28 +2,28 @@
 
 #include <algorithm>
 
+#include "characters.hpp"
+
 namespace springfold::io {
 namespace {
 
 constexpr std::string_view blanks = " \t";
 constexpr std::string_view degree_sign = "\xC2\xB0";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 /// Also every byte of a character outside of ASCII, such as those of ° and µ.
 bool is_of_a_unit(char c) {
   return is_letter(c) || is_digit(c) || static_cast<unsigned char>(c) >= 0x80 || c == '/' ||
          c == '*' || c == '^' || c == '.' || c == '-';
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view bare(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
 /// Length of the number at the beginning: "-2", "0.5", ".5e-3"; 0 if there is none.
-std::size_t number_length(std::string_view text) {
+std::size_t numeral_length(std::string_view text) {
   std::size_t at = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
   const std::size_t first = at;
   bool digits = false;
@@ -45,11 +45,11 @@ std::size_t number_length(std::string_view text) {
 }  // namespace
 
 std::string unit_problem(std::string_view text, const std::vector<std::string>& known) {
-  const std::string_view all = trimmed(text);
-  const std::size_t length = number_length(all);
+  const std::string_view all = bare(text);
+  const std::size_t length = numeral_length(all);
   if (length == 0 || length == all.size()) return {};
   const std::string number{all.substr(0, length)};
-  const std::string_view unit = trimmed(all.substr(length));
+  const std::string_view unit = bare(all.substr(length));
   if (unit == degree_sign || unit == "deg" || unit == "degree" || unit == "degrees")
     return "angles are in radians; of degrees write \"" + number + "*deg\"";
   const bool begins_a_unit =

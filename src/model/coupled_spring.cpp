@@ -4,17 +4,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "model/text_of.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::model {
 namespace {
-
-std::string text_of(double number) {
-  char digits[32];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
-  return {digits, end.ptr};
-}
 
 std::string entry(Index row, Index column, double value) {
   return "entry [" + std::to_string(row + 1) + "][" + std::to_string(column + 1) + "] is " +

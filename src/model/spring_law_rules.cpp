@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "falling.hpp"
+#include "model/text_of.hpp"
 #include "springfold/model/spring_law.hpp"
 
 namespace springfold::model {
@@ -14,13 +15,6 @@ namespace {
 using Problems = std::vector<std::string>;
 
 const std::string hint = "; give falling = true if it is meant so";
-
-std::string text_of(double number) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << number;
-  return text.str();
-}
 
 /// Collects the broken rules of one law.
 struct Rules {

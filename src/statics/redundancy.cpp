@@ -15,9 +15,9 @@ namespace {
 constexpr double dependent = 1e-9;  // singular values relative to the largest
 
 /// The closure equations alone as functions of all coordinates and poses.
-class Closures {
+class ClosureEquations {
  public:
-  Closures(const System& system, const Vector& rho) : system_{system} {
+  ClosureEquations(const System& system, const Vector& rho) : system_{system} {
     inputs_.rho = rho;
     inputs_.W = Vector::Zero(system.load_size);
     inputs_.loads = Vector::Zero(static_cast<Index>(system.mechanism.loads.size()));
@@ -119,7 +119,7 @@ Redundancy redundant_closures(const System& system, const Vector& z, const Vecto
   Redundancy result;
   System plain = system;
   plain.redundant = 0;
-  Closures closures(plain, rho);
+  ClosureEquations closures(plain, rho);
   std::mt19937_64 random(seed);
   Vector e, here = z;
   Matrix J;

@@ -6,22 +6,18 @@
 
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
+#include "statics/symmetric_part.hpp"
 
 namespace springfold::statics {
 namespace {
 
-/// As in stage_stiffness.cpp: beside the largest entries of A a stiffness like this is that of a rigid body.
-constexpr double rigidity = 1e12;
-
-constexpr Index wanted = 3;   ///< eigenvalues
-constexpr Index width = 4;    ///< of the blocks: so many equal ones are found
-constexpr Index blocks = 60;  ///< at most
-constexpr Index look = 4;     ///< after so many blocks eigenvalues are looked at
+constexpr Index wanted_eigenvalues = 3;  ///< eigenvalues
+constexpr Index width = 4;               ///< of the blocks: so many equal ones are found
+constexpr Index blocks = 60;             ///< at most
+constexpr Index look = 4;                ///< after so many blocks eigenvalues are looked at
 
 /// Residual of an eigenvalue of K^-1, in itself: its error is the square of that over the gap to the next.
 constexpr double settled = 1e-9;
-
-Matrix symmetric_part(const Matrix& K) { return 0.5 * (K + K.transpose()); }
 
 FrontalBorders no_borders(Index n) { return {Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}; }
 
@@ -128,7 +124,7 @@ Vector lowest_eigenvalues(const System& system, const StructuredMatrix& A, Index
     V = X.middleRows(t, nt);
     return true;
   };
-  const Index count = std::min(wanted, nt);
+  const Index count = std::min(wanted_eigenvalues, nt);
   const auto c = BlockKrylov(nt, negative, std::max<Index>(count - negative, 0)).run(inverse);
   if (!c) return {};
   Vector values = c->cwiseInverse();

@@ -8,18 +8,13 @@
 #include "springfold/core/inertia.hpp"
 #include "springfold/statics/couplings.hpp"
 #include "springfold/statics/sparse_stiffness.hpp"
+#include "statics/symmetric_part.hpp"
 
 namespace springfold::statics {
 namespace {
 
-/// Eigenvalues below this share of the largest entry are rounding.
-constexpr double rounding = 1e-13;
-
-/// Beside the largest entries of A a stiffness like this is that of a rigid chain, blurred by rounding: a
-/// straight one gives way along itself with the square of its bend.
-constexpr double rigidity = 1e12;
-
-Matrix symmetric_part(const Matrix& K) { return 0.5 * (K + K.transpose()); }
+/// Eigenvalues below this share of the largest entry are eigenvalue_rounding.
+constexpr double eigenvalue_rounding = 1e-13;
 
 /// Schur complement for one body.
 Matrix of_body(const System& system, const Matrix& K, Index body) {
@@ -84,7 +79,7 @@ StagedStiffness stiffness_in_stages(const System& system, const StageJacobians& 
   for (std::size_t i = 0; i < system.chains.size(); ++i)
     result.chains.push_back(stages.chain_stiffness(i, X.topRows(n)));
   const Vector& values = result.condensed.platform.eigenvalues;
-  const double least = rounding * values.cwiseAbs().maxCoeff();
+  const double least = eigenvalue_rounding * values.cwiseAbs().maxCoeff();
   if (regular && (values.array().abs() > least).all())
     result.condensed.stability.pose_controlled =
         inertia->negative - (values.array() < 0).count() - system.closure_count();

@@ -40,24 +40,24 @@ std::optional<Index> chain_index(const System& system, std::size_t i, const Matr
 }
 
 /// Which unknowns are wrenches and which are motions.
-struct Split {
+struct Kinds {
   std::vector<Index> motions{}, wrenches{};
 };
 
 /// @param end  unknowns before it only
-Split split_of(const System& system, Index end) {
-  Split split;
+Kinds kinds_of(const System& system, Index end) {
+  Kinds kinds;
   for (Index i = 0; i < end; ++i)
-    (system.is_wrench[static_cast<std::size_t>(i)] ? split.wrenches : split.motions).push_back(i);
-  return split;
+    (system.is_wrench[static_cast<std::size_t>(i)] ? kinds.wrenches : kinds.motions).push_back(i);
+  return kinds;
 }
 
 /// Unstable modes of all chains together, all bodies held: where they are coupled.
 std::optional<Index> chains_index(const System& system, const Matrix& A_full) {
   const Index n = system.first_pose;
   const Matrix A = A_full.topLeftCorner(n, n);
-  const Split split = split_of(system, n);
-  return block_index(A, A(split.wrenches, split.motions));
+  const Kinds kinds = kinds_of(system, n);
+  return block_index(A, A(kinds.wrenches, kinds.motions));
 }
 
 Vector real_eigenvalues(const Matrix& M, bool symmetric) {
@@ -182,14 +182,14 @@ std::optional<Matrix> body_compliance(const System& system, const Matrix& A_full
 }
 
 Matrix tangent_stiffness(const System& system, const Matrix& A_full, const Workspace& work) {
-  const Split split = split_of(system, system.size);
-  const Matrix J = without_gauge(A_full, work)(split.wrenches, split.motions);
+  const Kinds kinds = kinds_of(system, system.size);
+  const Matrix J = without_gauge(A_full, work)(kinds.wrenches, kinds.motions);
   const Matrix Z = kernel_of(J, 1e-10);
-  return Z.transpose() * without_gauge(A_full, work)(split.motions, split.motions) * Z;
+  return Z.transpose() * without_gauge(A_full, work)(kinds.motions, kinds.motions) * Z;
 }
 
 Index zero_modes(const System& system, const Matrix& A_full) {
-  const Matrix null = null_directions(A_full)(split_of(system, system.size).motions, Eigen::all);
+  const Matrix null = null_directions(A_full)(kinds_of(system, system.size).motions, Eigen::all);
   if (null.cols() == 0) return 0;
   return (jacobi_svd(null).values.array() > 1e-6).count();
 }

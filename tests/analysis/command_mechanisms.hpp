@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/column.hpp"
 #include "springfold/analysis/run.hpp"
 
 namespace springfold::analysis {
@@ -38,12 +39,6 @@ inline model::SpringLaw linear(double stiffness) { return model::LinearSpring{st
 
 inline model::SpringLaw one_sided(double stiffness, double from) {
   return model::OneSidedSpring{stiffness, from, model::OneSidedSpring::Side::above};
-}
-
-inline std::size_t column(const StudyResult& result, const std::string& name) {
-  for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    if (result.quantities[i].name == name) return i;
-  throw std::out_of_range("no quantity " + name);
 }
 
 inline double value(const StudyResult& result, std::size_t row, const std::string& name) {

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double value(const StudyResult& result, const Branch& branch, std::size_t row,
              const std::string& name) {

@@ -28,7 +28,7 @@ void add_random_link(std::mt19937& random, model::Chain& chain) {
 }
 
 /// Two spatial bodies, base - first - second - base; points in front of, between and without joints.
-model::Mechanism two_bodies(std::mt19937& random) {
+model::Mechanism two_loaded_bodies(std::mt19937& random) {
   model::Mechanism m;
   for (const char* name : {"first", "second"})
     m.bodies.push_back({.name = name,
@@ -55,7 +55,7 @@ model::Mechanism two_bodies(std::mt19937& random) {
   return m;
 }
 
-/// Every kind of load at every kind of point, constant and growing, and line springs.
+/// Every kind of load value_in_row every kind of point, constant and growing, and line springs.
 void load_everywhere(std::mt19937& random, model::Mechanism& m) {
   std::vector<model::Anchor> anchors = {{.body = 1}, {.body = 2}};
   for (Index chain = 0; chain < 3; ++chain)
@@ -92,7 +92,7 @@ PathRule rule_for(const statics::System& system, Index body) {
 TEST(LoadedRotations, HaveExactDerivativesForBodiesTurnedByTwoRadians) {
   std::mt19937 random(71);
   for (int trial = 0; trial < 6; ++trial) {
-    model::Mechanism mechanism = two_bodies(random);
+    model::Mechanism mechanism = two_loaded_bodies(random);
     load_everywhere(random, mechanism);
     const statics::System system = statics::prepare(mechanism);
     const PathProblem problem(system, rule_for(system, 1 + trial % 2));
@@ -119,7 +119,7 @@ TEST(LoadedRotations, HaveExactDerivativesForBodiesTurnedByTwoRadians) {
 
 TEST(LoadedRotations, GiveTheResidualOfTheRotationVector) {
   std::mt19937 random(72);
-  model::Mechanism mechanism = two_bodies(random);
+  model::Mechanism mechanism = two_loaded_bodies(random);
   load_everywhere(random, mechanism);
   const statics::System system = statics::prepare(mechanism);
   const PathProblem problem(system, rule_for(system, 1));
@@ -141,7 +141,7 @@ TEST(LoadedRotations, GiveTheResidualOfTheRotationVector) {
   }
 }
 
-double at(const StudyResult& result, std::size_t row, const std::string& quantity) {
+double value_in_row(const StudyResult& result, std::size_t row, const std::string& quantity) {
   for (std::size_t q = 0; q < result.quantities.size(); ++q)
     if (result.quantities[q].name == quantity)
       return result.branches.front().samples[row].values[q];
@@ -149,12 +149,12 @@ double at(const StudyResult& result, std::size_t row, const std::string& quantit
   return 0;
 }
 
-// An arm of length l on a hinge about a slanted axis with a spring c; at the distance d beyond its
+// An arm of length l on a hinge about a slanted axis with a spring c; value_in_row the distance d beyond its
 // end a follower force lambda across it and a dead force P along y of the hinge:
 //
 //     c t = (l + d) (lambda + P cos t),   dM/dt = c + P (l + d) sin t.
 //
-// The body's own frame stands turned by 2 rad or not at all.
+// The body's own frame stands turned by 2 rad or not value_in_row all.
 class SlantedArm : public testing::TestWithParam<double> {
  protected:
   static constexpr double c = 2, l = 0.8, d = 0.3, P = 0.5;
@@ -203,19 +203,22 @@ TEST_P(SlantedArm, IsWoundUpAsTheClosedFormSays) {
   EXPECT_THAT(result.non_conservative, testing::ElementsAre("follower force follower"));
   const std::size_t rows = result.branches.front().samples.size();
   for (std::size_t row = 0; row < rows; ++row) {
-    const double t = at(result, row, "arm.h"), lambda = at(result, row, "lambda");
+    const double t = value_in_row(result, row, "arm.h"),
+                 lambda = value_in_row(result, row, "lambda");
     EXPECT_NEAR(c * t, (l + d) * (lambda + P * std::cos(t)), 1e-10);
-    EXPECT_NEAR(at(result, row, "T_det"), c + P * (l + d) * std::sin(t), 1e-10);
+    EXPECT_NEAR(value_in_row(result, row, "T_det"), c + P * (l + d) * std::sin(t), 1e-10);
     const Rotation R = slant * model::rotation_about<double>({0, 0, 1}, t);
-    const model::Vec3<double> tip(at(result, row, "tip.x"), at(result, row, "tip.y"),
-                                  at(result, row, "tip.z"));
-    const model::Vec3<double> phi(at(result, row, "tip.rx"), at(result, row, "tip.ry"),
-                                  at(result, row, "tip.rz"));
+    const model::Vec3<double> tip(value_in_row(result, row, "tip.x"),
+                                  value_in_row(result, row, "tip.y"),
+                                  value_in_row(result, row, "tip.z"));
+    const model::Vec3<double> phi(value_in_row(result, row, "tip.rx"),
+                                  value_in_row(result, row, "tip.ry"),
+                                  value_in_row(result, row, "tip.rz"));
     EXPECT_LT((tip - l * R.col(0)).norm(), 1e-10);
     EXPECT_LT((model::exp_rotation<double>(phi) - R * own).norm(), 1e-9);
   }
-  EXPECT_NEAR(at(result, rows - 1, "lambda"), 13, 1e-12);
-  EXPECT_GT(at(result, rows - 1, "arm.h"), 6.5);
+  EXPECT_NEAR(value_in_row(result, rows - 1, "lambda"), 13, 1e-12);
+  EXPECT_GT(value_in_row(result, rows - 1, "arm.h"), 6.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(OwnFrame, SlantedArm, testing::Values(0.0, 2.0));

@@ -8,7 +8,7 @@
 namespace springfold::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Study grid(double edge, int points) {
   Study study = command_study(StudyKind::map);

@@ -18,7 +18,7 @@ using model::random_pose;
 using model::random_unit;
 using model::random_vector;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Quaternion random_quaternion(std::mt19937& random) {
   Quaternion q = random_vector(random, 4, 1.0);

@@ -69,7 +69,7 @@ model::Mechanism delta() {
   Mechanism m;
   m.bodies = {{"tool", TaskSpace::xyz, Vector::Zero(3)}};
   for (int i = 0; i < 3; ++i) {
-    const Vec3<double> axis = Vec3<double>::Unit(i);
+    const model::Vec3<double> axis = model::Vec3<double>::Unit(i);
     Chain chain{.name = "leg" + std::to_string(i + 1)};
     chain.elements = {Joint{.name = "drive",
                             .kind = JointKind::prismatic,
@@ -77,9 +77,9 @@ model::Mechanism delta() {
                             .role = JointRole::actuated,
                             .spring = LinearSpring{1, 0},
                             .command = 1},
-                      Joint{.name = "first", .axis = Vec3<double>::Unit((i + 1) % 3)},
-                      Joint{.name = "second", .axis = Vec3<double>::Unit((i + 2) % 3)},
-                      RigidLink{{Mat3<double>::Identity(), -axis}}};
+                      Joint{.name = "first", .axis = model::Vec3<double>::Unit((i + 1) % 3)},
+                      Joint{.name = "second", .axis = model::Vec3<double>::Unit((i + 2) % 3)},
+                      RigidLink{{model::Mat3<double>::Identity(), -axis}}};
     m.chains.push_back(chain);
   }
   return m;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "cases/number_text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -14,12 +15,6 @@ using analysis::EventKind;
 using analysis::StudyResult;
 
 enum class As { chain, spring };
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 /// A cable of stiffness 1 from the top of the mast to the ground at x = +-1, stretched by `stretch`.
 std::string cable(const std::string& name, double side, double stretch, As as) {

@@ -85,7 +85,7 @@ elements = [
 }
 
 /// Two bars with a spring between them, pressed; `more` chains and bodies.
-std::string column(const std::string& more) {
+std::string careful_column(const std::string& more) {
   return R"toml(
 [[body]]
 name = "mid"
@@ -126,8 +126,8 @@ load = [0, -5]
 }
 
 TEST(ChainWithoutJoints, HoldsABodyRigidlyToAnother) {
-  const Ran plain = run(column(""));
-  const Ran welded = run(column(R"toml(
+  const Ran plain = run(careful_column(""));
+  const Ran welded = run(careful_column(R"toml(
 [[body]]
 name = "twin"
 task_space = "xy"

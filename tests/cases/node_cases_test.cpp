@@ -180,7 +180,7 @@ stiffness = 1
 )toml" + studies;
 }
 
-const std::string push = R"toml([[study]]
+const std::string pushed = R"toml([[study]]
 name = "push"
 body = "apex"
 control = "load"
@@ -196,7 +196,7 @@ body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)toml" + push));
+)toml" + pushed));
   const auto& second = ran.of("push");
   ASSERT_TRUE(analysis::complete(second)) << second.start.message;
   EXPECT_LT(second.start.moved, 1e-12);
@@ -211,7 +211,7 @@ body = "foot"
 control = "mixed"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)toml" + push));
+)toml" + pushed));
   EXPECT_NEAR(lambdas(ran.of("push"), EventKind::limit_point).at(0), 0.4534552257, 1e-9);
 }
 
@@ -223,7 +223,7 @@ control = "parameter"
 parameter = "squeeze"
 load = ["-squeeze", 0]
 until = { lambda = [0, 0.4] }
-)toml" + push);
+)toml" + pushed);
   const Ran ran = run("[parameters]\nsqueeze = 0\n" + text);
   EXPECT_NEAR(lambdas(ran.of("push"), EventKind::limit_point).at(0), 0.4534552257, 1e-9);
 }
@@ -236,7 +236,7 @@ body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)toml" + push);
+)toml" + pushed);
   text = text.replace(text.find("{ from = \"preload\" }"), 20,
                       "{ from = \"preload\", hold = [\"foot.x\"] }");
   const Ran ran = run(text);
@@ -317,7 +317,7 @@ until = { lambda = [0, 0.1] }
   ASSERT_TRUE(analysis::complete(on)) << on.start.message;
   const double held = value(ran.of("preload"), end(ran.of("preload")), "foot.x");
   EXPECT_NEAR(value(on, end(on), "foot.x"), held, 1e-12);
-  // Both bars carry half of the push of 0.2; the tie and the kept load balance each other.
+  // Both bars carry half of the pushed of 0.2; the tie and the kept load balance each other.
   const double slope = value(on, end(on), "apex.y") / (held / 2);
   EXPECT_NEAR(std::abs(value(on, end(on), "foot.hold.Fx")), 0.1 / slope, 1e-10);
 }
@@ -329,7 +329,7 @@ body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)toml" + push + R"toml([[study]]
+)toml" + pushed + R"toml([[study]]
 name = "on"
 body = "apex"
 control = "mixed"
@@ -363,7 +363,7 @@ body = "foot"
 control = "load"
 direction = [-1, 0]
 until = { lambda = [0, 0.4] }
-)toml" + push);
+)toml" + pushed);
   text =
       text.replace(text.find("{ from = \"preload\" }"), 20, "{ from = \"preload\", at = \"LP7\" }");
   const Ran ran = run(text);

@@ -27,7 +27,7 @@ std::vector<analysis::StudyResult> run_all(const Case& c) {
   return results;
 }
 
-void expect_all_hold(const std::string& file, const std::map<std::string, std::string>& overrides) {
+void expect_all_of(const std::string& file, const std::map<std::string, std::string>& overrides) {
   const Case c = load_case(folder / file, overrides);
   const std::vector<analysis::StudyResult> results = run_all(c);
   EXPECT_TRUE(all_complete(c, results));
@@ -51,16 +51,16 @@ double at(const std::vector<analysis::StudyResult>& results, const std::string& 
 }
 
 TEST(OrthoglideCase, ItsCommandsMapsAndWorkspaceAgreeWithTable1AndTheClosedForm) {
-  expect_all_hold("case-commands.toml", {});
+  expect_all_of("case-commands.toml", {});
 }
 
 TEST(OrthoglideCase, ItsMapsOfFigure5AgreeWithTheClosedForm) {
-  expect_all_hold("case-figure-5.toml", {});
+  expect_all_of("case-figure-5.toml", {});
 }
 
 TEST(OrthoglideCase, AgreesInOtherUnitsAndOtherSizes) {
-  expect_all_hold("case.toml", {{"L", "1000"}, {"K", "0.001"}});
-  expect_all_hold("case-one-sided.toml", {{"L", "0.3"}, {"K", "7e4"}});
+  expect_all_of("case.toml", {{"L", "1000"}, {"K", "0.001"}});
+  expect_all_of("case-one-sided.toml", {{"L", "0.3"}, {"K", "7e4"}});
 }
 
 TEST(OrthoglideCase, WithTheRoundedPGivesTheNumbersOfTheNote) {

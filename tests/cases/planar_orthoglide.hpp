@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "analysis/column.hpp"
 #include "springfold/analysis/run.hpp"
 
 namespace springfold {
@@ -61,13 +62,6 @@ inline analysis::Study diagonal_study(double s, OrthoglideUnits u = {}) {
   const double end = 80 * std::numbers::pi / 180;
   for (const char* knee : {"leg_x.knee", "leg_y.knee"}) study.until.push_back({knee, -end, end});
   return study;
-}
-
-/// Column of a quantity in a result.
-inline std::size_t column(const analysis::StudyResult& result, const std::string& name) {
-  for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    if (result.quantities[i].name == name) return i;
-  throw std::out_of_range("no quantity " + name);
 }
 
 inline double at_start(const analysis::StudyResult& result, const std::string& name) {

@@ -7,15 +7,10 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "cases/number_text.hpp"
 
 namespace springfold::io {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 /// A 3-RRR platform: feet at the radius 0.5, plate of radius 0.12, links of 0.3, stiff drives and soft flexures.
 std::string platform() {

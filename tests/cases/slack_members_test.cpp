@@ -9,18 +9,13 @@
 #include <vector>
 
 #include "case_runs.hpp"
+#include "cases/number_text.hpp"
 
 namespace springfold::io {
 namespace {
 
 using analysis::EventKind;
 using analysis::StudyResult;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 struct Cable {
   const char *from, *to;

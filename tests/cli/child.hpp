@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,12 +43,15 @@ class Child {
 
   void send(int signal) const { ::kill(process_, signal); }
 
-  /// Waits; the exit code, 128 + signal, or -1 if it goes on for longer.
+  /// Waits; the exit code, 128 + signal, or -1 if it uses more processor time than `seconds` from now on, or does
+  /// nothing for long: what other processes take does not count.
   int wait(double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>{seconds};
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>{5 * seconds + 10};
+    const double last = used() + seconds;
     int status = 0;
     while (::waitpid(process_, &status, WNOHANG) == 0) {
-      if (std::chrono::steady_clock::now() > end) return -1;
+      if (used() > last || std::chrono::steady_clock::now() > end) return -1;
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     }
     process_ = -1;
@@ -69,9 +73,23 @@ class Child {
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }
 
+  /// Until it has a handler for the signal: what comes earlier ends it like any program.
+  void wait_until_catching(int signal) const {
+    for (int i = 0; i < 6000 && !catches(signal); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+
   pid_t process() const { return process_; }
 
  private:
+  bool catches(int signal) const {
+    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:"))
+        return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+    return false;
+  }
+
   pid_t process_ = -1;
 };
 

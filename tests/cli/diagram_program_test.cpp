@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Outcome {
+struct Finished {
   int code = -1;
   std::string out{}, err{};
 };
@@ -43,7 +43,7 @@ until = { lambda = [-0.2, 3], column.a = [-1, 1] }
 
 class DiagramProgram : public testing::Test {
  protected:
-  Outcome run(const std::string& text) const {
+  Finished run(const std::string& text) const {
     put_text(scratch.path() / "case.toml", text);
     const std::string file = (scratch.path() / "case.toml").string();
     const std::string folder = (scratch.path() / "out").string();
@@ -58,14 +58,14 @@ class DiagramProgram : public testing::Test {
 };
 
 TEST_F(DiagramProgram, WithoutBranchesSaysWhatItDidNotFollow) {
-  const Outcome outcome = run(column(""));
+  const Finished outcome = run(column(""));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("not followed, branches.depth = 0: what crosses at BP1, BP2"));
   EXPECT_THAT(outcome.out, HasSubstr("nothing is claimed about branches that are not connected"));
 }
 
 TEST_F(DiagramProgram, WritesOneTableForEveryBranch) {
-  const Outcome outcome = run(column("branches = { depth = 1 }\n"));
+  const Finished outcome = run(column("branches = { depth = 1 }\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("begins at BP2 of branch 1"));
   EXPECT_TRUE(fs::exists(scratch.path() / "out/branches/press-1.csv"));
@@ -74,27 +74,27 @@ TEST_F(DiagramProgram, WritesOneTableForEveryBranch) {
 }
 
 TEST_F(DiagramProgram, SaysWhatItsSearchFound) {
-  const Outcome outcome = run(column("branches = { depth = 1, search_at = [0.1] }\n"));
+  const Finished outcome = run(column("branches = { depth = 1, search_at = [0.1] }\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("search at lambda = 0.1: "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("nothing is claimed")));
 }
 
 TEST_F(DiagramProgram, EndsWithFourWhenTheStartMovesTooFar) {
-  const Outcome outcome = run(column("load = [0, 0.05]\nstart = { maximum_move = 0.01 }\n"));
+  const Finished outcome = run(column("load = [0, 0.05]\nstart = { maximum_move = 0.01 }\n"));
   EXPECT_EQ(outcome.code, no_start_point);
   EXPECT_THAT(outcome.err, HasSubstr("farther than start.maximum_move = 0.01"));
 }
 
 TEST_F(DiagramProgram, SaysHowFarTheStartMoved) {
-  const Outcome outcome = run(column("load = [0, 0.05]\n"));
+  const Finished outcome = run(column("load = [0, 0.05]\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(") from the guess, whose residual is 0.0"));
 }
 
 TEST_F(DiagramProgram, FollowsAllWaysFromAStartOnABranchPoint) {
   // The straight column under its first critical load, (3 - sqrt(5))/2.
-  const Outcome outcome = run(column("load = [\"-(3 - sqrt(5))/2\", 0]\n"));
+  const Finished outcome = run(column("load = [\"-(3 - sqrt(5))/2\", 0]\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("the start is a branch point: 4 ways"));
   EXPECT_THAT(outcome.out, HasSubstr("begins at BP1, the start"));

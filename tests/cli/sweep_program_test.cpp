@@ -16,8 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A strut of length 1 on a hinge spring k, with c along itself: it buckles at c/2 (1 - sqrt(1 - 4 k/c)).
-std::string strut(const std::string& vary, const std::string& more = "", double limit = 1.5) {
+/// A varied_strut of length 1 on a hinge spring k, with c along itself: it buckles at c/2 (1 - sqrt(1 - 4 k/c)).
+std::string varied_strut(const std::string& vary, const std::string& more = "",
+                         double limit = 1.5) {
   return R"([parameters]
 k = 1
 c = 10
@@ -84,7 +85,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
 }
 
 TEST_F(SweepProgram, HasTheCriticalLoadOfEveryRunInOneTable) {
-  put(strut(grid + table + ", curves = false"));
+  put(varied_strut(grid + table + ", curves = false"));
   ASSERT_EQ(run("--out out"), 0) << text("err.txt");
   const auto rows = rows_of(text("out/sweeps/press.csv"));
   ASSERT_EQ(rows.size(), 18U);
@@ -101,16 +102,16 @@ TEST_F(SweepProgram, HasTheCriticalLoadOfEveryRunInOneTable) {
 }
 
 TEST_F(SweepProgram, WritesTheSameBytesWithAnyNumberOfThreads) {
-  put(strut(grid + table));
+  put(varied_strut(grid + table));
   ASSERT_EQ(run("--out one --threads 1"), 0);
   ASSERT_EQ(run("--out eight --threads 8"), 0);
   EXPECT_EQ(bytes("one"), bytes("eight"));
 }
 
 TEST_F(SweepProgram, HasTheSameTableWithAndWithoutCurves) {
-  put(strut(grid + table));
+  put(varied_strut(grid + table));
   ASSERT_EQ(run("--out with"), 0);
-  put(strut(grid + table + ", curves = false"));
+  put(varied_strut(grid + table + ", curves = false"));
   ASSERT_EQ(run("--out without"), 0);
   EXPECT_EQ(text("with/sweeps/press.csv"), text("without/sweeps/press.csv"));
   EXPECT_TRUE(fs::exists(scratch.path() / "with/branches/press-18.csv"));
@@ -118,9 +119,9 @@ TEST_F(SweepProgram, HasTheSameTableWithAndWithoutCurves) {
 
 TEST_F(SweepProgram, KilledGoesOnToTheSameBytes) {
   // Small steps, so that there is time to kill it.
-  put(strut("grid = { k = { from = 1, to = 2, points = 20 }, c = [12, 16] }, " + table +
-                ", curves = false",
-            "trace = { initial_step = 1e-3, maximum_step = 1e-3 }\n"));
+  put(varied_strut("grid = { k = { from = 1, to = 2, points = 20 }, c = [12, 16] }, " + table +
+                       ", curves = false",
+                   "trace = { initial_step = 1e-3, maximum_step = 1e-3 }\n"));
   ASSERT_EQ(run("--out whole"), 0);
   const fs::path checkpoint = scratch.path() / "part/.checkpoint-press-rows";
   {
@@ -139,7 +140,7 @@ TEST_F(SweepProgram, KilledGoesOnToTheSameBytes) {
 }
 
 TEST_F(SweepProgram, DoesNotTakeRowsOfAnotherCase) {
-  put(strut(grid + table + ", curves = false"));
+  put(varied_strut(grid + table + ", curves = false"));
   ASSERT_EQ(run("--out out"), 0);
   put_text(scratch.path() / "out/.checkpoint-press-rows",
            "springfold rows 1 0 0 press\n1\t1\t1\tx\nend\n");
@@ -148,7 +149,7 @@ TEST_F(SweepProgram, DoesNotTakeRowsOfAnotherCase) {
 }
 
 TEST_F(SweepProgram, SaysHowManyRunsAreNotComplete) {
-  put(strut(grid + table + ", curves = false", "trace = { maximum_points = 3 }\n"));
+  put(varied_strut(grid + table + ", curves = false", "trace = { maximum_points = 3 }\n"));
   EXPECT_EQ(run("--out out"), 5);
   EXPECT_THAT(text("err.txt"), HasSubstr("press: 18 runs are not complete: see the column status"));
   const auto rows = rows_of(text("out/sweeps/press.csv"));
@@ -158,7 +159,7 @@ TEST_F(SweepProgram, SaysHowManyRunsAreNotComplete) {
 }
 
 TEST_F(SweepProgram, ComparesExpectedValuesOfRunsWithoutCurves) {
-  put(strut("list = { k = [1, 2], c = [8, 16] }, " + table + ", curves = false"));
+  put(varied_strut("list = { k = [1, 2], c = [8, 16] }, " + table + ", curves = false"));
   const std::string value =
       "[[value]]\nname = \"P\"\nstudy = \"press\"\nrun = 2\nat = \"BP1\"\nquantity = "
       "\"lambda\"\ntolerance = 1e-9\nexpected = \"c/2*(1 - sqrt(1 - 4*k/c))\"\n";
@@ -195,7 +196,7 @@ class SweepOfProcesses : public SweepProgram {
 };
 
 TEST_F(SweepOfProcesses, FourWriteTheSameBytesAsOne) {
-  put(strut(grid + table + ", curves = false"));
+  put(varied_strut(grid + table + ", curves = false"));
   ASSERT_EQ(run("--out one"), 0);
   ASSERT_EQ(run_many(4, "--out four"), 0) << text("err.txt");
   EXPECT_EQ(bytes("one"), bytes("four"));
@@ -203,16 +204,16 @@ TEST_F(SweepOfProcesses, FourWriteTheSameBytesAsOne) {
 }
 
 TEST_F(SweepOfProcesses, LeaveRunsWithCurvesToOne) {
-  put(strut(grid + table));
+  put(varied_strut(grid + table));
   ASSERT_EQ(run("--out one"), 0);
   ASSERT_EQ(run_many(3, "--out three"), 0) << text("err.txt");
   EXPECT_EQ(bytes("one"), bytes("three"));
 }
 
 TEST_F(SweepOfProcesses, KilledGoOnToTheSameBytesWithAnotherNumber) {
-  put(strut("grid = { k = { from = 1, to = 2, points = 20 }, c = [12, 16] }, " + table +
-                ", curves = false",
-            "trace = { initial_step = 1e-3, maximum_step = 1e-3 }\n"));
+  put(varied_strut("grid = { k = { from = 1, to = 2, points = 20 }, c = [12, 16] }, " + table +
+                       ", curves = false",
+                   "trace = { initial_step = 1e-3, maximum_step = 1e-3 }\n"));
   ASSERT_EQ(run("--out whole"), 0);
   // As soon as there is a checkpoint all processes are killed: they are the children of mpirun.
   put_text(scratch.path() / "kill.sh",
@@ -230,7 +231,7 @@ TEST_F(SweepOfProcesses, KilledGoOnToTheSameBytesWithAnotherNumber) {
 }
 
 TEST_F(SweepOfProcesses, SayOnceWhatIsWrongWithTheCase) {
-  put(strut("grid = { kk = [1, 2] }, " + table));
+  put(varied_strut("grid = { kk = [1, 2] }, " + table));
   EXPECT_NE(run_many(3, "--out out"), 0);
   const std::string said = text("err.txt");
   const std::string message = "no parameter \"kk\"";

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-struct Outcome {
+struct Verdict {
   int code = -1;
   std::string out{}, err{};
 };
@@ -36,7 +36,7 @@ class Verify : public testing::Test {
              "[[value]]\nname = \"K\"\nstudy = \"push\"\nquantity = \"stiffness\"\nexpected = " +
                  stiffness + "\ntolerance = 1e-9\nsource = \"by hand\"\n");
   }
-  Outcome run(std::vector<std::string> words = {}) const {
+  Verdict run(std::vector<std::string> words = {}) const {
     words.insert(words.begin(), {"springfold", "verify", scratch.path().string()});
     std::vector<const char*> argv;
     for (const auto& word : words) argv.push_back(word.c_str());
@@ -48,7 +48,7 @@ class Verify : public testing::Test {
 };
 
 TEST_F(Verify, PrintsOneTableOfAllCasesAndWritesNothing) {
-  const Outcome outcome = run();
+  const Verdict outcome = run();
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 of 2 cases hold, 2 of 2 values"));
   EXPECT_THAT(outcome.out, HasSubstr("by hand"));
@@ -57,7 +57,7 @@ TEST_F(Verify, PrintsOneTableOfAllCasesAndWritesNothing) {
 
 TEST_F(Verify, EndsWithFiveIfOneValueOfOneCaseDoesNotHold) {
   add("two", "2.1");
-  const Outcome outcome = run();
+  const Verdict outcome = run();
   EXPECT_EQ(outcome.code, partial);
   EXPECT_THAT(outcome.out, HasSubstr("1 of 2 cases hold, 1 of 2 values"));
   EXPECT_THAT(outcome.out, HasSubstr("NOT OK"));
@@ -65,7 +65,7 @@ TEST_F(Verify, EndsWithFiveIfOneValueOfOneCaseDoesNotHold) {
 
 TEST_F(Verify, EndsWithFiveIfACaseExpectsNothing) {
   fs::remove(scratch.path() / "two" / "expected.toml");
-  const Outcome outcome = run();
+  const Verdict outcome = run();
   EXPECT_EQ(outcome.code, partial);
   EXPECT_THAT(outcome.out, HasSubstr("NOT OK  two: has no expected values"));
 }
@@ -75,16 +75,16 @@ TEST_F(Verify, GivesTheSameWhateverTheNumberOfJobs) {
 }
 
 TEST_F(Verify, PrintsJsonForOtherPrograms) {
-  const auto json = nlohmann::json::parse(run({"--json"}).out);
-  EXPECT_EQ(json["holds"], true);
-  EXPECT_EQ(json["cases"][1]["case"], "two");
-  EXPECT_EQ(json["cases"][1]["comparisons"][0]["reference"], 2);
+  const auto printed = nlohmann::json::parse(run({"--json"}).out);
+  EXPECT_EQ(printed["holds"], true);
+  EXPECT_EQ(printed["cases"][1]["case"], "two");
+  EXPECT_EQ(printed["cases"][1]["comparisons"][0]["reference"], 2);
 }
 
 TEST_F(Verify, ReportsMistakesOfAllCasesAndRunsNone) {
   for (const char* name : {"one", "two"})
     put_text(scratch.path() / name / "case.toml", small_case("titel = 1\n"));
-  const Outcome outcome = run();
+  const Verdict outcome = run();
   EXPECT_EQ(outcome.code, wrong_case_file);
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, HasSubstr("one/case.toml:1:1: titel: unknown key"));

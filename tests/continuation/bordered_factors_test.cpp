@@ -8,13 +8,10 @@
 #include <Eigen/QR>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold::continuation {
 namespace {
-
-Matrix random_matrix(std::mt19937& random, Index rows, Index columns) {
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(random); });
-}
 
 /// A symmetric matrix with an eigenvalue of a given size and others of 0.3 to 3 and both signs.
 Matrix symmetric_with(std::mt19937& random, Index n, double least) {

@@ -12,7 +12,7 @@ namespace {
 /// Three springs (stiffness 1, free length 1) from a ring of radius R to a point, pushed down by
 /// lambda: gradient of 1/2 sum (L_i - 1)^2 + lambda z. On the axis: limit point at L^3 = R^2, double
 /// branch points at L^3 - L^2 + R^2/2 = 0. All three fall together at R^2 = 8/27. The second unknown is y / unit.
-struct Dome {
+struct ScaledDome {
   double R = 0.5, unit = 1;
   static Index size() { return 3; }
   static bool symmetric() { return true; }
@@ -48,7 +48,7 @@ struct Dome {
   }
 };
 
-Dome nearly_degenerate(double off, double unit = 1) {
+ScaledDome nearly_degenerate(double off, double unit = 1) {
   return {std::sqrt(8.0 / 27 * (1 - off)), unit};
 }
 
@@ -66,7 +66,7 @@ TEST(Cluster, HasTheTotalMultiplicityOfItsPointsHoweverCloseTheyAre) {
 }
 
 TEST(Cluster, IsAnIntervalAroundItsPoints) {
-  const Dome dome = nearly_degenerate(1e-11);
+  const ScaledDome dome = nearly_degenerate(1e-11);
   const Curve curve = dome.pushed_down();
   const auto clusters = hits_of(curve, HitKind::unresolved);
   ASSERT_EQ(clusters.size(), 1u);

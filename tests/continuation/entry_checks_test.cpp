@@ -11,36 +11,37 @@
 namespace springfold::continuation {
 namespace {
 
-const Vector origin = Vector::Zero(1);
-const Ray up{above({true}), {Vector::Zero(1), 1}};
+const Vector zero_vector = Vector::Zero(1);
+const Ray ray_up{above({true}), {Vector::Zero(1), 1}};
 
 TEST(EntryChecks, PointsOfAWrongSizeAreRefused) {
   const OneSidedModes problem;
   EXPECT_THROW(rays_from(problem, Vector::Zero(2), 0, above({true}), {}), std::invalid_argument);
-  EXPECT_THROW(trace(problem, Vector(0), 0, up, {}, {}), std::invalid_argument);
-  EXPECT_THROW(davidenko(problem, Vector::Zero(3), 0, up, {}, {}), std::invalid_argument);
+  EXPECT_THROW(trace(problem, Vector(0), 0, ray_up, {}, {}), std::invalid_argument);
+  EXPECT_THROW(davidenko(problem, Vector::Zero(3), 0, ray_up, {}, {}), std::invalid_argument);
   EXPECT_THROW(trace_diagram(problem, {{Vector::Zero(2), 0, above({true})}}, {}, {}),
                std::invalid_argument);
 }
 
 TEST(EntryChecks, PiecesOfAWrongSizeAreRefused) {
   const OneSidedModes problem;
-  EXPECT_THROW(rays_from(problem, origin, 0, {}, {}), std::invalid_argument);
-  EXPECT_THROW(rays_from(problem, origin, 0, Piece{0}, {}), std::invalid_argument);
+  EXPECT_THROW(rays_from(problem, zero_vector, 0, {}, {}), std::invalid_argument);
+  EXPECT_THROW(rays_from(problem, zero_vector, 0, Piece{0}, {}), std::invalid_argument);
 }
 
 TEST(EntryChecks, AnEmptyRayIsRefused) {
   const OneSidedModes problem;
-  EXPECT_THROW(trace(problem, origin, 0, Ray{above({true}), {}, {}, {}}, {}, {}),
+  EXPECT_THROW(trace(problem, zero_vector, 0, Ray{above({true}), {}, {}, {}}, {}, {}),
                std::invalid_argument);
-  EXPECT_THROW(trace(problem, origin, 0, Ray{above({true}), {Vector::Zero(1), 0}, {}, {}}, {}, {}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      trace(problem, zero_vector, 0, Ray{above({true}), {Vector::Zero(1), 0}, {}, {}}, {}, {}),
+      std::invalid_argument);
 }
 
 TEST(EntryChecks, OptionsThatCannotBeUsedAreRefused) {
   TraceOptions options;
   options.step.maximum = -1;
-  EXPECT_THROW(trace(OneSidedModes{}, origin, 0, up, {}, options), std::invalid_argument);
+  EXPECT_THROW(trace(OneSidedModes{}, zero_vector, 0, ray_up, {}, options), std::invalid_argument);
 }
 
 struct WrongMetric : OneSidedModes {
@@ -48,7 +49,7 @@ struct WrongMetric : OneSidedModes {
 };
 
 TEST(EntryChecks, AProblemWhoseMembersDisagreeIsRefused) {
-  EXPECT_THROW(rays_from(WrongMetric{}, origin, 0, above({true}), {}), std::invalid_argument);
+  EXPECT_THROW(rays_from(WrongMetric{}, zero_vector, 0, above({true}), {}), std::invalid_argument);
 }
 
 /// Two springs of very different stiffness that give way by the same length.

@@ -43,7 +43,7 @@ inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-inline Matrix random_matrix(std::mt19937_64& random, Index n) {
+inline Matrix random_square(std::mt19937_64& random, Index n) {
   Matrix M(n, n);
   for (double& value : M.reshaped()) value = uniform(random, -1, 1);
   return M;
@@ -59,10 +59,10 @@ struct Hidden {
 
   Hidden(Small inner, Index n, std::mt19937_64& random, double stretch, bool mixes = false)
       : small{std::move(inner)}, mixed{mixes} {
-    T = Eigen::HouseholderQR<Matrix>(random_matrix(random, n)).householderQ();
+    T = Eigen::HouseholderQR<Matrix>(random_square(random, n)).householderQ();
     for (Index i = 0; i < n; ++i) T.col(i) *= std::pow(stretch, uniform(random, -1, 1));
     inverse = T.inverse();
-    mix = mixed ? Matrix(random_matrix(random, n) + 3 * Matrix::Identity(n, n))
+    mix = mixed ? Matrix(random_square(random, n) + 3 * Matrix::Identity(n, n))
                 : Matrix::Identity(n, n);
     k.resize(n - small.n);
     for (double& value : k) value = uniform(random, 0.3, 3) * (random() % 5 == 0 ? -1 : 1);

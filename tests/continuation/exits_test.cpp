@@ -229,7 +229,7 @@ TEST(Exits, OfTwoModesThatBuckleTogetherIncludeTheMixedOnesWhereTheyExist) {
 }
 
 /// N springs from a regular polygon, R = 1, to an apex under the load l; stress-free at height z0.
-struct Dome {
+struct BarDome {
   int N = 3;
   double z0 = 2;
   double rest() const { return std::hypot(1, z0); }
@@ -274,7 +274,7 @@ void expect_polygon_symmetry(int N, const Exits& found) {
 
 TEST(Exits, OfADomeAtItsDoublePointHaveTheSymmetryOfItsPolygon) {
   for (const auto& [N, count] : {std::pair{3, 8}, {4, 10}, {5, 12}, {6, 14}}) {
-    const Dome dome{.N = N};
+    const BarDome dome{.N = N};
     const Small problem = dome.problem();
     const auto walker = walker_of(problem);
     const CurvePoint at = dome.double_point();
@@ -292,9 +292,9 @@ TEST(Exits, OfADomeAtItsDoublePointHaveTheSymmetryOfItsPolygon) {
 TEST(Exits, ThatOnlyTermsOfHighOrderTellApartAreAllFoundOrNotCalledComplete) {
   for (const int N : {7, 8})
     for (const double z0 : {1.8, 3.0}) {
-      const Small problem = Dome{.N = N, .z0 = z0}.problem();
+      const Small problem = BarDome{.N = N, .z0 = z0}.problem();
       const auto walker = walker_of(problem);
-      const auto found = exits_at(walker, Dome{.N = N, .z0 = z0}.double_point(), 2);
+      const auto found = exits_at(walker, BarDome{.N = N, .z0 = z0}.double_point(), 2);
       EXPECT_TRUE(!found.complete || std::ssize(found.exits) == 2 * N + 2) << N << " " << z0;
     }
 }

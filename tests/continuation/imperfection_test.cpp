@@ -26,7 +26,7 @@ std::optional<ImperfectionLaw> law_at(const Family& family, const CriticalStart&
   return gamma ? imperfection_law(*form, *gamma) : std::nullopt;
 }
 
-const Direction up{Vector::Zero(1), 1};
+const Direction upward{Vector::Zero(1), 1};
 
 TEST(ImperfectionLaws, ASymmetricBranchThatFallsLosesTheTwoThirdsPowerOfTheImperfection) {
   // x (1 - l) - x^3 - m: folds at 1 - l = 3 x^2, m = 2 x^3.
@@ -35,7 +35,7 @@ TEST(ImperfectionLaws, ASymmetricBranchThatFallsLosesTheTwoThirdsPowerOfTheImper
                          [](double x, double l) { return 1 - l - 3 * x * x; },
                          [](double x, double) { return -x; }};
   });
-  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), up);
+  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), upward);
   ASSERT_TRUE(law);
   EXPECT_EQ(law->exponent, 2.0 / 3);
   EXPECT_NEAR(law->coefficient, 3 / std::cbrt(4.0), 1e-10);
@@ -48,7 +48,7 @@ TEST(ImperfectionLaws, ASymmetricBranchThatRisesIsNotSensitive) {
                          [](double x, double l) { return 1 - l + 3 * x * x; },
                          [](double x, double) { return -x; }};
   });
-  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), up);
+  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), upward);
   ASSERT_TRUE(law);
   EXPECT_NEAR(law->coefficient, -3 / std::cbrt(4.0), 1e-10);
 }
@@ -60,7 +60,7 @@ TEST(ImperfectionLaws, WhereBranchesCrossTheLoadFallsWithTheSquareRootForOneSign
                          [](double x, double l) { return 1 - l - 2 * x; },
                          [](double x, double) { return -x; }};
   });
-  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), up);
+  const auto law = law_at(family, at_branch_point(Vector::Zero(1), 1), upward);
   ASSERT_TRUE(law);
   EXPECT_EQ(law->exponent, 0.5);
   EXPECT_NEAR(law->coefficient, 2, 1e-10);
@@ -216,7 +216,7 @@ TEST(ImperfectionLaws, AParameterThatKeepsTheBranchBreaksNothing) {
                          [=](double x, double l) { return 1 + m - l - 3 * x * x; },
                          [](double x, double) { return -x; }};
   });
-  EXPECT_FALSE(law_at(family, at_branch_point(Vector::Zero(1), 1), up));
+  EXPECT_FALSE(law_at(family, at_branch_point(Vector::Zero(1), 1), upward));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<Journey> journeys() {
 }
 
 /// Special points without the end of the journey.
-std::vector<Hit> special_points(const Curve& curve) {
+std::vector<Hit> points_before_end(const Curve& curve) {
   EXPECT_EQ(curve.stop, StopReason::event) << curve.stop_detail;
   std::vector<Hit> hits = curve.hits;
   if (!hits.empty()) hits.pop_back();
@@ -61,14 +61,14 @@ std::vector<Hit> special_points(const Curve& curve) {
 TEST(SpecialPoints, DoNotDependOnTheStepLimits) {
   for (const Journey& j : journeys()) {
     SCOPED_TRACE(j.name);
-    const auto reference = special_points(j.forward({}));
+    const auto reference = points_before_end(j.forward({}));
     ASSERT_FALSE(reference.empty());
     for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
       SCOPED_TRACE(factor);
       TraceOptions options;
       options.step.initial *= factor;
       options.step.maximum *= factor;
-      expect_same_hits(special_points(j.forward(options)), reference, 1e-9);
+      expect_same_hits(points_before_end(j.forward(options)), reference, 1e-9);
     }
   }
 }
@@ -76,9 +76,9 @@ TEST(SpecialPoints, DoNotDependOnTheStepLimits) {
 TEST(SpecialPoints, AreTheSameOnTheWayBack) {
   for (const Journey& j : journeys()) {
     SCOPED_TRACE(j.name);
-    auto back = special_points(j.backward({}));
+    auto back = points_before_end(j.backward({}));
     std::reverse(back.begin(), back.end());
-    expect_same_hits(back, special_points(j.forward({})), 1e-9);
+    expect_same_hits(back, points_before_end(j.forward({})), 1e-9);
   }
 }
 

@@ -10,13 +10,13 @@ namespace {
 
 using testing::ElementsAre;
 
-struct Passage {
+struct FoldPassage {
   Cubic left{}, right{};
   HitKind kind = HitKind::kink;
 };
 
 /// lambda near 0 is a x, b x^2 or c x^3 on each side; it turns back where its sense differs.
-const std::vector<Passage> passages{
+const std::vector<FoldPassage> passages{
     {{.b = -1}, {.a = -1}, HitKind::corner},  // arrives at its maximum
     {{.b = -1}, {.a = 1}, HitKind::kink},
     {{.b = 1}, {.a = -1}, HitKind::kink},
@@ -30,7 +30,7 @@ const std::vector<Passage> passages{
     {{.c = 1}, {.a = -1}, HitKind::corner},
     {{.c = 1}, {.b = -1}, HitKind::corner}};
 
-Curve follow_passage(const Passage& p, double from, double to, const TraceOptions& options) {
+Curve follow_passage(const FoldPassage& p, double from, double to, const TraceOptions& options) {
   const TwoGraphs problem = two_graphs(p.left, p.right);
   const double lambda = from < 0 ? p.left(from) : p.right(from);
   const Piece piece = above({from > 0});
@@ -54,7 +54,7 @@ TEST(KinkFold, OnTheSurfaceIsReportedOnceAsCornerOrKink) {
 }
 
 TEST(KinkFold, HasTheNegativeEigenvaluesOfBothSides) {
-  for (const Passage& p : passages)
+  for (const FoldPassage& p : passages)
     for (const double direction : {1.0, -1.0}) {
       const Curve curve = follow_passage(p, -0.7 * direction, 0.6 * direction, {});
       const auto negative = [&](double x) {
@@ -73,7 +73,7 @@ TEST(KinkFold, NearTheSurfaceIsALimitPointBesideIt) {
     SCOPED_TRACE(gap);
     // lambda = -2 gap x - x^2: turns at x = -gap
     for (const double after : {-2.0, 1.0}) {
-      const Passage p{{.a = -2 * gap, .b = -1}, {.a = after}};
+      const FoldPassage p{{.a = -2 * gap, .b = -1}, {.a = after}};
       const Curve curve = follow_passage(p, -0.5, 0.5, {});
       ASSERT_EQ(curve.hits.size(), 3u);
       EXPECT_EQ(curve.hits[0].kind, HitKind::limit_point);

@@ -206,7 +206,7 @@ TEST(Kink, WithoutAWayOutEndsTheCurve) {
 
 /// A one-sided spring that acts for x_1 > 0, on the smooth path x_1 = height - s^2: meets the
 /// surface twice, touches it, or misses it.
-struct Grazing {
+struct GrazingStep {
   double height = 0.01;
   static Index size() { return 2; }
   bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
@@ -234,7 +234,7 @@ struct Grazing {
 
 TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
   for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const Grazing path{height};
+    const GrazingStep path{height};
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     ASSERT_EQ(curve.stop, StopReason::event) << "height " << height << ": " << curve.stop_detail;
@@ -247,7 +247,7 @@ TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
 
 TEST(Kink, IsNoneWhereTheSurfaceIsMissed) {
   for (const double gap : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const Grazing path{-gap};
+    const GrazingStep path{-gap};
     const StartPoint start{Vector{{-gap - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     EXPECT_EQ(curve.stop, StopReason::event) << "gap " << gap << ": " << curve.stop_detail;

@@ -10,7 +10,7 @@
 namespace springfold::continuation {
 namespace {
 
-const Vector one = Vector::Ones(1);
+const Vector ones = Vector::Ones(1);
 
 Vector scalar(double value) { return Vector::Constant(1, value); }
 
@@ -46,8 +46,8 @@ TEST(Bordered, SolvesTheSystemThatItDraws) {
 
 TEST(Bordered, IsRegularAtALimitPointAndSingularAtABranchPoint) {
   const Direction along{scalar(1), 0};
-  EXPECT_TRUE(solve_bordered(linear_at(circle(), 0, 1), one, along, scalar(0), 1).has_value());
-  EXPECT_FALSE(solve_bordered(linear_at(pitchfork(), 0, 0), one, along, scalar(0), 1).has_value());
+  EXPECT_TRUE(solve_bordered(linear_at(circle(), 0, 1), ones, along, scalar(0), 1).has_value());
+  EXPECT_FALSE(solve_bordered(linear_at(pitchfork(), 0, 0), ones, along, scalar(0), 1).has_value());
 }
 
 TEST(Tangent, IsAUnitVectorAlongTheCurveOrientedByTheReference) {
@@ -55,7 +55,7 @@ TEST(Tangent, IsAUnitVectorAlongTheCurveOrientedByTheReference) {
     const double x = std::cos(angle), lambda = std::sin(angle);
     for (const double way : {1.0, -1.0}) {
       const Direction reference{scalar(-way * lambda + 0.2), way * x};
-      const auto tangent = tangent_at(linear_at(circle(), x, lambda), one, reference);
+      const auto tangent = tangent_at(linear_at(circle(), x, lambda), ones, reference);
       ASSERT_TRUE(tangent.has_value());
       EXPECT_NEAR(tangent->dx[0], -way * lambda, 1e-15) << "angle " << angle;
       EXPECT_NEAR(tangent->dlambda, way * x, 1e-15) << "angle " << angle;
@@ -72,12 +72,12 @@ TEST(Tangent, HasUnitLengthInTheMetric) {
 }
 
 TEST(Tangent, DoesNotExistWhereBranchesCross) {
-  EXPECT_FALSE(tangent_at(linear_at(transcritical(), 0, 0), one, {scalar(1), 1}).has_value());
+  EXPECT_FALSE(tangent_at(linear_at(transcritical(), 0, 0), ones, {scalar(1), 1}).has_value());
 }
 
 NewtonResult back_to_the_circle(double angle, double ds, const NewtonOptions& options = {}) {
   const Direction tangent{scalar(-std::sin(angle)), std::cos(angle)};
-  return correct(circle(), one, scalar(std::cos(angle) + ds * tangent.dx[0]),
+  return correct(circle(), ones, scalar(std::cos(angle) + ds * tangent.dx[0]),
                  std::sin(angle) + ds * tangent.dlambda, {}, tangent, options);
 }
 
@@ -110,8 +110,8 @@ TEST(Corrector, IsQuadraticOnAStepThatIsTooLong) {
     EXPECT_GE(seen, 1) << what << ": the step was not long enough to see the order";
   };
   expect_quadratic(back_to_the_circle(0.3, 0.8), "circle");
-  expect_quadratic(correct(strut(0.1), one, scalar(1.2), 1.6, {}, {scalar(1), 0.2}, {}), "strut");
-  expect_quadratic(correct(fold_ladder(), one, scalar(0.7), 1.0, {}, {scalar(0.3), -1}, {}),
+  expect_quadratic(correct(strut(0.1), ones, scalar(1.2), 1.6, {}, {scalar(1), 0.2}, {}), "strut");
+  expect_quadratic(correct(fold_ladder(), ones, scalar(0.7), 1.0, {}, {scalar(0.3), -1}, {}),
                    "ladder");
   const Vector ones = Vector::Ones(2);
   expect_quadratic(
@@ -120,7 +120,8 @@ TEST(Corrector, IsQuadraticOnAStepThatIsTooLong) {
 }
 
 TEST(Corrector, AcceptsAPointOfTheCurveAsItIs) {
-  const NewtonResult result = correct(circle(), one, scalar(0.6), 0.8, {}, {scalar(-0.8), 0.6}, {});
+  const NewtonResult result =
+      correct(circle(), ones, scalar(0.6), 0.8, {}, {scalar(-0.8), 0.6}, {});
   ASSERT_TRUE(converged(result));
   EXPECT_NEAR(result.x[0], 0.6, 1e-15);
   EXPECT_NEAR(result.lambda, 0.8, 1e-15);
@@ -129,7 +130,7 @@ TEST(Corrector, AcceptsAPointOfTheCurveAsItIs) {
 
 TEST(Corrector, NeedsNoSecondIterationWhereTheResidualIsExactlyZero) {
   const ScalarProblem line = graph([](double x) { return 2 * x; }, [](double) { return 2; });
-  const NewtonResult result = correct(line, one, scalar(0.25), 0.5, {}, {scalar(1), 2}, {});
+  const NewtonResult result = correct(line, ones, scalar(0.25), 0.5, {}, {scalar(1), 2}, {});
   ASSERT_TRUE(converged(result));
   EXPECT_LE(result.iterations, 1);
 }
@@ -143,13 +144,13 @@ TEST(Corrector, SaysWhenItNeedsTooManyIterations) {
 TEST(Corrector, SaysWhenItDiverges) {
   // The line lambda = 2 does not meet the circle.
   const NewtonResult result =
-      correct(circle(), one, scalar(0.3), 2, {}, {scalar(0), 1}, {.maximum_iterations = 50});
+      correct(circle(), ones, scalar(0.3), 2, {}, {scalar(0), 1}, {.maximum_iterations = 50});
   EXPECT_EQ(result.status, NewtonStatus::diverges);
   EXPECT_GT(result.contraction, 1);
 }
 
 TEST(Corrector, SaysWhenItsMatrixIsSingular) {
-  const NewtonResult result = correct(circle(), one, scalar(0), 2, {}, {scalar(0), 1}, {});
+  const NewtonResult result = correct(circle(), ones, scalar(0), 2, {}, {scalar(0), 1}, {});
   EXPECT_EQ(result.status, NewtonStatus::singular);
 }
 
@@ -157,7 +158,7 @@ TEST(Corrector, SaysWhenItLeavesTheDomain) {
   ScalarProblem half = circle();
   half.inside = [](double x, double) { return x > 0; };
   const auto correct_from = [&half](double x) {
-    return correct(half, one, scalar(x), 0.99, {}, {scalar(0), 1}, {});
+    return correct(half, ones, scalar(x), 0.99, {}, {scalar(0), 1}, {});
   };
   EXPECT_EQ(correct_from(-0.1).status, NewtonStatus::outside_domain);
   EXPECT_EQ(correct_from(0.2).status, NewtonStatus::converged);

@@ -8,7 +8,7 @@ namespace springfold::continuation {
 namespace {
 
 /// One mode that buckles at the load -0.005, behind the edge, and one at 2: F = ((0.005 + lambda) x, (2 - lambda) y + y^3).
-struct TwoModes {
+struct EdgeModes {
   static Index size() { return 2; }
   static bool symmetric() { return true; }
   static bool residual(const Vector& x, double lambda, Vector& F) {
@@ -24,7 +24,7 @@ struct TwoModes {
 };
 
 Diagram from_the_edge(const DiagramOptions& options) {
-  return trace_diagram(TwoModes{}, {{.x = Vector::Zero(2), .lambda = 0}},
+  return trace_diagram(EdgeModes{}, {{.x = Vector::Zero(2), .lambda = 0}},
                        {lambda_reaches(0), lambda_reaches(3)}, options);
 }
 

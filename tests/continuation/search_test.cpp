@@ -267,7 +267,8 @@ struct Pendulum {
 };
 
 TEST(Search, TakesSolutionsThatDifferByAPeriodForOne) {
-  const double pi = std::numbers::pi, l = 0.5;
+  using std::numbers::pi;
+  const double l = 0.5;
   const SearchResult round = search_at(Pendulum{2 * pi}, l, {}, box(10, 1));
   expect_exactly(round, {Vector::Constant(1, pi / 6), Vector::Constant(1, 5 * pi / 6)});
   EXPECT_GT(search_at(Pendulum{0}, l, {}, box(10, 1)).solutions.size(), 4u);

@@ -6,13 +6,10 @@
 #include <limits>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold::continuation {
 namespace {
-
-Matrix random_matrix(std::mt19937& random, Index rows, Index columns) {
-  std::normal_distribution<double> normal;
-  return Matrix::NullaryExpr(rows, columns, [&] { return normal(random); });
-}
 
 TEST(SmallLu, SolvesWhatEigenSolves) {
   std::mt19937 random(3);

@@ -10,7 +10,7 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Circle, HasItsLimitPointsAtMinusOneAndOne) {
   const Event once_round = stop_where("s", [](const CurvePoint& p) { return p.s - 6; });

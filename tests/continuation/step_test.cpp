@@ -15,7 +15,7 @@ Walker walker_for(ProblemView problem, const TraceOptions& options = {}) {
   return {problem, problem.metric(), options};
 }
 
-CurvePoint on_circle(double angle) {
+CurvePoint at_angle(double angle) {
   CurvePoint p;
   p.x = Vector::Constant(1, std::cos(angle));
   p.lambda = std::sin(angle);
@@ -27,7 +27,7 @@ TEST(Step, LandsOnTheCurveAtTheAskedDistance) {
   const ScalarProblem problem = circle();
   const Walker walker = walker_for(problem);
   for (const double ds : {1e-8, 1e-3, 0.1}) {
-    CurvePoint from = on_circle(0.4);
+    CurvePoint from = at_angle(0.4);
     from.s = 2;
     const StepResult step = try_step(walker, from, ds);
     ASSERT_TRUE(step.point.has_value()) << step.refusal;
@@ -59,8 +59,8 @@ TEST(Step, PredictsWithAnErrorOfSecondOrder) {
 TEST(Step, CountsNegativeEigenvaluesWhereTheyAreDefined) {
   const ScalarProblem problem = circle();
   const Walker walker = walker_for(problem);
-  EXPECT_EQ(try_step(walker, on_circle(1.0), 0.01).point->negative, Index{0});
-  EXPECT_EQ(try_step(walker, on_circle(2.0), 0.01).point->negative, Index{1});
+  EXPECT_EQ(try_step(walker, at_angle(1.0), 0.01).point->negative, Index{0});
+  EXPECT_EQ(try_step(walker, at_angle(2.0), 0.01).point->negative, Index{1});
 }
 
 TEST(Step, IsRefusedInWordsByEachMeasureOfNonlinearity) {
@@ -68,7 +68,7 @@ TEST(Step, IsRefusedInWordsByEachMeasureOfNonlinearity) {
   const auto refusal_with = [&problem](const StepOptions& limits) {
     TraceOptions options;
     options.step = limits;
-    const StepResult step = try_step(walker_for(problem, options), on_circle(0.4), 0.5);
+    const StepResult step = try_step(walker_for(problem, options), at_angle(0.4), 0.5);
     EXPECT_FALSE(step.point.has_value());
     return step.refusal;
   };
@@ -83,13 +83,13 @@ TEST(Step, IsRefusedInWordsByEachMeasureOfNonlinearity) {
 TEST(Step, IsRefusedInWordsWhenTheCorrectorFails) {
   ScalarProblem problem = circle();
   problem.inside = [](double x, double) { return x > 0.9; };
-  EXPECT_EQ(try_step(walker_for(problem), on_circle(0.4), 0.3).refusal,
+  EXPECT_EQ(try_step(walker_for(problem), at_angle(0.4), 0.3).refusal,
             to_string(NewtonStatus::outside_domain));
 }
 
 TEST(Step, ThatWasRefusedLeavesItsInputAsItWas) {
   const ScalarProblem problem = circle();
-  const CurvePoint from = on_circle(0.4);
+  const CurvePoint from = at_angle(0.4);
   const CurvePoint copy = from;
   EXPECT_FALSE(try_step(walker_for(problem), from, 0.9).point.has_value());
   EXPECT_EQ(from.x, copy.x);

@@ -18,17 +18,17 @@ Family graphs(std::function<double(double, double)> h,
   });
 }
 
-CriticalStart at(CriticalKind kind, Vector x, double lambda, double mu) {
+CriticalStart start_at(CriticalKind kind, Vector x, double lambda, double mu) {
   return {.kind = kind, .x = std::move(x), .lambda = lambda, .mu = mu};
 }
-Vector one(double x) { return Vector::Constant(1, x); }
+Vector single(double x) { return Vector::Constant(1, x); }
 
-CriticalEvent end_at(double low, double high) {
+CriticalEvent stop_at(double low, double high) {
   return {"end", [=](const CriticalPoint& p) { return (p.mu - low) * (high - p.mu); },
           EventAction::stop};
 }
 
-std::vector<CriticalHit> of_kind(const CriticalCurve& curve, Degeneracy kind) {
+std::vector<CriticalHit> hits_of(const CriticalCurve& curve, Degeneracy kind) {
   std::vector<CriticalHit> list;
   for (const auto& hit : curve.hits)
     if (hit.kind == kind) list.push_back(hit);
@@ -38,16 +38,16 @@ std::vector<CriticalHit> of_kind(const CriticalCurve& curve, Degeneracy kind) {
 TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
                                [](double x, double mu) { return 3 * x * x - mu; });
-  const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(-1), 2, 3), false,
-                                     {end_at(-1, 4)}, {});
-  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  const auto curve = follow_critical(family, start_at(CriticalKind::limit_point, single(-1), 2, 3),
+                                     false, {stop_at(-1, 4)}, {});
+  const auto cusps = hits_of(curve, Degeneracy::cusp);
   ASSERT_EQ(cusps.size(), 1U);
   EXPECT_NEAR(cusps[0].point.mu, 0, 1e-12);
   EXPECT_NEAR(cusps[0].point.lambda, 0, 1e-12);
   EXPECT_NEAR(cusps[0].point.x[0], 0, 1e-10);
   EXPECT_EQ(curve.stop_detail, "end");
   EXPECT_NEAR(curve.points.back().mu, 4, 0.1);
-  EXPECT_TRUE(of_kind(curve, Degeneracy::extremum).empty());
+  EXPECT_TRUE(hits_of(curve, Degeneracy::extremum).empty());
   for (const auto& p : curve.points) EXPECT_NEAR(p.mu, 3 * p.x[0] * p.x[0], 1e-11);
 }
 
@@ -58,12 +58,12 @@ TEST(TwoParameters, AClosedBranchThatShrinksIsAnIsolaCentreAndSaddlesAreCrossing
                            [](double x, double) { return 2 * x; },
                            [=](double, double l) { return 2 * sign * l; }};
     });
-    const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(0), 1, 1), false,
-                                       {end_at(-1, 2)}, {});
+    const auto curve = follow_critical(family, start_at(CriticalKind::limit_point, single(0), 1, 1),
+                                       false, {stop_at(-1, 2)}, {});
     const auto kind = sign > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
-    ASSERT_EQ(of_kind(curve, kind).size(), 1U) << sign;
-    EXPECT_NEAR(of_kind(curve, kind)[0].point.mu, 0, 1e-12);
-    EXPECT_NEAR(of_kind(curve, kind)[0].point.lambda, 0, 1e-10);
+    ASSERT_EQ(hits_of(curve, kind).size(), 1U) << sign;
+    EXPECT_NEAR(hits_of(curve, kind)[0].point.mu, 0, 1e-12);
+    EXPECT_NEAR(hits_of(curve, kind)[0].point.lambda, 0, 1e-10);
   }
 }
 
@@ -74,22 +74,23 @@ TEST(TwoParameters, SwallowtailHasTwoCusps) {
              [=](double x, double b) { return -(4 * x * x * x + 2 * c * x + b); });
   const double x0 = -1, b0 = -4 * x0 * x0 * x0 - 2 * c * x0;
   const double a0 = -(x0 * x0 * (x0 * x0 + c) + b0 * x0);
-  const auto curve = follow_critical(family, at(CriticalKind::limit_point, one(x0), a0, b0), false,
-                                     {end_at(-5, 5)}, {});
-  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  const auto curve = follow_critical(
+      family, start_at(CriticalKind::limit_point, single(x0), a0, b0), false, {stop_at(-5, 5)}, {});
+  const auto cusps = hits_of(curve, Degeneracy::cusp);
   ASSERT_EQ(cusps.size(), 2U);
   for (const auto& cusp : cusps) EXPECT_NEAR(std::abs(cusp.point.x[0]), std::sqrt(-c / 6), 1e-9);
 }
 
 TEST(TwoParameters, TheFoldsOfTheSwallowtailMeetAtOneLoad) {
-  // Double fold at b = 0, a = c^2/4: both limit points at x^2 = -c/2.
+  // Double fold start_at b = 0, a = c^2/4: both limit points start_at x^2 = -c/2.
   const double c = -0.7, x0 = -1, b0 = -4 * x0 * x0 * x0 - 2 * c * x0;
   const Family family =
       graphs([=](double x, double b) { return -(x * x * (x * x + c) + b * x); },
              [=](double x, double b) { return -(4 * x * x * x + 2 * c * x + b); });
   const auto curve = follow_critical(
-      family, at(CriticalKind::limit_point, one(x0), -(x0 * x0 * (x0 * x0 + c) + b0 * x0), b0),
-      false, {end_at(-5, 5), {"symmetric", [](const CriticalPoint& p) { return p.mu; }}}, {});
+      family,
+      start_at(CriticalKind::limit_point, single(x0), -(x0 * x0 * (x0 * x0 + c) + b0 * x0), b0),
+      false, {stop_at(-5, 5), {"symmetric", [](const CriticalPoint& p) { return p.mu; }}}, {});
   int seen = 0;
   for (const auto& hit : curve.hits)
     if (hit.name == "symmetric" && std::abs(hit.point.x[0]) > 0.1) {
@@ -103,18 +104,18 @@ TEST(TwoParameters, TheFoldsOfTheSwallowtailMeetAtOneLoad) {
 TEST(TwoParameters, ImperfectArchesLoseStabilityAsPublished) {
   const double e = 3;
   const Family family = family_of<Given>([=](double m) { return arch(e, m); });
-  // From a rough guess beside the limit point at m = 0.5 down to m = 1e-4.
-  std::vector<CriticalEvent> events{end_at(1e-5, 1)};
+  // From a rough guess beside the limit point start_at m = 0.5 down to m = 1e-4.
+  std::vector<CriticalEvent> events{stop_at(1e-5, 1)};
   const std::vector<std::pair<double, double>> known{
       {1e-4, 9.7051770421122}, {0.01, 9.6430193096047}, {0.1, 9.4062121678254}};
   for (const auto& [m, p] : known)
-    events.push_back({"mark", [m = m](const CriticalPoint& at) { return at.mu - m; }});
-  const auto start =
-      polish_critical(family, at(CriticalKind::limit_point, Vector{{2.2, -0.34}}, 8.8306, 0.5));
+    events.push_back({"mark", [m = m](const CriticalPoint& start_at) { return start_at.mu - m; }});
+  const auto start = polish_critical(
+      family, start_at(CriticalKind::limit_point, Vector{{2.2, -0.34}}, 8.8306, 0.5));
   ASSERT_TRUE(start);
   EXPECT_NEAR(start->lambda, 8.8306070701784, 1e-10);
   const auto curve = follow_critical(
-      family, at(CriticalKind::limit_point, start->x, start->lambda, 0.5), false, events, {});
+      family, start_at(CriticalKind::limit_point, start->x, start->lambda, 0.5), false, events, {});
   std::size_t seen = 0;
   for (const auto& hit : curve.hits)
     if (hit.name == "mark")
@@ -139,14 +140,14 @@ TEST(TwoParameters, ButterflyColumnHasCuspsAtItsTripleRoots) {
   for (const bool growing : {false, true}) {
     std::vector<CriticalEvent> events{
         {"end", [](const CriticalPoint& p) { return 3.05 - p.lambda; }, EventAction::stop}};
-    const auto curve =
-        follow_critical(family, at(CriticalKind::limit_point, one(t), P, H), growing, events, {});
-    for (const auto& cusp : of_kind(curve, Degeneracy::cusp)) {
+    const auto curve = follow_critical(family, start_at(CriticalKind::limit_point, single(t), P, H),
+                                       growing, events, {});
+    for (const auto& cusp : hits_of(curve, Degeneracy::cusp)) {
       const bool upper = std::abs(cusp.point.lambda - 3) < 1e-3;
       EXPECT_NEAR(cusp.point.lambda, upper ? 3 : 2.8284271247462, 1e-9);
       EXPECT_NEAR(std::abs(cusp.point.mu), upper ? 0 : 0.070796326794897, 1e-9);
     }
-    EXPECT_FALSE(of_kind(curve, Degeneracy::cusp).empty());
+    EXPECT_FALSE(hits_of(curve, Degeneracy::cusp).empty());
   }
 }
 
@@ -166,7 +167,8 @@ TEST(TwoParameters, TheFoldsOfTheButterflyColumnMeetAtOneLoad) {
         {"end", [](const CriticalPoint& p) { return 3.05 - p.lambda; }, EventAction::stop},
         {"symmetric", [](const CriticalPoint& p) { return p.mu; }}};
     for (const auto& hit :
-         follow_critical(family, at(CriticalKind::limit_point, one(t), P, H), growing, events, {})
+         follow_critical(family, start_at(CriticalKind::limit_point, single(t), P, H), growing,
+                         events, {})
              .hits)
       if (hit.name == "symmetric" && std::abs(hit.point.x[0]) > 0.1)
         loads.push_back(hit.point.lambda);
@@ -175,7 +177,7 @@ TEST(TwoParameters, TheFoldsOfTheButterflyColumnMeetAtOneLoad) {
   for (const double load : loads) EXPECT_NEAR(load, 2.9170348529388, 1e-9);
 }
 
-/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.
+/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point start_at y = 1, branch point start_at y = mu.
 Given hill(double mu) {
   return {
       [=](const Vector& u, double l) {
@@ -197,11 +199,12 @@ TEST(TwoParameters, BranchPointOnALimitPointIsAHilltopSeenFromBothCurves) {
     const bool is_branch = kind == CriticalKind::branch_point;
     const Vector x{{0, is_branch ? y : 1.0}};
     const double lambda = is_branch ? y - y * y * y / 3 : 2.0 / 3;
-    const auto curve = follow_critical(family, at(kind, x, lambda, y), true, {end_at(0, 1.5)}, {});
+    const auto curve =
+        follow_critical(family, start_at(kind, x, lambda, y), true, {stop_at(0, 1.5)}, {});
     EXPECT_TRUE(curve.kept);
-    ASSERT_EQ(of_kind(curve, Degeneracy::hilltop).size(), 1U) << is_branch;
-    EXPECT_NEAR(of_kind(curve, Degeneracy::hilltop)[0].point.mu, 1, 1e-9);
-    EXPECT_NEAR(of_kind(curve, Degeneracy::hilltop)[0].point.lambda, 2.0 / 3, 1e-10);
+    ASSERT_EQ(hits_of(curve, Degeneracy::hilltop).size(), 1U) << is_branch;
+    EXPECT_NEAR(hits_of(curve, Degeneracy::hilltop)[0].point.mu, 1, 1e-9);
+    EXPECT_NEAR(hits_of(curve, Degeneracy::hilltop)[0].point.lambda, 2.0 / 3, 1e-10);
   }
 }
 
@@ -211,9 +214,9 @@ TEST(TwoParameters, PairsOfBranchPointsAreBornWhereMuTurnsBack) {
                          [=](double x, double l) { return mu - l * l - 3 * x * x; },
                          [](double x, double l) { return -2 * l * x; }};
   });
-  const auto curve = follow_critical(family, at(CriticalKind::branch_point, one(0), 1, 1), false,
-                                     {end_at(-1, 2)}, {});
-  const auto births = of_kind(curve, Degeneracy::branch_points_merge);
+  const auto curve = follow_critical(family, start_at(CriticalKind::branch_point, single(0), 1, 1),
+                                     false, {stop_at(-1, 2)}, {});
+  const auto births = hits_of(curve, Degeneracy::branch_points_merge);
   ASSERT_EQ(births.size(), 1U);
   EXPECT_NEAR(births[0].point.mu, 0, 1e-12);
 }
@@ -224,8 +227,8 @@ TEST(TwoParameters, AnImperfectionDoesNotKeepABranchPoint) {
                          [](double x, double l) { return l - 3 * x * x; },
                          [](double x, double) { return x; }};
   });
-  const auto start = at(CriticalKind::branch_point, one(0), 0, 0);
-  EXPECT_FALSE(follow_critical(family, start, true, {end_at(-1, 1)}, {}).kept);
+  const auto start = start_at(CriticalKind::branch_point, single(0), 0, 0);
+  EXPECT_FALSE(follow_critical(family, start, true, {stop_at(-1, 1)}, {}).kept);
   EXPECT_FALSE(critical_rate(family, start));
 }
 
@@ -236,23 +239,23 @@ struct Stopped {
   static bool symmetric() { return true; }
   bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
     const double q = x[0];
-    F = one(q * q * q - 3 * a * q + (piece[0] > 0 ? k * (q - g) : 0) - lambda);
+    F = single(q * q * q - 3 * a * q + (piece[0] > 0 ? k * (q - g) : 0) - lambda);
     return true;
   }
   bool derivatives(const Vector& x, double, const Piece& piece, Matrix& dF_dx,
                    Vector& dF_dlambda) const {
     dF_dx = Matrix::Constant(1, 1, 3 * x[0] * x[0] - 3 * a + (piece[0] > 0 ? k : 0));
-    dF_dlambda = one(-1);
+    dF_dlambda = single(-1);
     return true;
   }
   static Index switch_count() { return 1; }
   bool switches(const Vector& x, double, Vector& value) const {
-    value = one(x[0] - g);
+    value = single(x[0] - g);
     return true;
   }
   static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
     dg_dx = Matrix::Ones(1, 1);
-    dg_dlambda = one(0);
+    dg_dlambda = single(0);
     return true;
   }
   static const char* switch_name(Index) { return "stop"; }
@@ -262,10 +265,11 @@ TEST(TwoParameters, AFoldEndsWhereItMeetsTheActivation) {
   const double a = 1.3;
   const Family family =
       family_of<Stopped>([=](double g) { return Stopped{.a = a, .k = 5, .g = g}; });
-  auto start = at(CriticalKind::limit_point, one(-std::sqrt(a)), 2 * a * std::sqrt(a), 0.3);
+  auto start =
+      start_at(CriticalKind::limit_point, single(-std::sqrt(a)), 2 * a * std::sqrt(a), 0.3);
   start.piece = {-1};
-  const auto curve = follow_critical(family, start, false, {end_at(-3, 1)}, {});
-  const auto ends = of_kind(curve, Degeneracy::fold_meets_activation);
+  const auto curve = follow_critical(family, start, false, {stop_at(-3, 1)}, {});
+  const auto ends = hits_of(curve, Degeneracy::fold_meets_activation);
   ASSERT_EQ(ends.size(), 1U);
   EXPECT_NEAR(ends[0].point.mu, -std::sqrt(a), 1e-10);
   EXPECT_EQ(ends[0].name, "stop");
@@ -277,10 +281,11 @@ TEST(TwoParameters, ASoftStopLetsTheFoldMoveToItsCusp) {
   const Family family =
       family_of<Stopped>([=](double k) { return Stopped{.a = a, .k = k, .g = g}; });
   const double k = 1, q = -std::sqrt(a - k / 3);
-  auto start = at(CriticalKind::limit_point, one(q), q * q * q - 3 * a * q + k * (q - g), k);
+  auto start =
+      start_at(CriticalKind::limit_point, single(q), q * q * q - 3 * a * q + k * (q - g), k);
   start.piece = {1};
-  const auto curve = follow_critical(family, start, true, {end_at(0, 5)}, {});
-  const auto cusps = of_kind(curve, Degeneracy::cusp);
+  const auto curve = follow_critical(family, start, true, {stop_at(0, 5)}, {});
+  const auto cusps = hits_of(curve, Degeneracy::cusp);
   ASSERT_EQ(cusps.size(), 1U);
   EXPECT_NEAR(cusps[0].point.mu, 3 * a, 1e-11);
 }
@@ -290,13 +295,13 @@ TEST(TwoParameters, ACornerIsALimitPointBetweenTheFoldsOfItsTwoSides) {
   const Family family =
       family_of<Stopped>([=](double g) { return Stopped{.a = a, .k = k, .g = g}; });
   const double g = -0.9;  // behind: 3 g^2 - 3 a + k > 0, before: < 0
-  CriticalStart start = at(CriticalKind::surface, one(g), g * g * g - 3 * a * g, g);
+  CriticalStart start = start_at(CriticalKind::surface, single(g), g * g * g - 3 * a * g, g);
   start.piece = {-1};
   start.behind = {1};
   start.switching = 0;
   std::vector<CriticalHit> hits;
   for (const bool growing : {true, false})
-    for (const auto& hit : follow_critical(family, start, growing, {end_at(-1.5, -0.1)}, {}).hits)
+    for (const auto& hit : follow_critical(family, start, growing, {stop_at(-1.5, -0.1)}, {}).hits)
       if (hit.kind != Degeneracy::user) hits.push_back(hit);
   int before = 0, behind = 0;
   for (const auto& hit : hits) {
@@ -314,7 +319,7 @@ TEST(TwoParameters, CriticalLoadsMoveAtTheRateOfTheClosedForm) {
                                [](double x, double mu) { return mu - 3 * x * x; });
   const double mu = 1.7, x = std::sqrt(mu / 3);
   const auto rate =
-      critical_rate(family, at(CriticalKind::limit_point, one(x), mu * x - x * x * x, mu));
+      critical_rate(family, start_at(CriticalKind::limit_point, single(x), mu * x - x * x * x, mu));
   ASSERT_TRUE(rate);
   EXPECT_NEAR(rate->dlambda, x, 1e-10);
   EXPECT_NEAR(rate->dx[0], 1 / (6 * x), 1e-10);

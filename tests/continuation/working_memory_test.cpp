@@ -11,7 +11,7 @@ namespace {
 
 /// Another problem whose evaluations are counted place by place.
 template <class P>
-struct Counted {
+struct CountedCalls {
   P problem{};
   using Places = std::map<std::pair<std::vector<double>, double>, int>;
   mutable Places linearised{};
@@ -34,8 +34,8 @@ struct Counted {
 };
 
 TEST(AWalk, LinearisesNoPlaceTwice) {
-  Counted<ScalarProblem> counted{graph([](double x) { return x + 0.1 * std::sin(x); },
-                                       [](double x) { return 1 + 0.1 * std::cos(x); })};
+  CountedCalls<ScalarProblem> counted{graph([](double x) { return x + 0.1 * std::sin(x); },
+                                            [](double x) { return 1 + 0.1 * std::cos(x); })};
   TraceOptions options;
   options.maximum_points = 60;
   const Vector start = Vector::Constant(1, 0.3);
@@ -56,7 +56,7 @@ TEST(AWalk, LinearisesNoPlaceTwice) {
 }
 
 TEST(AWalk, IsTheSameWhetherEquationsAreEvaluatedTogetherOrApart) {
-  const Counted<TwoModes> together{{1, 1.4}};
+  const CountedCalls<TwoModes> together{{1, 1.4}};
   const TwoModes apart{1, 1.4};
   const StartPoint start{Vector{{0, 0}}, 0.5, {}, {Vector{{0, 0}}, 1}};
   const Curve a = follow(together, start, {lambda_reaches(2)}),

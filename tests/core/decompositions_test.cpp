@@ -8,9 +8,9 @@
 namespace springfold {
 namespace {
 
-constexpr double exact = 1e-13;
+constexpr double exactly = 1e-13;
 
-Matrix random_matrix(Index rows, Index columns, unsigned seed) {
+Matrix seeded_matrix(Index rows, Index columns, unsigned seed) {
   std::mt19937 random(seed);
   Matrix A(rows, columns);
   for (double& a : A.reshaped())
@@ -20,7 +20,7 @@ Matrix random_matrix(Index rows, Index columns, unsigned seed) {
 
 /// Of rank r.
 Matrix of_rank(Index rows, Index columns, Index r, unsigned seed) {
-  return random_matrix(rows, r, seed) * random_matrix(r, columns, seed + 1);
+  return seeded_matrix(rows, r, seed) * seeded_matrix(r, columns, seed + 1);
 }
 
 double off_identity(const Matrix& Q) {
@@ -28,15 +28,15 @@ double off_identity(const Matrix& Q) {
 }
 
 TEST(Lu, SolvesForVectorsForMatricesAndTransposed) {
-  const Matrix A = random_matrix(7, 7, 1), B = random_matrix(7, 3, 2);
+  const Matrix A = seeded_matrix(7, 7, 1), B = seeded_matrix(7, 3, 2);
   const Lu lu(A);
-  EXPECT_LT((A * lu.solve(B) - B).norm(), exact);
-  EXPECT_LT((A * lu.solve(Vector(B.col(0))) - B.col(0)).norm(), exact);
-  EXPECT_LT((A.transpose() * lu.solve_transposed(B) - B).norm(), exact);
+  EXPECT_LT((A * lu.solve(B) - B).norm(), exactly);
+  EXPECT_LT((A * lu.solve(Vector(B.col(0))) - B.col(0)).norm(), exactly);
+  EXPECT_LT((A.transpose() * lu.solve_transposed(B) - B).norm(), exactly);
   Vector x(7);
   lu.solve(B.col(1), x);
-  EXPECT_LT((A * x - B.col(1)).norm(), exact);
-  EXPECT_LT((A * lu.inverse() - Matrix::Identity(7, 7)).norm(), 10 * exact);
+  EXPECT_LT((A * x - B.col(1)).norm(), exactly);
+  EXPECT_LT((A * lu.inverse() - Matrix::Identity(7, 7)).norm(), 10 * exactly);
 }
 
 TEST(Lu, KnowsTheSignOfTheDeterminantWhereTheNumberItselfWouldOverflow) {
@@ -61,55 +61,55 @@ TEST(Lu, GivesDeterminantAndPivots) {
 
 TEST(FullPivotLu, TellsSingularMatricesFromRegularOnes) {
   EXPECT_FALSE(FullPivotLu(of_rank(5, 5, 4, 3)).is_invertible());
-  const Matrix A = random_matrix(5, 5, 4), B = random_matrix(5, 2, 5);
+  const Matrix A = seeded_matrix(5, 5, 4), B = seeded_matrix(5, 2, 5);
   const FullPivotLu lu(A);
   ASSERT_TRUE(lu.is_invertible());
-  EXPECT_LT((A * lu.solve(B) - B).norm(), exact);
-  EXPECT_LT((A * lu.inverse() - Matrix::Identity(5, 5)).norm(), 10 * exact);
+  EXPECT_LT((A * lu.solve(B) - B).norm(), exactly);
+  EXPECT_LT((A * lu.inverse() - Matrix::Identity(5, 5)).norm(), 10 * exactly);
 }
 
 TEST(SingularValues, AreTheSameByBothMethodsAndBelongToTheirVectors) {
   for (const auto& [rows, columns] : {std::pair<Index, Index>{9, 9}, {12, 5}, {5, 12}, {40, 40}}) {
-    const Matrix A = random_matrix(rows, columns, 6);
+    const Matrix A = seeded_matrix(rows, columns, 6);
     const Svd jacobi = jacobi_svd(A, SingularVectors::thin, SingularVectors::thin);
     const Svd divided = divided_svd(A, SingularVectors::full, SingularVectors::full);
-    EXPECT_LT((jacobi.values - divided.values).norm(), 100 * exact);
+    EXPECT_LT((jacobi.values - divided.values).norm(), 100 * exactly);
     EXPECT_LT((jacobi.U * jacobi.values.asDiagonal() * jacobi.V.transpose() - A).norm(),
-              100 * exact);
+              100 * exactly);
     EXPECT_EQ(divided.U.cols(), rows);
     EXPECT_EQ(divided.V.cols(), columns);
-    EXPECT_LT(off_identity(divided.U) + off_identity(divided.V), 100 * exact);
+    EXPECT_LT(off_identity(divided.U) + off_identity(divided.V), 100 * exactly);
   }
 }
 
 TEST(Svd, SolvesInTheLeastSquaresSenseWithTheSmallestNorm) {
   const Matrix A = of_rank(6, 5, 3, 7);
-  const Vector b = random_matrix(6, 1, 8);
+  const Vector b = seeded_matrix(6, 1, 8);
   const Svd svd = jacobi_svd(A, SingularVectors::thin, SingularVectors::thin);
   EXPECT_EQ(svd.rank, 3);
   const Vector x = svd.solve(b);
-  EXPECT_LT((A.transpose() * (A * x - b)).norm(), 10 * exact);
-  EXPECT_LT((kernel_of(A, 1e-10).transpose() * x).norm(), 10 * exact);
-  EXPECT_LT((least_squares(A, b, 1e-10) - x).norm(), 1000 * exact);
-  EXPECT_LT((least_squares_of_columns(A, b) - x).norm(), 1000 * exact);
+  EXPECT_LT((A.transpose() * (A * x - b)).norm(), 10 * exactly);
+  EXPECT_LT((kernel_of(A, 1e-10).transpose() * x).norm(), 10 * exactly);
+  EXPECT_LT((least_squares(A, b, 1e-10) - x).norm(), 1000 * exactly);
+  EXPECT_LT((least_squares_of_columns(A, b) - x).norm(), 1000 * exactly);
 }
 
 TEST(SymmetricEigenvalues, AreAscendingAndReproduceTheMatrix) {
-  const Matrix B = random_matrix(6, 6, 9), A = B + B.transpose();
+  const Matrix B = seeded_matrix(6, 6, 9), A = B + B.transpose();
   const SymmetricEigen eigen = symmetric_eigen(A);
   EXPECT_LT((eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose() - A).norm(),
-            10 * exact);
+            10 * exactly);
   EXPECT_TRUE(std::is_sorted(eigen.values.begin(), eigen.values.end()));
-  EXPECT_LT((symmetric_eigenvalues(A) - eigen.values).norm(), 10 * exact);
-  EXPECT_LT((body_eigenvalues(A) - eigen.values).norm(), 10 * exact);
+  EXPECT_LT((symmetric_eigenvalues(A) - eigen.values).norm(), 10 * exactly);
+  EXPECT_LT((body_eigenvalues(A) - eigen.values).norm(), 10 * exactly);
 }
 
 TEST(EigenvaluesOfAPair, AreThoseOfTheProductWithTheInverse) {
-  const Matrix M = random_matrix(5, 5, 13), A = M + M.transpose(),
+  const Matrix M = seeded_matrix(5, 5, 13), A = M + M.transpose(),
                B = M * M.transpose() + Matrix::Identity(5, 5);
   const Vector values = eigenvalues_of_pair(A, B);
   EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
-  for (const double value : values) EXPECT_LT(jacobi_svd(A - value * B).values[4], 100 * exact);
+  for (const double value : values) EXPECT_LT(jacobi_svd(A - value * B).values[4], 100 * exactly);
 }
 
 TEST(Lu, EstimatesTheReciprocalCondition) {
@@ -124,18 +124,18 @@ TEST(Eigenvalues, OfARotationLieOnTheUnitCircle) {
   Matrix R(2, 2);
   R << std::cos(0.3), -std::sin(0.3), std::sin(0.3), std::cos(0.3);
   for (const auto& value : eigenvalues(R)) {
-    EXPECT_NEAR(value.real(), std::cos(0.3), exact);
-    EXPECT_NEAR(std::abs(value.imag()), std::sin(0.3), exact);
+    EXPECT_NEAR(value.real(), std::cos(0.3), exactly);
+    EXPECT_NEAR(std::abs(value.imag()), std::sin(0.3), exactly);
   }
-  EXPECT_NEAR(spectral_radius(2 * R), 2, exact);
+  EXPECT_NEAR(spectral_radius(2 * R), 2, exactly);
   EXPECT_EQ(spectral_radius(SmallMatrix(0, 0)), 0);
 }
 
 TEST(Orthonormal, ColumnsSpanTheColumnsAndTheBasisContinuesThem) {
-  const Matrix A = random_matrix(7, 3, 10), Q = orthonormal_columns(A), all = orthonormal_basis(A);
-  EXPECT_LT((A - Q * (Q.transpose() * A)).norm(), exact);
-  EXPECT_LT(off_identity(all), 10 * exact);
-  EXPECT_LT((all.rightCols(4).transpose() * A).norm(), exact);
+  const Matrix A = seeded_matrix(7, 3, 10), Q = orthonormal_columns(A), all = orthonormal_basis(A);
+  EXPECT_LT((A - Q * (Q.transpose() * A)).norm(), exactly);
+  EXPECT_LT(off_identity(all), 10 * exactly);
+  EXPECT_LT((all.rightCols(4).transpose() * A).norm(), exactly);
 }
 
 TEST(Rank, AndKernelFitTogether) {
@@ -143,29 +143,29 @@ TEST(Rank, AndKernelFitTogether) {
   EXPECT_EQ(rank_of(A, 1e-10), 3);
   const Matrix Z = kernel_of(A, 1e-10);
   EXPECT_EQ(Z.cols(), 5);
-  EXPECT_LT((A * Z).norm(), exact);
-  EXPECT_LT(off_identity(Z), 10 * exact);
+  EXPECT_LT((A * Z).norm(), exactly);
+  EXPECT_LT(off_identity(Z), 10 * exactly);
   EXPECT_EQ(kernel_of(Matrix(0, 4)), Matrix::Identity(4, 4));
   EXPECT_EQ(rank_of(Matrix(0, 4)), 0);
 }
 
 TEST(PivotedQr, EndsWithWhatIsOrthogonalToAllColumns) {
-  const Matrix A = random_matrix(6, 5, 12);
+  const Matrix A = seeded_matrix(6, 5, 12);
   const PivotedQr qr = pivoted_qr(A);
   EXPECT_EQ(qr.rank, 5);
   EXPECT_EQ(qr.pivots.size(), 5);
-  EXPECT_NEAR(qr.last_column.norm(), 1, exact);
-  EXPECT_LT((A.transpose() * qr.last_column).norm(), exact);
+  EXPECT_NEAR(qr.last_column.norm(), 1, exactly);
+  EXPECT_LT((A.transpose() * qr.last_column).norm(), exactly);
 }
 
 TEST(LeastSquares, AreUniqueOnlyWhereColumnsAreIndependent) {
-  const Matrix right = random_matrix(6, 2, 13);
+  const Matrix right = seeded_matrix(6, 2, 13);
   EXPECT_FALSE(unique_least_squares(of_rank(6, 4, 3, 14), right, 1e-10));
-  const Matrix A = random_matrix(6, 4, 15);
+  const Matrix A = seeded_matrix(6, 4, 15);
   const auto X = unique_least_squares(A, right, 1e-10);
   ASSERT_TRUE(X);
-  EXPECT_LT((A.transpose() * (A * *X - right)).norm(), 10 * exact);
-  EXPECT_LT((fitted(A, right) - *X).norm(), 100 * exact);
+  EXPECT_LT((A.transpose() * (A * *X - right)).norm(), 10 * exactly);
+  EXPECT_LT((fitted(A, right) - *X).norm(), 100 * exactly);
 }
 
 TEST(EmptyMatrices, HaveZerosAsSolutionsAndWholeSpacesAsKernels) {
@@ -178,10 +178,10 @@ TEST(EmptyMatrices, HaveZerosAsSolutionsAndWholeSpacesAsKernels) {
 }
 
 TEST(Definite, SystemsAreSolvedForVectorsAndMatrices) {
-  const Matrix B = random_matrix(5, 5, 16), A = B * B.transpose() + Matrix::Identity(5, 5);
-  const Matrix right = random_matrix(5, 2, 17);
-  EXPECT_LT((A * solve_definite(A, right) - right).norm(), 10 * exact);
-  EXPECT_LT((A * solve_definite(A, Vector(right.col(0))) - right.col(0)).norm(), 10 * exact);
+  const Matrix B = seeded_matrix(5, 5, 16), A = B * B.transpose() + Matrix::Identity(5, 5);
+  const Matrix right = seeded_matrix(5, 2, 17);
+  EXPECT_LT((A * solve_definite(A, right) - right).norm(), 10 * exactly);
+  EXPECT_LT((A * solve_definite(A, Vector(right.col(0))) - right.col(0)).norm(), 10 * exactly);
 }
 
 }  // namespace

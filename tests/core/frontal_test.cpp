@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold {
 namespace {
 
@@ -45,18 +47,6 @@ struct Sample {
     return frontal;
   }
 };
-
-Matrix random_matrix(std::mt19937& random, Index rows, Index columns) {
-  std::normal_distribution<double> normal;
-  Matrix M(rows, columns);
-  for (double& v : M.reshaped()) v = normal(random);
-  return M;
-}
-
-Matrix random_symmetric(std::mt19937& random, Index n) {
-  const Matrix M = random_matrix(random, n, n);
-  return M + M.transpose();
-}
 
 FrontalBorders random_borders(std::mt19937& random, Index n, Index k) {
   return {random_matrix(random, n, k), random_matrix(random, n, k), random_matrix(random, k, k)};

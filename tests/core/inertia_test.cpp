@@ -7,16 +7,10 @@
 #include <limits>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold {
 namespace {
-
-Matrix random_matrix(std::mt19937& random, Index rows, Index columns) {
-  std::normal_distribution<double> normal;
-  Matrix A(rows, columns);
-  for (Index j = 0; j < columns; ++j)
-    for (Index i = 0; i < rows; ++i) A(i, j) = normal(random);
-  return A;
-}
 
 /// Counts by eigenvalues, the slow and safe way.
 Inertia by_eigenvalues(const Matrix& A, double zero) {

@@ -7,14 +7,10 @@
 #include <array>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold {
 namespace {
-
-Matrix random_symmetric(std::mt19937& random, Index n) {
-  std::normal_distribution<double> normal;
-  const Matrix A = Matrix::NullaryExpr(n, n, [&] { return normal(random); });
-  return A + A.transpose();
-}
 
 /// Numbers of negative and of positive values.
 std::pair<Index, Index> signs(const Vector& values) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "core/random_matrices.hpp"
+
 namespace springfold {
 namespace {
 
@@ -21,13 +23,6 @@ std::vector<std::vector<Index>> net(Index rows, Index columns) {
       if (j + 1 < columns) members.push_back({a, a + 1, first(i, j + 1), first(i, j + 1) + 1});
     }
   return members;
-}
-
-Matrix random_matrix(std::mt19937& random, Index rows, Index columns) {
-  std::normal_distribution<double> normal;
-  Matrix M(rows, columns);
-  for (double& v : M.reshaped()) v = normal(random);
-  return M;
 }
 
 /// A sum of random members, indefinite, their sizes from 1e-3 to 1e3.

@@ -8,7 +8,7 @@ namespace {
 
 using testing::ElementsAre;
 
-const std::string strut = R"([parameters]
+const std::string critical_strut = R"([parameters]
 k = 1
 c = "2*k"
 [[body]]
@@ -34,14 +34,16 @@ critical_curve = { of = "BP1", parameter = "k", range = [0.1, 2] }
 class CriticalMessages : public CaseFiles {
  protected:
   std::vector<std::string> after(const std::string& old, const std::string& with) const {
-    std::string text = strut;
+    std::string text = critical_strut;
     const std::size_t at = text.find(old);
     EXPECT_NE(at, std::string::npos);
     return messages(text.replace(at, old.size(), with));
   }
 };
 
-TEST_F(CriticalMessages, AreNoneForAGoodCase) { EXPECT_THAT(messages(strut), ElementsAre()); }
+TEST_F(CriticalMessages, AreNoneForAGoodCase) {
+  EXPECT_THAT(messages(critical_strut), ElementsAre());
+}
 
 TEST_F(CriticalMessages, WantTheTableOfTheKind) {
   const auto found = after("critical_curve = {", "threshold = {");
@@ -71,7 +73,7 @@ TEST_F(CriticalMessages, KnowTheParameterAsAColumn) {
 }
 
 TEST_F(CriticalMessages, WantARangeAndTwoValuesForAFirstCriticalLoad) {
-  std::string text = strut.substr(0, strut.find("kind = "));
+  std::string text = critical_strut.substr(0, critical_strut.find("kind = "));
   text += "kind = \"critical_load\"\ncontrol = \"load\"\ndirection = [-1, 0]\n";
   EXPECT_THAT(messages(text + "critical_load = { of = \"limit_point\", parameter = \"k\" }\n"),
               ElementsAre(testing::HasSubstr("critical_load.range: missing, need [low, high]")));

@@ -9,7 +9,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string strut = R"([parameters]
+const std::string designed_strut = R"([parameters]
 k = 1
 c = "2*k"
 [[body]]
@@ -34,14 +34,16 @@ design = { parameters = { k = [0.5, 2] }, critical_load = { at_least = 3, of = "
 class DesignMessages : public CaseFiles {
  protected:
   std::vector<std::string> after(const std::string& old, const std::string& with) const {
-    std::string text = strut;
+    std::string text = designed_strut;
     const std::size_t at = text.find(old);
     EXPECT_NE(at, std::string::npos);
     return messages(text.replace(at, old.size(), with));
   }
 };
 
-TEST_F(DesignMessages, AreNoneForAGoodCase) { EXPECT_THAT(messages(strut), ElementsAre()); }
+TEST_F(DesignMessages, AreNoneForAGoodCase) {
+  EXPECT_THAT(messages(designed_strut), ElementsAre());
+}
 
 TEST_F(DesignMessages, WantTheTable) {
   const auto found = after("design = {", "threshold = {");
@@ -91,7 +93,7 @@ TEST_F(DesignMessages, WantScalesOfTheDesignsOwnParameters) {
 
 TEST_F(DesignMessages, WantSensitivitiesForATornado) {
   EXPECT_THAT(
-      messages(strut + "[[tornado]]\nname = \"t\"\nstudy = \"a\"\nat = \"LP1\"\n"),
+      messages(designed_strut + "[[tornado]]\nname = \"t\"\nstudy = \"a\"\nat = \"LP1\"\n"),
       testing::Contains(HasSubstr("tornado[1].study: need a study of kind \"sensitivity\"")));
 }
 
@@ -99,9 +101,9 @@ TEST_F(DesignMessages, RefuseTheNameOfAnotherPlot) {
   const std::string sensitivity =
       "[[study]]\nname = \"s\"\nkind = \"sensitivity\"\ncontrol = \"load\"\ndirection = [-1, 0]\n"
       "[[plot]]\nname = \"t\"\ncurves = [{ study = \"s\" }]\n";
-  EXPECT_THAT(
-      messages(strut + sensitivity + "[[tornado]]\nname = \"t\"\nstudy = \"s\"\nat = \"LP1\"\n"),
-      ElementsAre(HasSubstr("tornado[1].name: \"t\" is already the name")));
+  EXPECT_THAT(messages(designed_strut + sensitivity +
+                       "[[tornado]]\nname = \"t\"\nstudy = \"s\"\nat = \"LP1\"\n"),
+              ElementsAre(HasSubstr("tornado[1].name: \"t\" is already the name")));
 }
 
 }  // namespace

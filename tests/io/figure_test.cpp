@@ -33,15 +33,15 @@ struct IndexedBranch {
   analysis::Branch branch{};
 };
 
-constexpr auto stable = Stability::stable;
+constexpr auto stable_part = Stability::stable;
 constexpr auto driven = Stability::driven;
-constexpr auto unstable = Stability::unstable;
+constexpr auto unstable_part = Stability::unstable;
 
 TEST(StabilityOfSteps, ChangesExactlyAtALimitPointWhicheverIndexItHas) {
   for (const double at_fold : {0.0, 1.0}) {
     IndexedBranch b{{{0, 0}, {0, 0}, {at_fold, at_fold}, {1, 1}}};
     b.add(EventKind::limit_point, 2);
-    EXPECT_THAT(b.steps(), ElementsAre(stable, stable, unstable));
+    EXPECT_THAT(b.steps(), ElementsAre(stable_part, stable_part, unstable_part));
   }
 }
 
@@ -49,24 +49,25 @@ TEST(StabilityOfSteps, UsesBothSidesOfASwitchingSpring) {
   IndexedBranch b{{{0, 0}, {0, 0}, {1, 1}, {1, 1}}};
   b.add(EventKind::switching, 1);
   const auto steps = b.steps();
-  EXPECT_EQ(steps.front(), stable);
-  EXPECT_EQ(steps.back(), unstable);
+  EXPECT_EQ(steps.front(), stable_part);
+  EXPECT_EQ(steps.back(), unstable_part);
 }
 
 TEST(StabilityOfSteps, TellsDrivenFromStable) {
   IndexedBranch b{{{0, 0}, {0, 1}, {0, 1}, {0, 0}}};
   b.add(EventKind::limit_point, 1);
-  EXPECT_THAT(b.steps(), ElementsAre(stable, driven, driven));
+  EXPECT_THAT(b.steps(), ElementsAre(stable_part, driven, driven));
 }
 
 TEST(StabilityOfSteps, TakesTheUnknownForUnstable) {
   EXPECT_THAT((IndexedBranch{{{0, 0}, {nan, nan}, {nan, nan}, {0, 0}}}.steps()),
-              ElementsAre(stable, unstable, stable));
+              ElementsAre(stable_part, unstable_part, stable_part));
 }
 
 TEST(PartsOf, ShareTheirCommonPointAndStopAtGaps) {
   const std::vector<PlotPoint> points = {{0, 0}, {1, 1}, {2, 2}, {nan, 3}, {4, 4}, {5, 5}};
-  const auto parts = parts_of(points, {stable, unstable, unstable, unstable, unstable});
+  const auto parts =
+      parts_of(points, {stable_part, unstable_part, unstable_part, unstable_part, unstable_part});
   ASSERT_THAT(parts, SizeIs(3));
   EXPECT_THAT(parts[0].line, ElementsAre(PlotPoint{0, 0}, PlotPoint{1, 1}));
   EXPECT_THAT(parts[1].line, ElementsAre(PlotPoint{1, 1}, PlotPoint{2, 2}));
@@ -74,7 +75,8 @@ TEST(PartsOf, ShareTheirCommonPointAndStopAtGaps) {
 }
 
 TEST(PartsOf, SkipTheStepBetweenBothSidesOfASwitchingSpring) {
-  const auto parts = parts_of({{0, 0}, {1, 1}, {1, 1}, {2, 2}}, {stable, unstable, stable});
+  const auto parts =
+      parts_of({{0, 0}, {1, 1}, {1, 1}, {2, 2}}, {stable_part, unstable_part, stable_part});
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_THAT(parts[0].line, SizeIs(3));
 }
@@ -90,8 +92,9 @@ TEST(FiguresOf, ShowOneFigurePerStudyWhenTheCaseAsksForNone) {
   EXPECT_EQ(figure.y_title.text, "force [N]");
   ASSERT_THAT(figure.curves, SizeIs(2));
   EXPECT_EQ(figure.curves[1].label.text, "Kv = 0.01");
-  ASSERT_THAT(figure.curves[0].parts, SizeIs(3)) << "stable, unstable between the folds, stable";
-  EXPECT_EQ(figure.curves[0].parts[1].stability, unstable);
+  ASSERT_THAT(figure.curves[0].parts, SizeIs(3))
+      << "stable, unstable_part between the folds, stable_part";
+  EXPECT_EQ(figure.curves[0].parts[1].stability, unstable_part);
   EXPECT_THAT(figure.marks, SizeIs(6)) << "two folds and a start each, no ends";
 }
 

@@ -4,20 +4,20 @@
 
 #include <complex>
 
+#include "model/complex_step.hpp"
 #include "random_chain.hpp"
 
 namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tiny = 1e-30;  // complex step: no subtraction, so no cancellation
 
-struct Shape {
+struct ChainShape {
   TaskSpace space;
   bool from_moves, to_moves;
 };
 
-class ClosureDerivatives : public testing::TestWithParam<Shape> {};
+class ClosureDerivatives : public testing::TestWithParam<ChainShape> {};
 
 /// Variables at random; rotation vectors kept away from 2 pi, where the chart ends.
 VectorOf<double> random_variables(std::mt19937& random, const CompiledChain& chain) {
@@ -164,14 +164,18 @@ TEST(ClosureBetweenTaskSpaces, HoldsAPointAsAPointAndBodiesOfBothKindsAsBodiesIn
   EXPECT_EQ(closes_in(TaskSpace::planar, TaskSpace::planar), TaskSpace::planar);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    AllTaskSpaces, ClosureDerivatives,
-    testing::Values(Shape{TaskSpace::xy, false, true}, Shape{TaskSpace::xy, true, false},
-                    Shape{TaskSpace::xy, true, true}, Shape{TaskSpace::planar, false, true},
-                    Shape{TaskSpace::planar, true, false}, Shape{TaskSpace::planar, true, true},
-                    Shape{TaskSpace::xyz, false, true}, Shape{TaskSpace::xyz, true, true},
-                    Shape{TaskSpace::spatial, false, true}, Shape{TaskSpace::spatial, true, false},
-                    Shape{TaskSpace::spatial, true, true}));
+INSTANTIATE_TEST_SUITE_P(AllTaskSpaces, ClosureDerivatives,
+                         testing::Values(ChainShape{TaskSpace::xy, false, true},
+                                         ChainShape{TaskSpace::xy, true, false},
+                                         ChainShape{TaskSpace::xy, true, true},
+                                         ChainShape{TaskSpace::planar, false, true},
+                                         ChainShape{TaskSpace::planar, true, false},
+                                         ChainShape{TaskSpace::planar, true, true},
+                                         ChainShape{TaskSpace::xyz, false, true},
+                                         ChainShape{TaskSpace::xyz, true, true},
+                                         ChainShape{TaskSpace::spatial, false, true},
+                                         ChainShape{TaskSpace::spatial, true, false},
+                                         ChainShape{TaskSpace::spatial, true, true}));
 
 TEST(Closure, IsZeroWhereTheChainEndsOnTheBody) {
   std::mt19937 random(9);

@@ -12,7 +12,7 @@ namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Base - elastic link (six virtual joints) - passive joint - body.
 CompiledChain elastic_chain(std::mt19937& random) {

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using enum ElasticDirection;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Sections, OfACircleHaveTheClosedForms) {
   const BeamSection s = round_section(0.02);

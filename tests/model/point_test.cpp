@@ -4,13 +4,13 @@
 
 #include <complex>
 
+#include "model/complex_step.hpp"
 #include "random_chain.hpp"
 
 namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tiny = 1e-30;  // complex step: no subtraction, so no cancellation
 
 constexpr TaskSpace spaces[] = {TaskSpace::xy, TaskSpace::planar, TaskSpace::xyz,
                                 TaskSpace::spatial};
@@ -99,29 +99,29 @@ bool conservative(TaskSpace space, LoadKind kind, bool follows, const Vec3<doubl
   return is_conservative(m, load);
 }
 
-const Vec3<double> x = Vec3<double>::UnitX(), z = Vec3<double>::UnitZ();
+const Vec3<double> e_x = Vec3<double>::UnitX(), e_z = Vec3<double>::UnitZ();
 
 TEST(ConservativeLoads, AreAllDeadForces) {
-  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, false, x));
-  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, false, x, {x, z}));
+  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, false, e_x));
+  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, false, e_x, {e_x, e_z}));
 }
 
 TEST(ConservativeLoads, AreMomentsInThePlaneAndAboutOneAxis) {
-  EXPECT_TRUE(conservative(TaskSpace::planar, LoadKind::moment, false, z));
-  EXPECT_TRUE(conservative(TaskSpace::planar, LoadKind::moment, true, z));
-  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::moment, false, x + z, {z, -z}));
+  EXPECT_TRUE(conservative(TaskSpace::planar, LoadKind::moment, false, e_z));
+  EXPECT_TRUE(conservative(TaskSpace::planar, LoadKind::moment, true, e_z));
+  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::moment, false, e_x + e_z, {e_z, -e_z}));
 }
 
 TEST(ConservativeLoads, AreNotMomentsInSpace) {
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, z));
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, true, z));
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, z, {x, z}));
+  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, e_z));
+  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, true, e_z));
+  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, e_z, {e_x, e_z}));
 }
 
 TEST(ConservativeLoads, AreNotFollowerForcesUnlessNothingTurnsThem) {
-  EXPECT_FALSE(conservative(TaskSpace::planar, LoadKind::force, true, x));
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::force, true, x, {z, z}));
-  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, true, z, {z, z}));
+  EXPECT_FALSE(conservative(TaskSpace::planar, LoadKind::force, true, e_x));
+  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::force, true, e_x, {e_z, e_z}));
+  EXPECT_TRUE(conservative(TaskSpace::spatial, LoadKind::force, true, e_z, {e_z, e_z}));
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 #include <complex>
 #include <numbers>
 
+#include "model/complex_step.hpp"
 #include "random_chain.hpp"
 
 namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tiny = 1e-30;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Angles on both sides of every change of formula: u = 1, pi, and close to zero.
 constexpr std::array angles{0.0, 1e-12, 1e-6, 1e-3, 0.3,       0.999,     1.001, 2.0,

@@ -7,12 +7,13 @@
 #include <numbers>
 #include <random>
 
+#include "model/complex_step.hpp"
+
 namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
 using std::numbers::pi;
-constexpr double tiny = 1e-30;  // complex step: no subtraction, so no cancellation
 
 const std::vector<std::array<std::size_t, 3>> tetrahedron{
     {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};

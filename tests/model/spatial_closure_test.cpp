@@ -5,14 +5,14 @@
 #include <complex>
 #include <numbers>
 
+#include "model/complex_step.hpp"
 #include "random_chain.hpp"
 
 namespace springfold::model {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tiny = 1e-30;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Case {
   CompiledChain chain{};

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A gap with play on both sides, a soft and a hard stop, preloaded in the middle of a segment.
@@ -159,7 +159,7 @@ TEST(SpringLawProblems, AreNoneForUsableLaws) {
 }
 
 TEST(SpringLawProblems, NameTheStiffnessThatIsNegativeOrNotFinite) {
-  for (const double bad : {-1.0, nan, infinity}) {
+  for (const double bad : {-1.0, not_a_number, infinity}) {
     const auto sentence = ElementsAre(HasSubstr("stiffness: need a finite number >= 0, got "));
     EXPECT_THAT(problems_in(LinearSpring{bad, 0}), sentence);
     EXPECT_THAT(problems_in(OneSidedSpring{bad, 0, Side::above}), sentence);
@@ -168,12 +168,13 @@ TEST(SpringLawProblems, NameTheStiffnessThatIsNegativeOrNotFinite) {
 }
 
 TEST(SpringLawProblems, NameTheCoordinateThatIsNotFinite) {
-  EXPECT_THAT(problems_in(LinearSpring{1, nan}), ElementsAre("free: need a finite number"));
+  EXPECT_THAT(problems_in(LinearSpring{1, not_a_number}),
+              ElementsAre("free: need a finite number"));
   EXPECT_THAT(problems_in(OneSidedSpring{1, infinity, Side::below}),
               ElementsAre("from: need a finite number"));
   EXPECT_THAT(problems_in(PiecewiseLinearSpring{{infinity}, {1, 1}, 0, 0}),
               ElementsAre("breakpoints: need a finite number"));
-  EXPECT_THAT(problems_in(PiecewiseLinearSpring{{0}, {1, 1}, nan, nan}),
+  EXPECT_THAT(problems_in(PiecewiseLinearSpring{{0}, {1, 1}, not_a_number, not_a_number}),
               ElementsAre("free: need a finite number", "preload: need a finite number"));
 }
 
@@ -190,7 +191,7 @@ TEST(SpringLawProblems, WantBreakpointsInStrictlyIncreasingOrder) {
 }
 
 TEST(SpringLawProblems, AreAllToldAtOnce) {
-  EXPECT_THAT(problems_in(PiecewiseLinearSpring{{1, 0}, {-1, 1}, nan, infinity}),
+  EXPECT_THAT(problems_in(PiecewiseLinearSpring{{1, 0}, {-1, 1}, not_a_number, infinity}),
               testing::SizeIs(5));
 }
 

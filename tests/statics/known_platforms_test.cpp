@@ -9,7 +9,7 @@
 namespace springfold::statics {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // 3-RPR with leg springs, R = 1, r = 0.5, l = R - r in the centre:
 // K_xx = K_yy = 3/2 k (2 - l0/l), K_psi = 3 k (l - l0) R r / l.

@@ -15,7 +15,7 @@ using model::ShapeKind;
 using model::ShapeSpring;
 
 /// Two spatial bodies and chains between them, with springs of all shapes and a pressure.
-model::Mechanism everything(std::mt19937& random) {
+model::Mechanism all_shapes(std::mt19937& random) {
   model::Mechanism m;
   m.bodies = {{.name = "a", .task_space = TaskSpace::spatial, .pose = Vector::Zero(6)},
               {.name = "b", .task_space = TaskSpace::spatial, .pose = Vector::Zero(6)}};
@@ -65,17 +65,17 @@ model::Mechanism everything(std::mt19937& random) {
   return m;
 }
 
-void drop_wrenches(const System& system, Vector& v) {
+void without_wrenches(const System& system, Vector& v) {
   for (Index i = 0; i < system.size; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) v[i] = 0;
 }
 
 State some_state(std::mt19937& random) {
-  const model::Mechanism mechanism = everything(random);
+  const model::Mechanism mechanism = all_shapes(random);
   EXPECT_EQ(model::problems_in(mechanism), std::vector<std::string>{});
   State state{prepare(mechanism), {}, {}};
   state.z = random_vector(random, state.system.size, 1.5);
-  drop_wrenches(state.system, state.z);
+  without_wrenches(state.system, state.z);
   state.inputs = {random_vector(random, 2, 1), Vector::Zero(state.system.load_size),
                   random_vector(random, 1, 1)};
   return state;
@@ -101,7 +101,7 @@ TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
     Matrix A, by_rho;
     ASSERT_TRUE(equilibrium_matrix(system, piece, state.z, state.inputs, work, r, A, &by_rho));
     Vector direction = random_vector(random, system.size, 1);
-    drop_wrenches(system, direction);
+    without_wrenches(system, direction);
     const Vector along = random_vector(random, 2, 1), more = random_vector(random, 1, 1);
     const double scale = 1 + A.norm();
     const auto moved = [&](double t) {
@@ -117,7 +117,7 @@ TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
         (A * direction + by_rho * along + load_rate(system, state.z, state.inputs.rho, more)) /
         scale;
     Vector error = *difference - exact;
-    drop_wrenches(system, error);
+    without_wrenches(system, error);
     EXPECT_LT(error.norm() / (1 + exact.norm()), 1e-9) << trial;
     EXPECT_LT((A - A.transpose()).norm(), 1e-12 * scale);
   }
@@ -167,7 +167,7 @@ TEST(ShapeSwitches, HaveExactGradients) {
 /// A distance with a linear law is a line spring.
 TEST(ShapeTerms, OfADistanceAreThoseOfALineSpring) {
   std::mt19937 random(54);
-  model::Mechanism by_shape = everything(random);
+  model::Mechanism by_shape = all_shapes(random);
   by_shape.loads.clear();
   const Anchor from{.chain = 0, .point = 0}, to{.body = 2, .at = {0.3, 0.1, -0.4}};
   by_shape.shape_springs = {
@@ -210,7 +210,7 @@ TEST(AnglesOfThreePoints, CountWholeTurnsOfTheFramesThatTheyTurnWith) {
 
 TEST(ShapeTerms, KeepLongChainsOutOfStages) {
   std::mt19937 random(55);
-  const System system = prepare(everything(random));
+  const System system = prepare(all_shapes(random));
   EXPECT_TRUE(system.chains_coupled);
   EXPECT_FALSE(has_stage_form(system));
 }

@@ -12,7 +12,7 @@ namespace springfold::continuation {
 namespace {
 
 /// What does not change during a search.
-struct Task {
+struct SearchTask {
   ProblemView problem;
   double lambda = 0;
   const SearchOptions& options;
@@ -21,7 +21,7 @@ struct Task {
 };
 
 /// x - y, taken the short way round where there is a period, with the copy of y nearest to x.
-Vector difference(const Task& task, const Vector& x, const Vector& y) {
+Vector difference(const SearchTask& task, const Vector& x, const Vector& y) {
   Vector d = x - y;
   if (!task.double_covers.empty()) d = x - y.cwiseProduct(nearest_signs(task.double_covers, y, x));
   for (Index i = 0; i < d.size(); ++i)
@@ -30,13 +30,13 @@ Vector difference(const Task& task, const Vector& x, const Vector& y) {
 }
 
 /// Length as a part of the box.
-double length(const Task& task, const Vector& d) { return d.cwiseQuotient(task.side).norm(); }
+double length(const SearchTask& task, const Vector& d) { return d.cwiseQuotient(task.side).norm(); }
 
-double largest(const Task& task, const Vector& d) {
+double largest(const SearchTask& task, const Vector& d) {
   return d.cwiseQuotient(task.side).lpNorm<Eigen::Infinity>();
 }
 
-Piece piece_at(const Task& task, const Vector& x) {
+Piece piece_at(const SearchTask& task, const Vector& x) {
   Vector g;
   Piece piece;
   if (!task.problem.switches(x, task.lambda, g)) return piece;
@@ -45,7 +45,7 @@ Piece piece_at(const Task& task, const Vector& x) {
 }
 
 /// F at x, on the piece on which x lies.
-bool residual_at(const Task& task, const Vector& x, Piece& piece, Vector& F) {
+bool residual_at(const SearchTask& task, const Vector& x, Piece& piece, Vector& F) {
   if (!x.allFinite()) return false;
   piece = piece_at(task, x);
   return static_cast<Index>(piece.size()) == task.problem.switch_count() &&
@@ -53,7 +53,7 @@ bool residual_at(const Task& task, const Vector& x, Piece& piece, Vector& F) {
 }
 
 /// dF/dx, factorised; nothing where it is singular to working precision or not defined.
-std::optional<Lu> factorised(const Task& task, const Vector& x, const Piece& piece) {
+std::optional<Lu> factorised(const SearchTask& task, const Vector& x, const Piece& piece) {
   Linearisation at;
   if (!linearise_densely(task.problem, x, task.lambda, piece, at)) return std::nullopt;
   Lu lu(at.dF_dx);
@@ -67,7 +67,7 @@ struct Deflation {
   Vector gradient{};
 };
 
-std::optional<Deflation> deflation_at(const Task& task, const Vector& x,
+std::optional<Deflation> deflation_at(const SearchTask& task, const Vector& x,
                                       const std::vector<Vector>& away_from) {
   Deflation result{0, Vector::Zero(x.size())};
   const double p = task.options.power, shift = task.options.shift;
@@ -91,7 +91,7 @@ std::optional<Deflation> deflation_at(const Task& task, const Vector& x,
 /// @param shortest  part of a step that may be taken; 1: no damping, every step is taken, but none
 ///                  longer than the box
 /// @returns a point within about 1e-8 of the box from a solution, or nothing
-std::optional<Vector> deflated_newton(const Task& task, Vector x,
+std::optional<Vector> deflated_newton(const SearchTask& task, Vector x,
                                       const std::vector<Vector>& away_from, double shortest) {
   constexpr double close = 1e-8;
   Piece piece;
@@ -140,14 +140,14 @@ struct Polished {
 };
 
 /// The change of x, as a part of the box, that changes F by rounding errors only.
-double rounding_of(const Task& task, const Lu& lu, double scale) {
+double rounding_of(const SearchTask& task, const Lu& lu, double scale) {
   constexpr double rounding = 1e-15;
   const Matrix inverse = task.side.cwiseInverse().asDiagonal() * lu.inverse();
   return rounding * scale * inverse.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 /// Newton's method without deflation, on one piece.
-Polished polish(const Task& task, const Vector& from, const Piece& piece) {
+Polished polish(const SearchTask& task, const Vector& from, const Piece& piece) {
   constexpr double wander = 1e-3, refined = 1e-14;
   Polished result{.x = from};
   Vector F;
@@ -192,7 +192,7 @@ struct Sides {
   std::string zero{};
 };
 
-Sides compare_sides(const Task& task, const Vector& x, const Piece& piece) {
+Sides compare_sides(const SearchTask& task, const Vector& x, const Piece& piece) {
   Sides result;
   Vector g;
   if (!task.problem.switches(x, task.lambda, g)) return result;
@@ -206,7 +206,8 @@ Sides compare_sides(const Task& task, const Vector& x, const Piece& piece) {
 }
 
 /// Brings a point to the residual tolerance, on the piece on which it then lies.
-std::optional<Solution> solution_near(const Task& task, const Vector& near, SearchResult& result) {
+std::optional<Solution> solution_near(const SearchTask& task, const Vector& near,
+                                      SearchResult& result) {
   Piece piece = piece_at(task, near);
   Vector x = near;
   for (int attempt = 0; attempt < 3; ++attempt) {
@@ -231,7 +232,7 @@ std::optional<Solution> solution_near(const Task& task, const Vector& near, Sear
   return std::nullopt;
 }
 
-bool is_new(const Task& task, const Solution& solution, const std::vector<Vector>& others) {
+bool is_new(const SearchTask& task, const Solution& solution, const std::vector<Vector>& others) {
   const double same = std::max(task.options.same, 10 * solution.uncertain);
   return std::none_of(others.begin(), others.end(), [&](const Vector& other) {
     return largest(task, difference(task, solution.x, other)) <= same;
@@ -239,7 +240,7 @@ bool is_new(const Task& task, const Solution& solution, const std::vector<Vector
 }
 
 /// The damped method first, which is surer; where it gets stuck the plain one, which is bolder.
-std::optional<Solution> new_solution(const Task& task, const Vector& start,
+std::optional<Solution> new_solution(const SearchTask& task, const Vector& start,
                                      const std::vector<Vector>& away_from, SearchResult& result) {
   for (const double shortest : {1e-4, 1.0}) {
     const auto near = deflated_newton(task, start, away_from, shortest);
@@ -255,7 +256,7 @@ double random_fraction(std::mt19937_64& random) {
 }
 
 /// The middle of the box first, then in turn a random point of the box and one beside a solution.
-Vector start_point(const Task& task, int number, const std::vector<Vector>& solutions,
+Vector start_point(const SearchTask& task, int number, const std::vector<Vector>& solutions,
                    std::mt19937_64& random) {
   if (number == 0) return task.middle;
   const bool beside = number % 2 == 0 && !solutions.empty();
@@ -269,7 +270,7 @@ Vector start_point(const Task& task, int number, const std::vector<Vector>& solu
 }
 
 /// By their entries, rounded so that rounding errors do not decide.
-void sort(const Task& task, std::vector<Solution>& solutions) {
+void sort(const SearchTask& task, std::vector<Solution>& solutions) {
   const double grid = task.options.same;
   const auto before = [&](const Solution& a, const Solution& b) {
     for (Index i = 0; i < a.x.size(); ++i) {
@@ -309,13 +310,13 @@ std::vector<std::string> problems_in(const SearchOptions& options, Index size) {
 SearchResult search_at(ProblemView problem, double lambda, const std::vector<Vector>& known,
                        const SearchOptions& options) {
   assert(problems_in(options, problem.size()).empty());
-  Task task{problem,
-            lambda,
-            options,
-            0.5 * (options.low + options.high),
-            options.high - options.low,
-            problem.periods(),
-            problem.double_covers()};
+  SearchTask task{problem,
+                  lambda,
+                  options,
+                  0.5 * (options.low + options.high),
+                  options.high - options.low,
+                  problem.periods(),
+                  problem.double_covers()};
   for (double& side : task.side)
     if (!(side > 0)) side = 1;
   SearchResult result;

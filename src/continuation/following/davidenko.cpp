@@ -100,15 +100,15 @@ struct Walk {
   Curve curve{};
 };
 
-enum class Outcome { go_on, shorten, stop };
+enum class Advance { go_on, shorten, stop };
 
-Outcome stop(Walk& walk, StopReason reason, std::string detail) {
+Advance stop(Walk& walk, StopReason reason, std::string detail) {
   walk.curve.stop = reason;
   walk.curve.stop_detail = std::move(detail);
-  return Outcome::stop;
+  return Advance::stop;
 }
 
-struct Found {
+struct FlowEvent {
   Hit hit{};
   bool stops = false;
 };
@@ -116,7 +116,7 @@ struct Found {
 /// Changes of sign of one function between the samples.
 /// @returns false where one could not be located
 bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
-                   const std::vector<CurvePoint>& samples, std::vector<Found>& found) {
+                   const std::vector<CurvePoint>& samples, std::vector<FlowEvent>& found) {
   std::size_t last = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const int sign = sign_of(watched.value(samples[k]), watched.nothing);
@@ -138,23 +138,24 @@ bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
 }
 
 /// Records what lies between the samples, in order.
-Outcome record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
+Advance record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
                std::string& refusal) {
   std::vector<Watched> watched = walk.watched;  // a refused step leaves no trace
-  std::vector<Found> found;
+  std::vector<FlowEvent> found;
   for (Watched& w : watched)
     if (!find_zeros_of(w, walk.walker, arc, samples, found)) {
       refusal = "\"" + w.hit.name + "\" could not be located";
-      return Outcome::shorten;
+      return Advance::shorten;
     }
   walk.watched = std::move(watched);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });
-  for (Found& f : found) {
+  std::stable_sort(found.begin(), found.end(), [](const FlowEvent& a, const FlowEvent& b) {
+    return a.hit.point.s < b.hit.point.s;
+  });
+  for (FlowEvent& f : found) {
     walk.curve.hits.push_back(std::move(f.hit));
     if (f.stops) return stop(walk, StopReason::event, walk.curve.hits.back().name);
   }
-  return Outcome::go_on;
+  return Advance::go_on;
 }
 
 /// A point with the tangent and the piece of a ray.
@@ -169,7 +170,7 @@ CurvePoint onto(const Walker& walker, CurvePoint point, const Ray& ray) {
 }
 
 /// Takes the only way out of a switching surface, if there is only one.
-Outcome leave_surface(Walk& walk, const ArcZero& met, double from) {
+Advance leave_surface(Walk& walk, const ArcZero& met, double from) {
   const ProblemView problem = walk.walker.problem;
   const CurvePoint& arriving = met.point;
   Hit hit{.kind = HitKind::kink,
@@ -203,7 +204,7 @@ Outcome leave_surface(Walk& walk, const ArcZero& met, double from) {
   if (ways > 1)
     return stop(walk, StopReason::several_ways, std::to_string(ways) + " ways out at " + hit.name);
   if (!rays.complete) return stop(walk, StopReason::several_ways, "unresolved kink: " + rays.why);
-  return Outcome::go_on;
+  return Advance::go_on;
 }
 
 /// The step itself: integrated and judged, then brought back onto the curve at four places.
@@ -244,26 +245,26 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::strin
   return samples;
 }
 
-Outcome advance(Walk& walk, std::string& refusal) {
+Advance advance(Walk& walk, std::string& refusal) {
   const double h = walk.h;
   FlowArc arc;
   auto samples = step(walk, arc, refusal);
-  if (!samples) return Outcome::shorten;
+  if (!samples) return Advance::shorten;
   ArcSurface surface = first_surface(walk.walker, arc, *samples, walk.left);
   if (surface.met) {
     while (samples->back().s >= surface.met->point.s && samples->size() > 1) samples->pop_back();
     samples->push_back(surface.met->point);
   }
   refusal = surface.doubt;
-  const Outcome recorded =
-      refusal.empty() ? record(walk, arc, *samples, refusal) : Outcome::shorten;
-  if (recorded == Outcome::shorten) walk.h = 0.5 * h;
-  if (recorded != Outcome::go_on) return recorded;
+  const Advance recorded =
+      refusal.empty() ? record(walk, arc, *samples, refusal) : Advance::shorten;
+  if (recorded == Advance::shorten) walk.h = 0.5 * h;
+  if (recorded != Advance::go_on) return recorded;
   if (surface.met) return leave_surface(walk, *surface.met, arc.from.s);
   walk.here = std::move(samples->back());
   walk.left.clear();
   walk.curve.points.push_back(walk.here);
-  return Outcome::go_on;
+  return Advance::go_on;
 }
 
 }  // namespace
@@ -288,9 +289,9 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
   while (static_cast<int>(walk.curve.points.size()) < options.maximum_points) {
     const double from = walk.here.s, tried = walk.h;
     std::string refusal;
-    const Outcome outcome = advance(walk, refusal);
-    if (outcome == Outcome::stop) return std::move(walk.curve);
-    if (outcome == Outcome::shorten) {
+    const Advance outcome = advance(walk, refusal);
+    if (outcome == Advance::stop) return std::move(walk.curve);
+    if (outcome == Advance::shorten) {
       walk.curve.log.push_back({from, tried, refusal});
       if (walk.h >= options.step.minimum) continue;
       stop(walk, StopReason::step_too_small, refusal);

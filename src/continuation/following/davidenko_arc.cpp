@@ -15,12 +15,12 @@ constexpr double largest_return = 1e-8;  ///< farther from the curve the flow is
 using Value = std::function<double(const CurvePoint&)>;
 
 /// Values of the switches on the side of the point's piece, and their slopes along the curve.
-struct Sides {
+struct SwitchSides {
   Vector values{}, slopes{};
 };
 
-std::optional<Sides> sides_of(ProblemView problem, const CurvePoint& point) {
-  Sides sides;
+std::optional<SwitchSides> sides_of(ProblemView problem, const CurvePoint& point) {
+  SwitchSides sides;
   Matrix dg_dx;
   Vector dg_dlambda;
   if (!problem.switches(point.x, point.lambda, sides.values) ||
@@ -38,13 +38,13 @@ std::optional<Sides> sides_of(ProblemView problem, const CurvePoint& point) {
 ArcSurface surface_between(const Walker& walker, const FlowArc& arc, const CurvePoint& a,
                            const CurvePoint& b, Index j, bool left) {
   const std::string doubt = "close to " + walker.problem.switch_name(j);
-  const auto read = [&walker, j](Vector Sides::*what) {
+  const auto read = [&walker, j](Vector SwitchSides::*what) {
     return [&walker, j, what](const CurvePoint& point) {
       const auto sides = sides_of(walker.problem, point);
       return sides ? ((*sides).*what)[j] : std::numeric_limits<double>::quiet_NaN();
     };
   };
-  const Value value = read(&Sides::values), slope = read(&Sides::slopes);
+  const Value value = read(&SwitchSides::values), slope = read(&SwitchSides::slopes);
   double begin = a.s - arc.from.s, end = b.s - arc.from.s;
   if (!(value(b) < 0)) {
     if (!(slope(a) < 0 && slope(b) > 0)) return {.doubt = std::isnan(value(b)) ? doubt : ""};

@@ -25,13 +25,13 @@ constexpr double times_its_length = 5, longest_steps = 2, nearest_lengths = 1.5;
 /// that has not is off by what an interpolation leaves.
 constexpr double changed = 0.02;
 
-struct Stretch {
+struct PointRange {
   std::size_t first = 0, last = 0;  ///< points
 };
 
-std::vector<Stretch> stretches_of_short_steps(const Walker& walker, const Curve& curve) {
+std::vector<PointRange> stretches_of_short_steps(const Walker& walker, const Curve& curve) {
   const double limit = short_step * walker.options.step.maximum;
-  std::vector<Stretch> found;
+  std::vector<PointRange> found;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     if (!(curve.points[i].s - curve.points[i - 1].s < limit)) continue;
     const bool continues =
@@ -48,7 +48,7 @@ std::optional<Separation> separation(const Walker& walker, const Curve& curve, s
   return separation_at(arc, p);
 }
 
-bool is_hidden(const Walker& walker, const Curve& curve, const Stretch& stretch) {
+bool is_hidden(const Walker& walker, const Curve& curve, const PointRange& stretch) {
   for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
     const auto s = separation(walker, curve, i);
     if (!s || !(s->distance > well_apart * s->blur)) return true;
@@ -77,7 +77,7 @@ bool one_piece(const Curve& curve, std::size_t first, std::size_t last) {
 /// @param far  from how far off
 /// @returns nothing where the curve does not reach so far, or turns
 std::optional<bool> is_smooth_across(const Walker& walker, const Curve& curve,
-                                     const Stretch& stretch, double far) {
+                                     const PointRange& stretch, double far) {
   const double a = curve.points[stretch.first].s, b = curve.points[stretch.last].s;
   if (a - far < curve.points.front().s || b + far > curve.points.back().s) return std::nullopt;
   const std::array<std::size_t, 6> at{nearest(curve, a - far),       nearest(curve, a - 0.5 * far),
@@ -99,7 +99,7 @@ std::optional<bool> is_smooth_across(const Walker& walker, const Curve& curve,
 }
 
 /// What cannot be looked at from anywhere is not judged.
-bool is_smooth_across(const Walker& walker, const Curve& curve, const Stretch& stretch) {
+bool is_smooth_across(const Walker& walker, const Curve& curve, const PointRange& stretch) {
   const double length = curve.points[stretch.last].s - curve.points[stretch.first].s;
   double far = std::max(times_its_length * length, longest_steps * walker.options.step.maximum);
   bool seen = false;
@@ -115,7 +115,7 @@ bool is_smooth_across(const Walker& walker, const Curve& curve, const Stretch& s
 
 void check_narrow_places(const Walker& walker, Curve& curve) {
   if (walker.problem.structured() || !walker.options.branch_points) return;
-  for (const Stretch& stretch : stretches_of_short_steps(walker, curve)) {
+  for (const PointRange& stretch : stretches_of_short_steps(walker, curve)) {
     if (!is_hidden(walker, curve, stretch) || is_smooth_across(walker, curve, stretch)) continue;
     const CurvePoint &a = curve.points[stretch.first], &b = curve.points[stretch.last];
     Hit hit{.kind = HitKind::unresolved,

@@ -15,13 +15,13 @@ namespace springfold::continuation {
 namespace {
 
 constexpr double rounding_of_points = 1e-12;  // in switching functions, of their size
-constexpr double flat = 1e-9;                 // rates below this run along a surface
-constexpr double resolution = 1e-9;           // of zeros on one step
+constexpr double flat_rate = 1e-9;            // rates below this run along a surface
+constexpr double zero_resolution = 1e-9;      // of zeros on one step
 /// Of the accuracy to which kinks are placed: so far apart they are two.
 constexpr double between_places = 100;
 
 /// One switching function on one step, positive on the side of the step's piece.
-struct Watched {
+struct SwitchOnStep {
   const Walker& walker;
   const CurvePoint& from;
   double h = 0;
@@ -40,7 +40,7 @@ struct Watched {
   }
 };
 
-double rate_at(const Watched& f, const CurvePoint& p) {
+double rate_at(const SwitchOnStep& f, const CurvePoint& p) {
   Matrix dg_dx;
   Vector dg_dlambda;
   if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
@@ -61,7 +61,7 @@ struct Crossing {
 /// surface): no point can be corrected there, so the place is taken from the points around it and
 /// refined by the augmented system of the branch point.
 /// @pre f has opposite signs at a and b
-Crossing crossing_at_branch_point(const Watched& f, double a, double b) {
+Crossing crossing_at_branch_point(const SwitchOnStep& f, double a, double b) {
   const double reach = 1e-4 * (b - a);
   double place = 0.5 * (a + b);
   while (b - a > reach) {
@@ -94,7 +94,7 @@ Crossing crossing_at_branch_point(const Watched& f, double a, double b) {
   return {.located = Located{std::move(*point), place - reach, place + reach}};
 }
 
-Crossing crossing_in(const Watched& f, double a, double b) {
+Crossing crossing_in(const SwitchOnStep& f, double a, double b) {
   const auto value = [&f](const CurvePoint& p) {
     return f.value(p).value_or(std::numeric_limits<double>::quiet_NaN());
   };
@@ -103,9 +103,9 @@ Crossing crossing_in(const Watched& f, double a, double b) {
 }
 
 /// All zeros between step lengths a and b are looked for; the first crossing counts.
-Crossing first_of_all(const Watched& f, double a, double b) {
+Crossing first_of_all(const SwitchOnStep& f, double a, double b) {
   const auto value = [&f](double ds) { return f.value(ds); };
-  const ZeroSearch search = find_zeros(value, a, b, f.noise, resolution * f.h);
+  const ZeroSearch search = find_zeros(value, a, b, f.noise, zero_resolution * f.h);
   Crossing result{.clear = search.resolved};
   double start = a;
   for (const ZeroOf& zero : search.zeros) {
@@ -169,7 +169,7 @@ struct Cubic {
 };
 
 /// Judges by ends and middle; looks closer only where that leaves a doubt.
-Crossing judge(const Watched& f, double a, const Cubic& cubic) {
+Crossing judge(const SwitchOnStep& f, double a, const Cubic& cubic) {
   const double change = std::max(
       {std::abs(cubic.f1 - cubic.f0), cubic.h * std::abs(cubic.d0), cubic.h * std::abs(cubic.d1)});
   if (cubic.f1 >= 0 && std::min(cubic.f0, cubic.f1) > 2 * change) return {};  // out of reach
@@ -180,7 +180,7 @@ Crossing judge(const Watched& f, double a, const Cubic& cubic) {
   const double least = cubic.least();
   if (fits && cubic.f1 >= 0 && (least > share || least >= std::min(cubic.f0, cubic.f1))) return {};
   if (fits && cubic.f1 < 0 && cubic.d0 <= 0 && cubic.d1 <= 0 && cubic.zeros() == 1) {
-    // Crossed steeply it is the only zero; nearly flat there may be two more beside it.
+    // Crossed steeply it is the only zero; nearly flat_rate there may be two more beside it.
     Crossing only = crossing_in(f, a, a + cubic.h);
     if (only.clear && rate_at(f, only.located->point) < -share / cubic.h) return only;
   }
@@ -189,7 +189,7 @@ Crossing judge(const Watched& f, double a, const Cubic& cubic) {
 
 /// A switch that is being left starts at zero, or within `slack` if it only acted together with
 /// others there: the step length at which it is clearly positive.
-std::optional<double> departure(const Watched& f, double slack) {
+std::optional<double> departure(const SwitchOnStep& f, double slack) {
   for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     const auto value = f.value(share * f.h);
     if (!value || *value < -slack) return std::nullopt;
@@ -202,13 +202,13 @@ constexpr double steep = 1e-4;
 
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where
 /// it is nearly tangential, let the step end elsewhere.
-Crossing at_the_end(const Watched& f, double f1, double d1) {
+Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
   if (!(d1 < -steep)) return {.clear = false};
   return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
 }
 
 /// @param cubic  values and rates at the ends of the step
-Crossing crossing_of(const Watched& f, Cubic cubic, bool leaves) {
+Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
   double a = 0;
   if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
   const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
@@ -278,7 +278,7 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
                        Index j) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
   const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
-  if (!(length > resolution) || !(std::min(std::abs(rate), std::abs(rate_before)) > flat))
+  if (!(length > zero_resolution) || !(std::min(std::abs(rate), std::abs(rate_before)) > flat_rate))
     return false;
   constexpr double alike = 0.25;
   const bool follows =
@@ -316,7 +316,8 @@ std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from
   if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
     return resting;
   for (const Index j : candidates) {
-    if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) > flat)
+    if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) >
+        flat_rate)
       continue;
     bool stays = true;
     for (const double share : {0.31, 0.62}) {
@@ -350,7 +351,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     const double side = from.piece[static_cast<std::size_t>(j)];
     const double noise =
         rounding_of_points * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
-    const Watched watched{walker, from, h, j, side, noise};
+    const SwitchOnStep watched{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};
     Crossing crossing = crossing_of(watched, ends, among(left, j));

@@ -133,8 +133,6 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
 
 }  // namespace
 
-Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
-
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
 PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank,
                        bool polished) {

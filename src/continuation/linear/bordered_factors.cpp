@@ -7,6 +7,14 @@
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
+
+/// Columns side by side, row by row.
+template <int width>
+struct SideBySide {
+  alignas(64) std::array<double, static_cast<std::size_t>(width* SmallSymmetric::padded)> numbers;
+  double* data() { return numbers.data(); }
+};
+
 namespace {
 
 /// Smallest over largest pivot below this counts as singular.
@@ -14,13 +22,6 @@ constexpr double singular_pivot = 1e-15;
 
 /// Of its largest pivot: eigenvalues of dF/dx below this are zero.
 constexpr double zero_eigenvalue = 1e-13;
-
-/// Columns side by side, row by row.
-template <int width>
-struct Columns {
-  alignas(64) std::array<double, static_cast<std::size_t>(width* SmallSymmetric::padded)> numbers;
-  double* data() { return numbers.data(); }
-};
 
 using Front =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
@@ -54,7 +55,7 @@ bool BorderedFactors::factorise_symmetric() {
 ///     | R      y_2                      |
 ///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
 bool BorderedFactors::border_symmetric() {
-  Columns<2> borders, carried;
+  SideBySide<2> borders, carried;
   for (Index i = 0; i < n_; ++i) {
     borders.data()[2 * i] = at_->dF_dlambda[i];
     borders.data()[2 * i + 1] = row_[i];
@@ -120,7 +121,7 @@ bool BorderedFactors::set_border(const Vector& weights, const Direction& border)
 template <int width>
 void BorderedFactors::solve_symmetric(double* x, bool only_last) const {
   using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
-  Columns<width> y;
+  SideBySide<width> y;
   const Index rest = K_.put_off(), done = n_ - rest;
   const auto row = [&](Index i) { return Row(y.data() + i * width); };
   Row last(x + n_ * width);
@@ -191,7 +192,7 @@ void BorderedFactors::invert(std::span<const Index> rows, Matrix& columns) {
     return;
   }
   constexpr int width = 4;
-  Columns<width> x;
+  SideBySide<width> x;
   for (Index first = 0; first < count; first += width) {
     std::fill_n(x.data(), width * size, 0.0);
     const Index used = std::min<Index>(width, count - first);

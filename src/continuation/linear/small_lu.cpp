@@ -17,12 +17,12 @@ template <Index N>
 using Given = Eigen::Map<const Column<N>, Eigen::Aligned16>;
 
 /// Long columns are worked on in parts of four numbers, without those that are zero.
-constexpr Index part = 4, long_column = 20;
+constexpr Index part_size = 4, long_column = 20;
 
 /// y -= factor x from row `first` on, up to `end`.
 inline void subtract(double factor, const double* x, double* y, Index first, Index end) {
-  for (Index i = first / part * part; i < end; i += part)
-    InPlace<part>(y + i) -= factor * Given<part>(x + i);
+  for (Index i = first / part_size * part_size; i < end; i += part_size)
+    InPlace<part_size>(y + i) -= factor * Given<part_size>(x + i);
 }
 
 /// Subtracts multiples of a column of L from the columns of U behind it.

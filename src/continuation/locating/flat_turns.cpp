@@ -5,11 +5,10 @@
 
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/points/coincide.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
 
 bool is_clear(const CurvePoint& p, double level) { return std::abs(p.tangent.dlambda) > level; }
 

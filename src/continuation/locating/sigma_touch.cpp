@@ -9,13 +9,13 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr Index points = 16, terms = 6;
+constexpr Index touch_points = 16, touch_terms = 6;
 
 /// 1, u, u^2, ...
 Eigen::RowVectorXd powers(double u) {
-  Eigen::RowVectorXd row(terms);
+  Eigen::RowVectorXd row(touch_terms);
   row[0] = 1;
-  for (Index k = 1; k < terms; ++k) row[k] = row[k - 1] * u;
+  for (Index k = 1; k < touch_terms; ++k) row[k] = row[k - 1] * u;
   return row;
 }
 
@@ -24,16 +24,16 @@ bool surely_regular_near(const WatchedStep& arc, const Borders& borders, double 
   constexpr double beyond_doubt = 30;
   constexpr int grid = 32;
   const Index m = borders.B.cols();
-  Matrix A(points, terms), entries(points, m * m);
-  for (Index i = 0; i < points; ++i) {
-    const double u = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / points);
+  Matrix A(touch_points, touch_terms), entries(touch_points, m * m);
+  for (Index i = 0; i < touch_points; ++i) {
+    const double u = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / touch_points);
     const auto Sigma = arc.sigma(t + half * u, borders);
     if (!Sigma) return false;
     A.row(i) = powers(u);
     entries.row(i) = Sigma->reshaped().transpose();
   }
   const Matrix c = fitted(A, entries);
-  const double scatter = (A * c - entries).norm() / std::sqrt(points - terms);
+  const double scatter = (A * c - entries).norm() / std::sqrt(touch_points - touch_terms);
   const auto fitted = [&](int k) -> Matrix {
     const Vector at = (powers(0.5 * (2.0 * k / grid - 1)) * c).transpose();
     return at.reshaped(m, m);

@@ -66,11 +66,11 @@ std::vector<double> extrema_of(const Interpolant& p, double a, double b, double 
   return knots;
 }
 
-class Search {
+class ZeroFinder {
  public:
-  Search(const SampledFunction& f, double a, double b, double noise, double resolution,
-         NoiseIs noise_is)
-      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{resolution}, noise_is_{noise_is} {}
+  ZeroFinder(const SampledFunction& f, double a, double b, double noise, double apart,
+             NoiseIs noise_is)
+      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{apart}, noise_is_{noise_is} {}
 
   ZeroSearch result{};
 
@@ -293,9 +293,9 @@ bool within_reach(std::span<const double> values) {
   return std::min(std::abs(*low), std::abs(*high)) < *high - *low;
 }
 
-ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double resolution,
+ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double apart,
                       NoiseIs noise_is) {
-  Search search(f, a, b, noise, resolution, noise_is);
+  ZeroFinder search(f, a, b, noise, apart, noise_is);
   search.examine(a, b, 0);
   auto& zeros = search.result.zeros;
   std::sort(zeros.begin(), zeros.end(), [](const auto& l, const auto& r) { return l.at < r.at; });

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 /// Singular values below this, relative to the largest one, vanish at a located point.
-constexpr double vanishing = 1e-6;
+constexpr double vanishing_at_hit = 1e-6;
 /// Rates below this are zero to rounding: a rate that is zero all along has no zeros to be found.
 constexpr double still = 1e-11;
 
@@ -58,8 +58,8 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
       s.n() < lost)
     return Degeneracy::corank_two;
   const Vector values = jacobi_svd(base.J).values;
-  return values[s.n() - lost] > vanishing * values[0] ? Degeneracy::hilltop
-                                                      : Degeneracy::corank_two;
+  return values[s.n() - lost] > vanishing_at_hit * values[0] ? Degeneracy::hilltop
+                                                             : Degeneracy::corank_two;
 }
 
 /// Rates of lambda and of the surface along the curve of one side, dlambda dh / |t|^2: zero where

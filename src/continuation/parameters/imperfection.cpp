@@ -12,7 +12,7 @@ namespace {
 
 /// Terms of the form below this, relative to those that come after them, are zero: at located points they are
 /// rounding of about 1e-10.
-constexpr double vanishing = 1e-7;
+constexpr double vanishing_term = 1e-7;
 
 double norm_of(const std::vector<Matrix>& form) {
   double sum = 0;
@@ -21,7 +21,7 @@ double norm_of(const std::vector<Matrix>& form) {
 }
 
 bool has_lambda(const ReducedForm& form) {
-  return form.by_lambda.norm() > vanishing * std::max(1.0, form.mixed.norm());
+  return form.by_lambda.norm() > vanishing_term * std::max(1.0, form.mixed.norm());
 }
 
 /// Component along a of A[t, t], over |a|^2: lambda - lambda0 = -1/2 of it on a path that turns back.
@@ -39,10 +39,11 @@ double towards_of(const ReducedForm& form) {
 }
 
 bool is_quadratic(const ReducedForm& form) {
-  return norm_of(form.quadratic) > vanishing * std::max(norm_of(form.cubic), form.mixed.norm());
+  return norm_of(form.quadratic) >
+         vanishing_term * std::max(norm_of(form.cubic), form.mixed.norm());
 }
 bool is_cubic(const ReducedForm& form) {
-  return norm_of(form.cubic) > vanishing * form.mixed.norm();
+  return norm_of(form.cubic) > vanishing_term * form.mixed.norm();
 }
 
 std::optional<ImperfectionLaw> law_of_one_mode(const ReducedForm& form, double gamma) {

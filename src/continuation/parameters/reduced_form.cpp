@@ -16,9 +16,9 @@ constexpr double first_step = 0x1p-8;
 constexpr double second_step = 0x1p-8;
 
 /// A singular point of one member of the family.
-class Place {
+class ReducedPlace {
  public:
-  Place(const Family& family, const CriticalStart& at) : family_{family}, at_{at} {}
+  ReducedPlace(const Family& family, const CriticalStart& at) : family_{family}, at_{at} {}
 
   std::optional<BaseTerms> terms(const Vector& x, double lambda) const {
     BaseTerms base;
@@ -76,7 +76,7 @@ Matrix with_lambda(const Matrix& x, double lambda) {
 
 /// G_i[v_j, v_l, v_m] = w_i (F_xxx[v_j, v_l, v_m] + F_xx[v_j, y_lm] + F_xx[v_l, y_jm] + F_xx[v_m, y_jl]),
 /// where y_jl is what the other equations ask for: F_x y = -F_xx[v_j, v_l] up to W, orthogonal to V.
-bool put_cubic(const Place& place, const Lu& bordered, const std::vector<Matrix>& second,
+bool put_cubic(const ReducedPlace& place, const Lu& bordered, const std::vector<Matrix>& second,
                ReducedForm& form) {
   const Index n = form.V.rows(), k = form.V.cols();
   const Matrix V = with_lambda(form.V, 0);
@@ -127,7 +127,7 @@ Index corank_of(const Matrix& A) {
 
 std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStart& start,
                                         const Direction& tangent) {
-  const Place place(family, start);
+  const ReducedPlace place(family, start);
   const auto base = place.here();
   if (!base) return std::nullopt;
   const Index n = start.x.size();

@@ -13,7 +13,7 @@ namespace springfold::continuation {
 namespace {
 
 /// Part of a curve on one piece, from one of its points to another.
-struct Stretch {
+struct PointGap {
   CurvePoint from{}, to{};
   bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
 };
@@ -66,7 +66,7 @@ class Filler {
   Filler(const Walker& walker, double spacing, Between& result)
       : walker_{walker}, spacing_{spacing}, result_{result} {}
 
-  void fill(const Stretch& stretch) {
+  void fill(const PointGap& stretch) {
     stretch_ = &stretch;
     const Direction chord{stretch.to.x - stretch.from.x, stretch.to.lambda - stretch.from.lambda};
     length_ = metric_product(walker_.weights, chord, stretch.from.tangent);
@@ -208,7 +208,7 @@ class Filler {
 
   const Walker& walker_;
   double spacing_, length_ = 0, per_s_ = 1;
-  const Stretch* stretch_ = nullptr;
+  const PointGap* stretch_ = nullptr;
   Between& result_;
   Vector u_{}, rate_{}, F_{};
 };
@@ -218,8 +218,8 @@ bool is_kink(const Hit& hit) { return !hit.switches.empty(); }
 bool changes_the_count(const Hit& hit) { return hit.kind != HitKind::user; }
 
 /// The stretches of a curve: from point to point, parted at kinks, up to the event that ended it.
-std::vector<Stretch> stretches_of(const Curve& curve, bool counts) {
-  std::vector<Stretch> stretches;
+std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
+  std::vector<PointGap> stretches;
   CurvePoint from = curve.points.front();
   bool special = false;
   const auto up_to = [&](const CurvePoint& to) {
@@ -259,7 +259,7 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
   const Normalised own(problem, start.x, start.lambda, start.piece);
   const Walker walker{own, own.metric(), options};
   Filler filler(walker, spacing, result);
-  for (Stretch& stretch : stretches_of(curve, problem.symmetric())) {
+  for (PointGap& stretch : stretches_of(curve, problem.symmetric())) {
     stretch.from = own.inside(stretch.from);
     const CurvePoint to = own.inside(stretch.to);
     // A closed curve may end at another copy of its start, whole periods away.

@@ -14,6 +14,8 @@ Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b
 
 double length_of(const Walker& walker, const Direction& d);
 
+inline Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
+
 /// Cosine of the angle between two directions.
 double cosine(const Walker& walker, const Direction& a, const Direction& b);
 

@@ -16,9 +16,9 @@ double unit_of(double weight) {
   return std::ldexp(1, -static_cast<int>(std::floor(0.5 * std::ilogb(weight))));
 }
 
-/// How far beside the start the equations are looked at as well: at the start itself all their
+/// How far distances_beside the start the equations are looked at as well: at the start itself all their
 /// derivatives may vanish.
-constexpr std::array<double, 3> beside{0, 1.0 / 128, 1.0 / 8};
+constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
 
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
   double largest = 0;
-  for (const double d : beside) {
+  for (const double d : distances_beside) {
     Linearisation at;
     if (unit_.size() == 0 || !linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
     if (at.structured) {
