@@ -1,7 +1,7 @@
 #include "imperfection.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/undefined.hpp"
 
@@ -44,6 +44,8 @@ void PointLaws::enter(const CaseCurves& curves, double rate) {
     const auto part = imperfection_part(curves.family(), polished(curves, base, *point_), *form_);
     if (part) gamma = *part / curves.scale();
   }
+  // At a branch point the rate says nothing as long as the part that breaks the branch is not known to be zero.
+  known_.push_back(!bends || gamma.size() > 0);
   gammas_.push_back(gamma);
 }
 bool PointLaws::breaks(std::size_t i) const {
@@ -54,7 +56,7 @@ std::vector<double> PointLaws::values(bool with_worst) const {
   std::vector<double> values;
   for (std::size_t i = 0; i < rates_.size(); ++i) {
     if (!breaks(i)) {
-      const bool known = !std::isnan(rates_[i]);
+      const bool known = known_[i] && !std::isnan(rates_[i]);
       values.insert(values.end(), {known ? 1 : undefined, rates_[i], known ? 0 : undefined});
       continue;
     }
@@ -82,6 +84,7 @@ double PointLaws::towards() const {
 void PointLaws::put_worst(std::vector<double>& values) const {
   const std::size_t count = rates_.size(), at = values.size();
   values.resize(at + 2 + count, undefined);
+  if (std::find(known_.begin(), known_.end(), false) != known_.end()) return;
   Index modes = 0;
   for (std::size_t i = 0; i < count; ++i)
     if (breaks(i)) modes = gammas_[i].size();

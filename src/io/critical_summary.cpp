@@ -66,6 +66,32 @@ std::string rate_table(const StudyResult& result, const Branch& branch) {
   return text;
 }
 
+/// How imperfections change the critical loads: lambda moves by coefficient |e|^exponent; one row per point and
+/// parameter, and one for the worst combination. Nothing where the study has no such columns.
+std::string law_table(const StudyResult& result, const Branch& branch) {
+  std::vector<std::vector<std::string>> rows{{"imperfections", "of", "exponent", "coefficient"}};
+  const std::string prefix = "exponent(";
+  for (const auto& event : branch.events) {
+    if (event.kind == analysis::EventKind::end_of_range) continue;
+    const auto add = [&](const std::string& parameter, const std::string& exponent,
+                         const std::string& coefficient) {
+      if (!column_of(result, exponent)) return;
+      const double power = value_at(result, branch, event.row, exponent);
+      const double factor = value_at(result, branch, event.row, coefficient);
+      rows.push_back({event.label, parameter, std::isnan(power) ? "-" : rounded(power, 4),
+                      std::isnan(factor) ? "-" : rounded(factor, summary_digits)});
+    };
+    for (const auto& quantity : result.quantities) {
+      if (!quantity.name.starts_with(prefix)) continue;
+      const std::string of = quantity.name.substr(prefix.size());  // "e)"
+      add(of.substr(0, of.size() - 1), quantity.name, "coefficient(" + of);
+    }
+    add("worst", "worst.exponent", "worst.coefficient");
+  }
+  if (rows.size() == 1) return {};
+  return fitted(rows, {Align::left, Align::left, Align::right, Align::right}, summary_indent);
+}
+
 std::string doubts_of(const StudyResult& result) {
   std::string text;
   for (const auto& doubt : result.doubts) text += summary_line("UNRESOLVED", doubt);
@@ -86,7 +112,7 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
   const bool is_curve = planned.plan.kind != analysis::StudyKind::sensitivity;
   for (const Branch& branch : result.branches) {
     if (!is_curve) {
-      text += rate_table(result, branch);
+      text += rate_table(result, branch) + law_table(result, branch);
       continue;
     }
     text += summary_line("curve", std::to_string(branch.samples.size()) + " points");

@@ -19,20 +19,14 @@ const std::vector<std::string> study_words{
     "force_deflection", "equilibrium",    "equilibria", "control",       "map",
     "workspace",        "critical_curve", "threshold",  "sensitivity",   "critical_load",
     "design",           snap_kind,        cycle_kind,   transitions_kind};
-const std::array kinds{StudyKind::force_deflection,
-                       StudyKind::equilibrium,
-                       StudyKind::equilibria,
-                       StudyKind::control,
-                       StudyKind::map,
-                       StudyKind::workspace,
-                       StudyKind::critical_curve,
-                       StudyKind::threshold,
-                       StudyKind::sensitivity,
-                       StudyKind::critical_load,
-                       StudyKind::design,
-                       StudyKind::force_deflection,  // the last three with jumps
-                       StudyKind::force_deflection,
-                       StudyKind::force_deflection};
+/// Of the words above; the last three have jumps.
+const std::array kinds = [] {
+  using enum StudyKind;
+  return std::array{
+      force_deflection, equilibrium,      equilibria,       control,         map,
+      workspace,        critical_curve,   threshold,        sensitivity,     critical_load,
+      design,           force_deflection, force_deflection, force_deflection};
+}();
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> start_solvers{"newton", "fixed_point"};
@@ -312,16 +306,18 @@ class StudyReader {
     const TableReader trace = table_or_nothing("trace", "a table such as { maximum_step = 0.05 }",
                                                {"initial_step", "minimum_step", "maximum_step",
                                                 "maximum_points", "spacing", "verify_arcs"});
-    const Rule step{Range::positive, ""};
     NumberTable& numbers = draft_.numbers;
     for (auto [name, id] : {std::pair{"initial_step", &draft_.initial_step},
                             {"minimum_step", &draft_.minimum_step},
                             {"maximum_step", &draft_.maximum_step}})
-      if (trace.has(name)) *id = trace.number(name, step, numbers, 0);
+      if (trace.has(name)) *id = trace.number(name, {Range::positive, ""}, numbers, 0);
     draft_.maximum_points =
         trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
     draft_.spacing = trace.number("spacing", {Range::non_negative, ""}, numbers, defaults.spacing);
     draft_.verify_arcs = trace.truth("verify_arcs", defaults.verify_arcs);
+    if (draft_.verify_arcs && draft_.path == analysis::Path::davidenko)
+      reading_.problems.add(trace.find("verify_arcs")->place, trace.key_of("verify_arcs"),
+                            "got true, need path = \"arc_length\": others are not tested");
   }
 
   void read_branches() {

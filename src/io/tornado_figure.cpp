@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gnuplot_text.hpp"
+#include "nothing.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -33,7 +34,10 @@ void add_name(std::string& list, const std::string& word) {
 /// The bars of a point, and what has none.
 void add_bars(const StudyResult& result, const PlannedRun& planned, const TornadoSpec& spec,
               const Found& at, TornadoFigure& figure) {
-  const double value = value_at(result, *at.branch, at.row, spec.quantity);
+  // 0 where it is nothing but rounding: there are no shares of that.
+  const auto column = column_of(result, spec.quantity);
+  const double value =
+      column ? shown_value(result, at.branch->samples[at.row].values, *column) : nothing;
   const std::string prefix = "d(" + spec.quantity + ")/d(";
   std::string zero, unknown;
   for (const auto& quantity : result.quantities) {

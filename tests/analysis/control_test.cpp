@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 using std::numbers::pi;
-const double corner = 0.454;
+const double edge_pose = 0.454;
 
 Study along(const std::vector<Vector>& targets) {
   Study study = command_study(StudyKind::control);
@@ -25,7 +25,7 @@ TEST(Control, RowsOfTable1ComeFromOnePathThroughQ1AndQ2) {
   const double rho_Q1[] = {0.437001683500, 0.433497973681, 0.419483134407, 0.401964585313};
   const double rho_Q2[] = {1.345001683500, 1.355785384759, 1.398920189796, 1.452838696091};
   for (int i = 0; i < 4; ++i) {
-    Study study = along({Vector::Constant(2, -corner), Vector::Constant(2, corner)});
+    Study study = along({Vector::Constant(2, -edge_pose), Vector::Constant(2, edge_pose)});
     study.direction = Vector::Constant(2, std::sqrt(0.5));
     const StudyResult result = run_study(orthoglide(linear(stiffness[i])), study);
     ASSERT_TRUE(complete(result));

@@ -10,7 +10,7 @@
 namespace springfold::continuation {
 namespace {
 
-const Vector ones = Vector::Ones(1);
+const Vector unit_weight = Vector::Ones(1);
 
 Vector scalar(double value) { return Vector::Constant(1, value); }
 
@@ -46,8 +46,10 @@ TEST(Bordered, SolvesTheSystemThatItDraws) {
 
 TEST(Bordered, IsRegularAtALimitPointAndSingularAtABranchPoint) {
   const Direction along{scalar(1), 0};
-  EXPECT_TRUE(solve_bordered(linear_at(circle(), 0, 1), ones, along, scalar(0), 1).has_value());
-  EXPECT_FALSE(solve_bordered(linear_at(pitchfork(), 0, 0), ones, along, scalar(0), 1).has_value());
+  EXPECT_TRUE(
+      solve_bordered(linear_at(circle(), 0, 1), unit_weight, along, scalar(0), 1).has_value());
+  EXPECT_FALSE(
+      solve_bordered(linear_at(pitchfork(), 0, 0), unit_weight, along, scalar(0), 1).has_value());
 }
 
 TEST(Tangent, IsAUnitVectorAlongTheCurveOrientedByTheReference) {
@@ -55,7 +57,7 @@ TEST(Tangent, IsAUnitVectorAlongTheCurveOrientedByTheReference) {
     const double x = std::cos(angle), lambda = std::sin(angle);
     for (const double way : {1.0, -1.0}) {
       const Direction reference{scalar(-way * lambda + 0.2), way * x};
-      const auto tangent = tangent_at(linear_at(circle(), x, lambda), ones, reference);
+      const auto tangent = tangent_at(linear_at(circle(), x, lambda), unit_weight, reference);
       ASSERT_TRUE(tangent.has_value());
       EXPECT_NEAR(tangent->dx[0], -way * lambda, 1e-15) << "angle " << angle;
       EXPECT_NEAR(tangent->dlambda, way * x, 1e-15) << "angle " << angle;
@@ -72,12 +74,13 @@ TEST(Tangent, HasUnitLengthInTheMetric) {
 }
 
 TEST(Tangent, DoesNotExistWhereBranchesCross) {
-  EXPECT_FALSE(tangent_at(linear_at(transcritical(), 0, 0), ones, {scalar(1), 1}).has_value());
+  EXPECT_FALSE(
+      tangent_at(linear_at(transcritical(), 0, 0), unit_weight, {scalar(1), 1}).has_value());
 }
 
 NewtonResult back_to_the_circle(double angle, double ds, const NewtonOptions& options = {}) {
   const Direction tangent{scalar(-std::sin(angle)), std::cos(angle)};
-  return correct(circle(), ones, scalar(std::cos(angle) + ds * tangent.dx[0]),
+  return correct(circle(), unit_weight, scalar(std::cos(angle) + ds * tangent.dx[0]),
                  std::sin(angle) + ds * tangent.dlambda, {}, tangent, options);
 }
 
@@ -110,18 +113,19 @@ TEST(Corrector, IsQuadraticOnAStepThatIsTooLong) {
     EXPECT_GE(seen, 1) << what << ": the step was not long enough to see the order";
   };
   expect_quadratic(back_to_the_circle(0.3, 0.8), "circle");
-  expect_quadratic(correct(strut(0.1), ones, scalar(1.2), 1.6, {}, {scalar(1), 0.2}, {}), "strut");
-  expect_quadratic(correct(fold_ladder(), ones, scalar(0.7), 1.0, {}, {scalar(0.3), -1}, {}),
+  expect_quadratic(correct(strut(0.1), unit_weight, scalar(1.2), 1.6, {}, {scalar(1), 0.2}, {}),
+                   "strut");
+  expect_quadratic(correct(fold_ladder(), unit_weight, scalar(0.7), 1.0, {}, {scalar(0.3), -1}, {}),
                    "ladder");
-  const Vector ones = Vector::Ones(2);
-  expect_quadratic(
-      correct(TwoModes{1, 1.4}, ones, Vector{{0.6, 0.3}}, 1.5, {}, {Vector{{1, 0}}, 0.2}, {}),
-      "two modes");
+  const Vector two_weights = Vector::Ones(2);
+  expect_quadratic(correct(TwoModes{1, 1.4}, two_weights, Vector{{0.6, 0.3}}, 1.5, {},
+                           {Vector{{1, 0}}, 0.2}, {}),
+                   "two modes");
 }
 
 TEST(Corrector, AcceptsAPointOfTheCurveAsItIs) {
   const NewtonResult result =
-      correct(circle(), ones, scalar(0.6), 0.8, {}, {scalar(-0.8), 0.6}, {});
+      correct(circle(), unit_weight, scalar(0.6), 0.8, {}, {scalar(-0.8), 0.6}, {});
   ASSERT_TRUE(converged(result));
   EXPECT_NEAR(result.x[0], 0.6, 1e-15);
   EXPECT_NEAR(result.lambda, 0.8, 1e-15);
@@ -130,7 +134,7 @@ TEST(Corrector, AcceptsAPointOfTheCurveAsItIs) {
 
 TEST(Corrector, NeedsNoSecondIterationWhereTheResidualIsExactlyZero) {
   const ScalarProblem line = graph([](double x) { return 2 * x; }, [](double) { return 2; });
-  const NewtonResult result = correct(line, ones, scalar(0.25), 0.5, {}, {scalar(1), 2}, {});
+  const NewtonResult result = correct(line, unit_weight, scalar(0.25), 0.5, {}, {scalar(1), 2}, {});
   ASSERT_TRUE(converged(result));
   EXPECT_LE(result.iterations, 1);
 }
@@ -143,14 +147,14 @@ TEST(Corrector, SaysWhenItNeedsTooManyIterations) {
 
 TEST(Corrector, SaysWhenItDiverges) {
   // The line lambda = 2 does not meet the circle.
-  const NewtonResult result =
-      correct(circle(), ones, scalar(0.3), 2, {}, {scalar(0), 1}, {.maximum_iterations = 50});
+  const NewtonResult result = correct(circle(), unit_weight, scalar(0.3), 2, {}, {scalar(0), 1},
+                                      {.maximum_iterations = 50});
   EXPECT_EQ(result.status, NewtonStatus::diverges);
   EXPECT_GT(result.contraction, 1);
 }
 
 TEST(Corrector, SaysWhenItsMatrixIsSingular) {
-  const NewtonResult result = correct(circle(), ones, scalar(0), 2, {}, {scalar(0), 1}, {});
+  const NewtonResult result = correct(circle(), unit_weight, scalar(0), 2, {}, {scalar(0), 1}, {});
   EXPECT_EQ(result.status, NewtonStatus::singular);
 }
 
@@ -158,7 +162,7 @@ TEST(Corrector, SaysWhenItLeavesTheDomain) {
   ScalarProblem half = circle();
   half.inside = [](double x, double) { return x > 0; };
   const auto correct_from = [&half](double x) {
-    return correct(half, ones, scalar(x), 0.99, {}, {scalar(0), 1}, {});
+    return correct(half, unit_weight, scalar(x), 0.99, {}, {scalar(0), 1}, {});
   };
   EXPECT_EQ(correct_from(-0.1).status, NewtonStatus::outside_domain);
   EXPECT_EQ(correct_from(0.2).status, NewtonStatus::converged);

@@ -14,7 +14,7 @@ INSTANTIATE_TEST_SUITE_P(Statics, EveryTaskSpace,
                          testing::Values(TaskSpace::xy, TaskSpace::planar, TaskSpace::xyz,
                                          TaskSpace::spatial));
 
-model::SpringLaw random_law(std::mt19937& random) {
+model::SpringLaw any_law(std::mt19937& random) {
   const auto number = [&random](double size) { return random_vector(random, 1, size)[0]; };
   switch (std::uniform_int_distribution<int>(0, 7)(random)) {
     case 0:
@@ -63,7 +63,7 @@ State random_state(std::mt19937& random, TaskSpace space) {
         random_pose(random, dimension(space) == 2 || space == TaskSpace::planar);
     for (model::Element& element : chain.elements)
       if (auto* joint = std::get_if<model::Joint>(&element); joint && joint->spring)
-        joint->spring = random_law(random);
+        joint->spring = any_law(random);
     m.chains.push_back(chain);
   }
   State state{.system = prepare(m)};
