@@ -29,7 +29,8 @@ class PointLaws {
   bool tried_ = false;
   std::optional<continuation::ReducedForm> form_{};  ///< of limit and branch points
   std::vector<Vector> gammas_{};                     ///< per parameter; empty: not known
-  std::vector<bool> known_{};  ///< per parameter: its part that breaks the branch is known, or not needed
+  std::vector<bool>
+      known_{};  ///< per parameter: its part that breaks the branch is known, or not needed
   std::vector<double> rates_{};
   double lambda_scale_ = 1;
 };

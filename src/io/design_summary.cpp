@@ -53,7 +53,10 @@ std::string requirement_table(const DesignReport& report) {
   std::vector<std::vector<std::string>> rows{{"requirement", "wanted", "before", "after"}};
   for (const FoundRequirement& one : report.requirements)
     rows.push_back({one.name, wanted_words(one), shown_number(one.before), shown_number(one.after),
-                    one.holds ? "" : std::isnan(one.after) ? "not known" : "NOT MET", one.limits ? "decides" : ""});
+                    one.holds               ? ""
+                    : std::isnan(one.after) ? "not known"
+                                            : "NOT MET",
+                    one.limits ? "decides" : ""});
   return aligned(rows,
                  {Align::left, Align::left, Align::right, Align::right, Align::left, Align::left},
                  summary_indent);
