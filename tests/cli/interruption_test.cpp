@@ -95,7 +95,8 @@ TEST_F(Interruption, OfACurveKeepsItsPoints) {
   const std::string slow =
       quick_press +
       "trace = { maximum_step = 1e-5, initial_step = 1e-5, maximum_points = 1000000 }\n";
-  EXPECT_EQ(interrupted(strut(slow), SIGINT, 1), 130);
+  // Not for long: what has to be written grows with it, and a busy machine has no second for it.
+  EXPECT_EQ(interrupted(strut(slow), SIGINT, 0.6), 130);
   expect_consistent();
   EXPECT_THAT(messages(), HasSubstr("press, run 1: interrupted"));
   EXPECT_GE(text_in(scratch.path() / "out/branches/press-1.csv").size(), 1000u);
