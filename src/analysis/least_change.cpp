@@ -10,7 +10,7 @@
 namespace springfold::analysis {
 namespace {
 
-/// Where steps or violations are as small as this, nothing but least_step is left.
+/// Where steps or violations are as small as this, nothing but rounding is left.
 constexpr double least_step = 1e-13;
 constexpr double allowed_violation = 1e-11;
 /// Steps of a rough search end there; minima that are told apart differ by far more.

@@ -18,7 +18,7 @@ using continuation::CriticalStart;
 using continuation::Degeneracy;
 
 /// Parts of the range: how far before its end a piece is looked at, how far behind it the next one is looked for,
-/// and how closest_bracket ends are bracketed.
+/// and how closely ends are bracketed.
 constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;

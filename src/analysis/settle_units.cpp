@@ -18,7 +18,7 @@ using continuation::CurvePoint;
 /// What a few operations leave of terms that cancel, relative to these.
 constexpr double unit_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// Largest wrench of a chain and load of the study at the start; zero where they are nothing but unit_rounding.
+/// Largest wrench of a chain and load of the study at the start; zero where they are nothing but rounding.
 double largest_force(const PathProblem& problem, const statics::FirstEquilibrium& first,
                      const CurvePoint& start) {
   const statics::System& system = problem.layout();
@@ -57,7 +57,7 @@ double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& sta
 
 /// Does the response say nothing of lambda, which then keeps its natural unit? Where a body without chains
 /// is driven, lambda is the only way that there need be, as along an axis of symmetry. And what
-/// answers to a parameter by unit_rounding alone does not answer.
+/// answers to a parameter by rounding alone does not answer.
 bool is_unanswered(const PathProblem& problem, const Study& study, double unit) {
   const bool driven = study.control == ControlMode::pose || study.control == ControlMode::mixed;
   if (driven && problem.layout().first_pose == 0) return true;
@@ -92,7 +92,7 @@ bool change_units(const Given& given, const Units& units, statics::FirstEquilibr
 
 /// @returns false where there is no response in the units at hand
 bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) {
-  // Once more where the first units were so far off that unit_rounding may have spoilt the response.
+  // Once more where the first units were so far off that rounding may have spoilt the response.
   constexpr int rounds = 3;
   for (int i = 0; i < rounds; ++i) {
     Setup begun = setup;

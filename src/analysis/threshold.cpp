@@ -45,7 +45,7 @@ class Threshold {
       if (!follow(*bad, mu)) return;
       any = true;
       mu = last_ + towards_ * traced_beside * std::max(std::abs(last_), 1e-3);
-      // What ends traced_beside where it began is taken up again a little farther on.
+      // What ends beside where it began is taken up again a little farther on.
     }
     why_ = "the boundary has more pieces than are followed";
     doubt(mu);
@@ -146,7 +146,7 @@ class Threshold {
       report_.verified =
           unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
       if (!report_.verified)
-        result_.doubts.push_back("traced again traced_beside " + study_.critical.parameter + " = " +
+        result_.doubts.push_back("traced again beside " + study_.critical.parameter + " = " +
                                  rounded(report_.value) + ", the path does not confirm it");
       mark();
     }

@@ -17,7 +17,7 @@ double spot_distance(const Spot& a, const Spot& b) {
   return std::hypot(a.first - b.first, a.second - b.second);
 }
 
-/// How much room there is round a place: the spot_distance to the nearest number, at most one side.
+/// How much room there is round a place: the distance to the nearest number, at most one side.
 double room_at(const Spot& at, const std::vector<Spot>& taken) {
   double room = 1;
   for (const Spot& other : taken) room = std::min(room, spot_distance(at, other));

@@ -23,7 +23,7 @@ std::vector<analysis::JointDamping> built(const std::vector<JointDampingDraft>& 
   return list;
 }
 
-/// A table of the study, or no_table; keys of another kind of study are refused.
+/// A table of the study, or nothing; keys of another kind of study are refused.
 TableReader table_of(const TableReader& study, const std::string& name, bool belongs,
                      const std::string& kind, const std::string& example,
                      const std::vector<std::string>& known, Reading& reading) {

@@ -11,10 +11,10 @@
 namespace springfold::statics {
 namespace {
 
-constexpr Index wanted_eigenvalues = 3;  ///< eigenvalues
-constexpr Index width = 4;               ///< of the blocks: so many equal ones are found
-constexpr Index blocks = 60;             ///< at most
-constexpr Index look = 4;                ///< after so many blocks eigenvalues are looked at
+constexpr Index wanted_eigenvalues = 3;
+constexpr Index width = 4;    ///< of the blocks: so many equal ones are found
+constexpr Index blocks = 60;  ///< at most
+constexpr Index look = 4;     ///< after so many blocks eigenvalues are looked at
 
 /// Residual of an eigenvalue of K^-1, in itself: its error is the square of that over the gap to the next.
 constexpr double settled = 1e-9;

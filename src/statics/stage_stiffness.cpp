@@ -13,7 +13,7 @@
 namespace springfold::statics {
 namespace {
 
-/// Eigenvalues below this share of the largest entry are eigenvalue_rounding.
+/// Eigenvalues below this share of the largest entry are rounding.
 constexpr double eigenvalue_rounding = 1e-13;
 
 /// Schur complement for one body.

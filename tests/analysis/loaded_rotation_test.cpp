@@ -55,7 +55,7 @@ model::Mechanism two_loaded_bodies(std::mt19937& random) {
   return m;
 }
 
-/// Every kind of load value_in_row every kind of point, constant and growing, and line springs.
+/// Every kind of load at every kind of point, constant and growing, and line springs.
 void load_everywhere(std::mt19937& random, model::Mechanism& m) {
   std::vector<model::Anchor> anchors = {{.body = 1}, {.body = 2}};
   for (Index chain = 0; chain < 3; ++chain)
@@ -149,12 +149,12 @@ double value_in_row(const StudyResult& result, std::size_t row, const std::strin
   return 0;
 }
 
-// An arm of length l on a hinge about a slanted axis with a spring c; value_in_row the distance d beyond its
+// An arm of length l on a hinge about a slanted axis with a spring c; at the distance d beyond its
 // end a follower force lambda across it and a dead force P along y of the hinge:
 //
 //     c t = (l + d) (lambda + P cos t),   dM/dt = c + P (l + d) sin t.
 //
-// The body's own frame stands turned by 2 rad or not value_in_row all.
+// The body's own frame stands turned by 2 rad or not at all.
 class SlantedArm : public testing::TestWithParam<double> {
  protected:
   static constexpr double c = 2, l = 0.8, d = 0.3, P = 0.5;

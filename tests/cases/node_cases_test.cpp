@@ -317,7 +317,7 @@ until = { lambda = [0, 0.1] }
   ASSERT_TRUE(analysis::complete(on)) << on.start.message;
   const double held = value(ran.of("preload"), end(ran.of("preload")), "foot.x");
   EXPECT_NEAR(value(on, end(on), "foot.x"), held, 1e-12);
-  // Both bars carry half of the pushed of 0.2; the tie and the kept load balance each other.
+  // Both bars carry half of the push of 0.2; the tie and the kept load balance each other.
   const double slope = value(on, end(on), "apex.y") / (held / 2);
   EXPECT_NEAR(std::abs(value(on, end(on), "foot.hold.Fx")), 0.1 / slope, 1e-10);
 }

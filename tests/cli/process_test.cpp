@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Runs a in_shell command line; "$SPRINGFOLD" is the program. Returns the exit code.
+/// Runs a shell command line; "$SPRINGFOLD" is the program. Returns the exit code.
 int in_shell(const std::string& line) {
   const std::string command = "SPRINGFOLD='" SPRINGFOLD_PROGRAM "'; " + line;
   const int status = std::system(command.c_str());

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A varied_strut of length 1 on a hinge spring k, with c along itself: it buckles at c/2 (1 - sqrt(1 - 4 k/c)).
+/// A strut of length 1 on a hinge spring k, with c along itself: it buckles at c/2 (1 - sqrt(1 - 4 k/c)).
 std::string varied_strut(const std::string& vary, const std::string& more = "",
                          double limit = 1.5) {
   return R"([parameters]

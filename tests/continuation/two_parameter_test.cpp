@@ -82,7 +82,7 @@ TEST(TwoParameters, SwallowtailHasTwoCusps) {
 }
 
 TEST(TwoParameters, TheFoldsOfTheSwallowtailMeetAtOneLoad) {
-  // Double fold start_at b = 0, a = c^2/4: both limit points start_at x^2 = -c/2.
+  // Double fold at b = 0, a = c^2/4: both limit points at x^2 = -c/2.
   const double c = -0.7, x0 = -1, b0 = -4 * x0 * x0 * x0 - 2 * c * x0;
   const Family family =
       graphs([=](double x, double b) { return -(x * x * (x * x + c) + b * x); },
@@ -104,12 +104,12 @@ TEST(TwoParameters, TheFoldsOfTheSwallowtailMeetAtOneLoad) {
 TEST(TwoParameters, ImperfectArchesLoseStabilityAsPublished) {
   const double e = 3;
   const Family family = family_of<Given>([=](double m) { return arch(e, m); });
-  // From a rough guess beside the limit point start_at m = 0.5 down to m = 1e-4.
+  // From a rough guess beside the limit point at m = 0.5 down to m = 1e-4.
   std::vector<CriticalEvent> events{stop_at(1e-5, 1)};
   const std::vector<std::pair<double, double>> known{
       {1e-4, 9.7051770421122}, {0.01, 9.6430193096047}, {0.1, 9.4062121678254}};
   for (const auto& [m, p] : known)
-    events.push_back({"mark", [m = m](const CriticalPoint& start_at) { return start_at.mu - m; }});
+    events.push_back({"mark", [m = m](const CriticalPoint& at) { return at.mu - m; }});
   const auto start = polish_critical(
       family, start_at(CriticalKind::limit_point, Vector{{2.2, -0.34}}, 8.8306, 0.5));
   ASSERT_TRUE(start);
@@ -177,7 +177,7 @@ TEST(TwoParameters, TheFoldsOfTheButterflyColumnMeetAtOneLoad) {
   for (const double load : loads) EXPECT_NEAR(load, 2.9170348529388, 1e-9);
 }
 
-/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point start_at y = 1, branch point start_at y = mu.
+/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.
 Given hill(double mu) {
   return {
       [=](const Vector& u, double l) {

@@ -180,7 +180,7 @@ Crossing judge(const SwitchOnStep& f, double a, const Cubic& cubic) {
   const double least = cubic.least();
   if (fits && cubic.f1 >= 0 && (least > share || least >= std::min(cubic.f0, cubic.f1))) return {};
   if (fits && cubic.f1 < 0 && cubic.d0 <= 0 && cubic.d1 <= 0 && cubic.zeros() == 1) {
-    // Crossed steeply it is the only zero; nearly flat_rate there may be two more beside it.
+    // Crossed steeply it is the only zero; nearly flat there may be two more beside it.
     Crossing only = crossing_in(f, a, a + cubic.h);
     if (only.clear && rate_at(f, only.located->point) < -share / cubic.h) return only;
   }

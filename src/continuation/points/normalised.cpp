@@ -16,7 +16,7 @@ double unit_of(double weight) {
   return std::ldexp(1, -static_cast<int>(std::floor(0.5 * std::ilogb(weight))));
 }
 
-/// How far distances_beside the start the equations are looked at as well: at the start itself all their
+/// How far beside the start the equations are looked at as well: at the start itself all their
 /// derivatives may vanish.
 constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 
