@@ -55,7 +55,7 @@ class Interruption : public testing::Test {
     Child child{scratch.path(), words};
     child.wait_until_used(after);
     child.send(signal);
-    // Within a second or so of its own.
+    // Within a second of its own; a busy machine gives it less than all of that.
     return child.wait(allowed);
   }
 
@@ -71,7 +71,7 @@ class Interruption : public testing::Test {
     EXPECT_EQ(summary()["complete"], false);
   }
 
-  static constexpr double allowed = 2;
+  static constexpr double allowed = 4;
   ScratchFolder scratch;
 };
 
