@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "branch_rows.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {

@@ -4,7 +4,7 @@
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 #include "stability_changes.hpp"
 #include "start_marks.hpp"
 

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "analysis/undefined.hpp"
-#include "number_text.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
+#include "springfold/core/number_text.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::analysis {

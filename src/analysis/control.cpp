@@ -10,8 +10,8 @@
 #include "cpu_time.hpp"
 #include "grow_diagram.hpp"
 #include "not_held.hpp"
-#include "number_text.hpp"
 #include "run_kinds.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
-#include "number_text.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

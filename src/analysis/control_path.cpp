@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.hpp"
 #include "springfold/continuation/problem.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 

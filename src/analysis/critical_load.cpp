@@ -5,10 +5,10 @@
 
 #include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
-#include "number_text.hpp"
 #include "path_problem.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "critical_runs.hpp"
 #include "design_search.hpp"
-#include "number_text.hpp"
 #include "run_kinds.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

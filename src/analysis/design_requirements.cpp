@@ -8,7 +8,7 @@
 #include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
 #include "first_unwanted.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "closure_rank.hpp"
 #include "limits.hpp"
-#include "number_text.hpp"
 #include "search_box.hpp"
 #include "springfold/continuation/between.hpp"
 #include "springfold/continuation/search.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "branch_rows.hpp"
 #include "force_events.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frozen.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "number_text.hpp"
 #include "quaternion.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 

@@ -1,7 +1,7 @@
 // Switches of springs of shapes along a path: functions of the positions of points.
-#include "number_text.hpp"
 #include "path_problem.hpp"
 #include "shape_units.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "number_text.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/number_text.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "start_trouble.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/number_text.hpp"
 #include "springfold/statics/kinematics.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stiffness.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.hpp"
 #include "quantities.hpp"
 #include "run_kinds.hpp"
+#include "springfold/core/number_text.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::analysis {

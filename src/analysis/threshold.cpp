@@ -6,7 +6,7 @@
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "first_unwanted.hpp"
-#include "number_text.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

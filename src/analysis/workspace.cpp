@@ -12,9 +12,9 @@
 #include "analysis/undefined.hpp"
 #include "commanded.hpp"
 #include "cpu_time.hpp"
-#include "number_text.hpp"
 #include "run_kinds.hpp"
 #include "springfold/continuation/interrupted.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {

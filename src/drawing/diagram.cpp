@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "drawing/brief.hpp"
 #include "glyphs.hpp"
 #include "name_places.hpp"
 #include "painter.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -92,12 +92,12 @@ void DiagramAxes::paint_ticks(Picture& picture) const {
   for (const double tick : ticks_within(left_, right_)) {
     const double x = place({.x = tick}).x;
     line({x, frame_.top}, {x, frame_.bottom});
-    words({x, frame_.bottom + 15}, brief(tick), Anchor::middle);
+    words({x, frame_.bottom + 15}, rounded(tick), Anchor::middle);
   }
   for (const double tick : ticks_within(low_, high_)) {
     const double y = place({.y = tick}).y;
     line({frame_.left, y}, {frame_.right, y});
-    words({frame_.left - 6, y + 4}, brief(tick), Anchor::end);
+    words({frame_.left - 6, y + 4}, rounded(tick), Anchor::end);
   }
   picture.marks.emplace_back(Path{{{frame_.left, frame_.top},
                                    {frame_.right, frame_.top},

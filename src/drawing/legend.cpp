@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "drawing/brief.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -58,7 +58,7 @@ class Legend {
     const std::string what = is_force ? "force" : "energy of a spring";
     const std::string unit = is_force ? options.force_unit : options.energy_unit;
     for (const double part : {0.0, 0.5, 1.0})
-      entries_.push_back({(part == 0 ? what + " " : "") + brief(part * sheet_.largest_value, 3) +
+      entries_.push_back({(part == 0 ? what + " " : "") + rounded(part * sheet_.largest_value, 3) +
                               (unit.empty() ? "" : " " + unit),
                           {ramp_colour(part), "", 4, {}}});
   }

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "drawing/brief.hpp"
 #include "glyphs.hpp"
 #include "name_places.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -90,7 +90,7 @@ class Painter {
       const auto chain = static_cast<std::size_t>(link.chain);
       const double force = scene_.chain_forces[chain];
       std::string title = "chain " + scene_.chains[chain];
-      if (std::isfinite(force)) title += ", carries a force of " + brief(force);
+      if (std::isfinite(force)) title += ", carries a force of " + rounded(force);
       Ink ink{ink_colour, "", link.is_rail ? 1.2 : 3, {}};
       if (sheet_.colouring == Colouring::stability) ink.stroke = stability_colour(panel_);
       if (sheet_.colouring == Colouring::force && std::isfinite(force)) {
@@ -111,7 +111,7 @@ class Painter {
            false,
            {gap_colour, "", 2, {2, 4}},
            "chain " + scene_.chains[static_cast<std::size_t>(gap.chain)] +
-               " does not close: " + brief(width) + " apart"});
+               " does not close: " + rounded(width) + " apart"});
     }
   }
 
@@ -120,7 +120,7 @@ class Painter {
     if (!spring.acts) ink = {passive_colour, "", 1.2, {3, 2}};
     std::string title = "spring " + spring.name;
     title += spring.is_one_sided ? (spring.acts ? ", acts" : ", does not act") : "";
-    if (std::isfinite(spring.force)) title += ", force " + brief(spring.force);
+    if (std::isfinite(spring.force)) title += ", force " + rounded(spring.force);
     const bool is_coloured = sheet_.colouring == Colouring::energy ||
                              (sheet_.colouring == Colouring::force && spring.is_line);
     if (is_coloured && spring.acts) {
@@ -220,7 +220,7 @@ class Painter {
                         : load.is_moment  ? "moment"
                                           : "force";
     if (!load.name.empty()) title += " " + load.name;
-    if (!load.is_direction) title += ": " + brief(size);
+    if (!load.is_direction) title += ": " + rounded(size);
     if (load.is_direction) ink.dashes = {4, 3};
     if (load.is_moment) {
       const double sign =

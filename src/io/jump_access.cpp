@@ -17,8 +17,7 @@ using analysis::Jump;
 using analysis::SnapState;
 using analysis::StudyResult;
 
-const std::string critical_prefix = "critical.", inertial_prefix = "inertial.",
-                  saddle_prefix = "saddle.";
+const std::string critical_prefix = "critical.", inertial_prefix = "inertial.";
 
 /// Does the name read a column of another state than the landing?
 bool has_prefix(const std::string& name) {

@@ -21,6 +21,9 @@ std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::s
 double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
                 std::size_t row, std::string_view quantity);
 
+/// "saddle.tool.x": a column at the saddle.
+inline const std::string saddle_prefix = "saddle.";
+
 /// Value of a state of rest; NaN if the quantity does not exist.
 double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
                     std::string_view name);

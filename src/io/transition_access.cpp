@@ -18,8 +18,6 @@ using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
 
-const std::string over_saddle_prefix = "saddle.";
-
 /// 12 of "S12"; 0 for anything else.
 int state_number(std::string_view text) {
   if (text.size() < 2 || text.size() > 7 || text[0] != 'S' || text[1] == '0') return 0;
@@ -135,9 +133,8 @@ double transition_value(const ExpectedValue& expected, const StudyResult& result
   const Barrier* highest = nullptr;
   const double barrier = barrier_between(report, from, to, &highest);
   if (expected.quantity == "barrier" || highest == nullptr) return barrier;
-  if (expected.quantity.starts_with(over_saddle_prefix))
-    return column_value(result, highest->saddle,
-                        expected.quantity.substr(over_saddle_prefix.size()));
+  if (expected.quantity.starts_with(saddle_prefix))
+    return column_value(result, highest->saddle, expected.quantity.substr(saddle_prefix.size()));
   return nothing;
 }
 

@@ -4,15 +4,15 @@
 #include <charconv>
 #include <cmath>
 
-#include "model/text_of.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::model {
 namespace {
 
 std::string entry(Index row, Index column, double value) {
   return "entry [" + std::to_string(row + 1) + "][" + std::to_string(column + 1) + "] is " +
-         text_of(value);
+         rounded(value, 6);
 }
 
 /// Diagonal entries must be able to scale: an empty row is allowed where no eigenvalue need be > 0.
@@ -49,7 +49,7 @@ std::string problem_in(const Matrix& m, Definiteness need) {
         return entry(i, j, m(i, j)) + " and " + entry(j, i, m(j, i)) + ", need a symmetric matrix";
   const double least = symmetric_eigenvalues(0.5 * (unit + unit.transpose()))[0];
   const std::string what =
-      "its smallest eigenvalue is " + text_of(least) + " (with the diagonal scaled to 1)";
+      "its smallest eigenvalue is " + rounded(least, 6) + " (with the diagonal scaled to 1)";
   if (need == Definiteness::semidefinite && least < -1e-10)
     return what + ", need no negative eigenvalue";
   if (need == Definiteness::definite && least < 1e-14) return what + ", need a positive one";

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "falling.hpp"
-#include "model/text_of.hpp"
+#include "springfold/core/number_text.hpp"
 #include "springfold/model/spring_law.hpp"
 
 namespace springfold::model {
@@ -22,7 +22,7 @@ struct Rules {
 
   void stiffness(double k, bool falling) const {
     if (!std::isfinite(k) || (k < 0 && !falling))
-      problems.push_back("stiffness: need a finite number >= 0, got " + text_of(k) +
+      problems.push_back("stiffness: need a finite number >= 0, got " + rounded(k, 6) +
                          (k < 0 && std::isfinite(k) ? hint : ""));
   }
   void finite(double value, const std::string& name) const {
@@ -46,7 +46,7 @@ struct Rules {
   void rising(const Law& law) const {
     if (law.falling || !problems.empty()) return;
     if (const auto u = falls_at(law))
-      problems.push_back("falls at a deformation of " + text_of(*u) + ", need a law that rises" +
+      problems.push_back("falls at a deformation of " + rounded(*u, 6) + ", need a law that rises" +
                          hint + ", or a range within which it rises");
   }
 

@@ -41,10 +41,6 @@ inline model::SpringLaw one_sided(double stiffness, double from) {
   return model::OneSidedSpring{stiffness, from, model::OneSidedSpring::Side::above};
 }
 
-inline double value(const StudyResult& result, std::size_t row, const std::string& name) {
-  return result.branches.front().samples[row].values[column(result, name)];
-}
-
 inline Study command_study(StudyKind kind) {
   Study study;
   study.name = "commands";

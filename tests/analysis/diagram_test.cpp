@@ -20,11 +20,6 @@ using testing::SizeIs;
 
 using std::numbers::pi;
 
-double value(const StudyResult& result, const Branch& branch, std::size_t row,
-             const std::string& name) {
-  return branch.samples[row].values[column(result, name)];
-}
-
 std::vector<std::string> labels_on(const Branch& branch) {
   std::vector<std::string> labels;
   for (const auto& event : branch.events) labels.push_back(event.label);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "analysis/column.hpp"
 #include "analysis/path_problem.hpp"
 #include "analysis/quaternion.hpp"
 #include "model/random_chain.hpp"
@@ -141,14 +142,6 @@ TEST(LoadedRotations, GiveTheResidualOfTheRotationVector) {
   }
 }
 
-double value_in_row(const StudyResult& result, std::size_t row, const std::string& quantity) {
-  for (std::size_t q = 0; q < result.quantities.size(); ++q)
-    if (result.quantities[q].name == quantity)
-      return result.branches.front().samples[row].values[q];
-  ADD_FAILURE() << "no " << quantity;
-  return 0;
-}
-
 // An arm of length l on a hinge about a slanted axis with a spring c; at the distance d beyond its
 // end a follower force lambda across it and a dead force P along y of the hinge:
 //
@@ -203,22 +196,19 @@ TEST_P(SlantedArm, IsWoundUpAsTheClosedFormSays) {
   EXPECT_THAT(result.non_conservative, testing::ElementsAre("follower force follower"));
   const std::size_t rows = result.branches.front().samples.size();
   for (std::size_t row = 0; row < rows; ++row) {
-    const double t = value_in_row(result, row, "arm.h"),
-                 lambda = value_in_row(result, row, "lambda");
+    const double t = value(result, row, "arm.h"), lambda = value(result, row, "lambda");
     EXPECT_NEAR(c * t, (l + d) * (lambda + P * std::cos(t)), 1e-10);
-    EXPECT_NEAR(value_in_row(result, row, "T_det"), c + P * (l + d) * std::sin(t), 1e-10);
+    EXPECT_NEAR(value(result, row, "T_det"), c + P * (l + d) * std::sin(t), 1e-10);
     const Rotation R = slant * model::rotation_about<double>({0, 0, 1}, t);
-    const model::Vec3<double> tip(value_in_row(result, row, "tip.x"),
-                                  value_in_row(result, row, "tip.y"),
-                                  value_in_row(result, row, "tip.z"));
-    const model::Vec3<double> phi(value_in_row(result, row, "tip.rx"),
-                                  value_in_row(result, row, "tip.ry"),
-                                  value_in_row(result, row, "tip.rz"));
+    const model::Vec3<double> tip(value(result, row, "tip.x"), value(result, row, "tip.y"),
+                                  value(result, row, "tip.z"));
+    const model::Vec3<double> phi(value(result, row, "tip.rx"), value(result, row, "tip.ry"),
+                                  value(result, row, "tip.rz"));
     EXPECT_LT((tip - l * R.col(0)).norm(), 1e-10);
     EXPECT_LT((model::exp_rotation<double>(phi) - R * own).norm(), 1e-9);
   }
-  EXPECT_NEAR(value_in_row(result, rows - 1, "lambda"), 13, 1e-12);
-  EXPECT_GT(value_in_row(result, rows - 1, "arm.h"), 6.5);
+  EXPECT_NEAR(value(result, rows - 1, "lambda"), 13, 1e-12);
+  EXPECT_GT(value(result, rows - 1, "arm.h"), 6.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(OwnFrame, SlantedArm, testing::Values(0.0, 2.0));

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "allocations.hpp"
+#include "analysis/column.hpp"
 #include "analysis/path_problem.hpp"
 #include "analysis/quaternion.hpp"
 #include "model/random_chain.hpp"
@@ -210,14 +211,6 @@ Carousel carousel(const Vector& load, double turns) {
   return c;
 }
 
-double at(const StudyResult& result, std::size_t row, const std::string& quantity) {
-  for (std::size_t q = 0; q < result.quantities.size(); ++q)
-    if (result.quantities[q].name == quantity)
-      return result.branches.front().samples[row].values[q];
-  ADD_FAILURE() << "no " << quantity;
-  return 0;
-}
-
 TEST(FreeRotations, GoRoundAndRoundWithoutSpecialPoints) {
   for (const double force : {0.0, 0.3}) {
     Carousel c = carousel(Vector{{0, -force, 0.5 * force, 0, 0, 0}}, 3);
@@ -234,8 +227,8 @@ TEST(FreeRotations, GoRoundAndRoundWithoutSpecialPoints) {
     ASSERT_EQ(marked.size(), 3u);
     for (const char* name : {"tool.x", "tool.y", "tool.z", "stiffness", "arm.link.Rz"})
       for (const std::size_t k : {1u, 2u})
-        EXPECT_NEAR(at(result, marked[k], name), at(result, marked[0], name), 1e-10) << name;
-    for (std::size_t i = 0; i < branch.samples.size(); ++i) EXPECT_EQ(at(result, i, "index"), 0);
+        EXPECT_NEAR(value(result, marked[k], name), value(result, marked[0], name), 1e-10) << name;
+    for (std::size_t i = 0; i < branch.samples.size(); ++i) EXPECT_EQ(value(result, i, "index"), 0);
   }
 }
 
@@ -255,10 +248,10 @@ TEST(FreeRotations, AreReportedWithoutAJumpBeyondAWholeTurn) {
   ASSERT_TRUE(complete(result));
   const std::size_t rows = result.branches.front().samples.size();
   for (std::size_t i = 0; i < rows; ++i) {
-    EXPECT_NEAR(at(result, i, "tool.rx"), at(result, i, "lambda"), 1e-9);
-    EXPECT_NEAR(at(result, i, "tool.ry"), 0, 1e-9);
+    EXPECT_NEAR(value(result, i, "tool.rx"), value(result, i, "lambda"), 1e-9);
+    EXPECT_NEAR(value(result, i, "tool.ry"), 0, 1e-9);
   }
-  EXPECT_NEAR(at(result, rows - 1, "tool.rx"), 6 * pi, 1e-9);
+  EXPECT_NEAR(value(result, rows - 1, "tool.rx"), 6 * pi, 1e-9);
 }
 
 // A force tilts the body: its axis wobbles, and near whole turns its rotation vector has any axis.
@@ -270,9 +263,9 @@ TEST(FreeRotations, GoOnCountingWhereTheAxisWobbles) {
   ASSERT_TRUE(complete(result));
   const std::size_t rows = result.branches.front().samples.size();
   for (std::size_t i = 0; i < rows; ++i) {
-    const double lambda = at(result, i, "lambda");
+    const double lambda = value(result, i, "lambda");
     if (std::abs(std::remainder(lambda, 2 * pi)) < 0.5) continue;
-    EXPECT_NEAR(at(result, i, "tool.rz"), lambda, 0.15);
+    EXPECT_NEAR(value(result, i, "tool.rz"), lambda, 0.15);
   }
 }
 
@@ -309,12 +302,13 @@ TEST(FreeRotations, RollUpACantileverSeveralTimes) {
   ASSERT_TRUE(complete(result)) << result.branches.front().forward.reason;
   const std::size_t rows = result.branches.front().samples.size();
   for (std::size_t i = 1; i < rows; ++i) {
-    const double d = at(result, i, "lambda") * l;
-    EXPECT_NEAR(at(result, i, "tip.x"), l * std::sin(N * d) / (2 * std::sin(d / 2)), 1e-11);
-    EXPECT_NEAR(at(result, i, "tip.y"), l * (1 - std::cos(N * d)) / (2 * std::sin(d / 2)), 1e-11);
-    EXPECT_NEAR(at(result, i, "tip.rz"), (N - 0.5) * d, 1e-9);
+    const double d = value(result, i, "lambda") * l;
+    EXPECT_NEAR(value(result, i, "tip.x"), l * std::sin(N * d) / (2 * std::sin(d / 2)), 1e-11);
+    EXPECT_NEAR(value(result, i, "tip.y"), l * (1 - std::cos(N * d)) / (2 * std::sin(d / 2)),
+                1e-11);
+    EXPECT_NEAR(value(result, i, "tip.rz"), (N - 0.5) * d, 1e-9);
   }
-  EXPECT_GT(at(result, rows - 1, "tip.rz"), 4 * pi);
+  EXPECT_GT(value(result, rows - 1, "tip.rz"), 4 * pi);
 }
 
 // A rotation vector of a whole turn seems balanced under any moment: such states are none.

@@ -20,11 +20,6 @@ using testing::SizeIs;
 
 using std::numbers::pi;
 
-double value_on(const StudyResult& result, const Branch& branch, std::size_t row,
-                const std::string& name) {
-  return branch.samples[row].values[column(result, name)];
-}
-
 /// The truss held where it begins to sway.
 analysis::Study at_sway_point(const SteepTruss& truss) {
   analysis::Study study = truss.study(0);
@@ -161,10 +156,10 @@ TEST(Periods, CloseTheCurveOfACrankAfterOneTurn) {
   const Branch& branch = result.branches.front();
   EXPECT_TRUE(complete(result)) << branch.forward.reason;
   EXPECT_THAT(branch.forward.reason, HasSubstr("closed"));
-  const double turned = value_on(result, branch, branch.samples.size() - 1, "crank.turn") -
-                        value_on(result, branch, 0, "crank.turn");
+  const double turned = value(result, branch, branch.samples.size() - 1, "crank.turn") -
+                        value(result, branch, 0, "crank.turn");
   EXPECT_NEAR(std::abs(turned), 2 * pi, 1e-9);
-  EXPECT_NEAR(value_on(result, branch, branch.samples.size() - 1, "lambda"), 0, 1e-9);
+  EXPECT_NEAR(value(result, branch, branch.samples.size() - 1, "lambda"), 0, 1e-9);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/column.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -41,13 +42,6 @@ inline Ran run(const std::string& text) {
     ran.results.back().run = planned.run;
   }
   return ran;
-}
-
-/// Of the first branch.
-inline double value(const analysis::StudyResult& result, std::size_t row, const std::string& name) {
-  for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    if (result.quantities[i].name == name) return result.branches[0].samples[row].values[i];
-  throw std::out_of_range(name);
 }
 
 inline std::vector<double> lambdas(const analysis::StudyResult& result, analysis::EventKind kind) {

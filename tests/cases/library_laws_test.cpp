@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "analysis/column.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -20,16 +21,10 @@ std::vector<fs::path> case_files() {
   return files;
 }
 
-std::size_t column_of(const analysis::StudyResult& result, const std::string& name) {
-  for (std::size_t i = 0; i < result.quantities.size(); ++i)
-    if (result.quantities[i].name == name) return i;
-  throw std::out_of_range(name);
-}
-
 /// Rows on which the two counts differ; a number that one of them lacks is a difference.
 int rows_that_differ(const analysis::StudyResult& result, const std::string& one,
                      const std::string& other) {
-  const std::size_t a = column_of(result, one), b = column_of(result, other);
+  const std::size_t a = column(result, one), b = column(result, other);
   int differ = 0;
   for (const analysis::Branch& branch : result.branches)
     for (const analysis::Sample& row : branch.samples) {

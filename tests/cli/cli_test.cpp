@@ -6,6 +6,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/outcome.hpp"
 #include "cli/run_command.hpp"
 #include "cli/run_main.hpp"
 #include "cli/selection.hpp"
@@ -25,11 +26,6 @@ using testing::Not;
 using testing::StartsWith;
 
 /// What a run of the program left behind.
-struct ProgramOutcome {
-  int code = -1;
-  std::string out{}, err{};
-};
-
 /// A folder with the small case; the program's results go to "out" in it.
 class Program : public testing::Test {
  protected:
@@ -41,7 +37,7 @@ class Program : public testing::Test {
   fs::path folder() const { return scratch.path() / "out"; }
 
   /// The whole program in this process.
-  ProgramOutcome run(std::vector<std::string> words) const {
+  Outcome run(std::vector<std::string> words) const {
     words.insert(words.begin(), "springfold");
     std::vector<const char*> argv;
     for (const auto& word : words) argv.push_back(word.c_str());
@@ -50,14 +46,14 @@ class Program : public testing::Test {
     return {code, out.str(), err.str()};
   }
 
-  ProgramOutcome run_case(std::vector<std::string> more = {"--no-plots"}) const {
+  Outcome run_case(std::vector<std::string> more = {"--no-plots"}) const {
     std::vector<std::string> words = {"run", case_file().string(), "--out", folder().string()};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
 
   /// The run command with another engine.
-  ProgramOutcome run_with(
+  Outcome run_with(
       const RunStudy& engine, std::function<int()> signal = [] { return 0; },
       bool shows_progress = false) const {
     std::ostringstream out, err;
@@ -95,7 +91,7 @@ StudyResult stopped_result(const std::string& reason) {
 }
 
 TEST_F(Program, RunsACaseAndWritesCompleteResults) {
-  const ProgramOutcome outcome = run_case();
+  const Outcome outcome = run_case();
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, StartsWith("A point on two springs\n\npush, run 1\n"));
   EXPECT_THAT(outcome.out, HasSubstr("rest, run 1"));
@@ -106,12 +102,12 @@ TEST_F(Program, RunsACaseAndWritesCompleteResults) {
 }
 
 TEST_F(Program, PrintsExactlyTheSummaryFileAsJson) {
-  const ProgramOutcome outcome = run_case({"--no-plots", "--json"});
+  const Outcome outcome = run_case({"--no-plots", "--json"});
   EXPECT_EQ(outcome.out, text_in(folder() / "summary.json"));
 }
 
 TEST_F(Program, RunsOnlyTheWantedStudies) {
-  const ProgramOutcome outcome = run_case({"--no-plots", "--study", "rest"});
+  const Outcome outcome = run_case({"--no-plots", "--study", "rest"});
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_EQ(summary()["runs"].size(), 1u);
   EXPECT_EQ(summary()["complete"], true);
@@ -125,7 +121,7 @@ TEST_F(Program, TakesParameterValuesFromTheCommandLine) {
 
 TEST_F(Program, ReportsMistakesInTheCaseAndWritesNothing) {
   put_case("", "[[study]]\nname = \"x\"\nkind = \"flight\"\ncolour = 3\n");
-  const ProgramOutcome outcome = run_case();
+  const Outcome outcome = run_case();
   EXPECT_EQ(outcome.code, wrong_case_file);
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_THAT(outcome.err, HasSubstr(case_file().string() + ":"));
@@ -135,14 +131,14 @@ TEST_F(Program, ReportsMistakesInTheCaseAndWritesNothing) {
 }
 
 TEST_F(Program, ReportsWrongUsage) {
-  const ProgramOutcome outcome = run({"run"});
+  const Outcome outcome = run({"run"});
   EXPECT_EQ(outcome.code, wrong_usage);
   EXPECT_THAT(outcome.err, StartsWith("springfold: "));
   EXPECT_THAT(outcome.out, IsEmpty());
 }
 
 TEST_F(Program, NamesTheNearestStudyWhenThereIsNoSuch) {
-  const ProgramOutcome outcome = run_case({"--study", "pusch"});
+  const Outcome outcome = run_case({"--study", "pusch"});
   EXPECT_EQ(outcome.code, wrong_usage);
   EXPECT_EQ(outcome.err,
             "springfold: there is no study \"pusch\", did you mean \"push\"? Studies of this case: "
@@ -157,7 +153,7 @@ TEST_F(Program, PrintsHelpAndVersionOnStandardOutput) {
 }
 
 TEST_F(Program, ChecksACaseWithoutWritingAnything) {
-  const ProgramOutcome outcome = run({"check", case_file().string()});
+  const Outcome outcome = run({"check", case_file().string()});
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("body      tool (xy)"));
   EXPECT_THAT(outcome.out, HasSubstr("leg: base to tool, 0 rigid links"));
@@ -171,7 +167,7 @@ TEST_F(Program, ChecksACaseWithoutWritingAnything) {
 TEST_F(Program, NamesAnElasticLinkOnceInACheck) {
   const auto file =
       std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/segmented-column/case.toml";
-  const ProgramOutcome outcome = run({"check", file.string(), "--set", "N=2"});
+  const Outcome outcome = run({"check", file.string(), "--set", "N=2"});
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("joints: link (elastic in Tx Ty Tz Rx Ry Rz)\n"));
 }
@@ -208,7 +204,7 @@ TEST_F(Program, SaysSoWhenStandardOutputDoesNotTakeTheTables) {
 }
 
 TEST_F(Program, KeepsResultsAndTellsWhenARunStoppedEarly) {
-  const ProgramOutcome outcome =
+  const Outcome outcome =
       run_with([](const auto&, const auto&) { return stopped_result("step too small"); });
   EXPECT_EQ(outcome.code, partial);
   EXPECT_THAT(outcome.err, HasSubstr("springfold: push, run 1: stopped early: step too small"));
@@ -217,7 +213,7 @@ TEST_F(Program, KeepsResultsAndTellsWhenARunStoppedEarly) {
 
 TEST_F(Program, RunsAllStudiesAndReturnsTheWorstCode) {
   int runs = 0;
-  const ProgramOutcome outcome = run_with([&](const auto&, const auto&) {
+  const Outcome outcome = run_with([&](const auto&, const auto&) {
     if (++runs == 2) return stopped_result("step too small");
     StudyResult result;
     result.start.message = "nothing near the guess";
@@ -229,7 +225,7 @@ TEST_F(Program, RunsAllStudiesAndReturnsTheWorstCode) {
 }
 
 TEST_F(Program, CountsAnUnresolvedPointAsPartial) {
-  const ProgramOutcome outcome = run_with([](const auto&, const auto&) {
+  const Outcome outcome = run_with([](const auto&, const auto&) {
     StudyResult result = good_result();
     result.branches[0].events = {{.kind = analysis::EventKind::unresolved, .label = "UR1"}};
     return result;
@@ -243,7 +239,7 @@ TEST_F(Program, TellsWhenAComparedValueDoesNotHold) {
            "[[value]]\nname = \"energy\"\nstudy = \"rest\"\nquantity = \"energy\"\n"
            "expected = 1\ntolerance = 0.1\nsource = \"none\"\n");
   put_case("expected = \"expected.toml\"\n");
-  const ProgramOutcome outcome = run_case();
+  const Outcome outcome = run_case();
   EXPECT_EQ(outcome.code, partial) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("NOT OK"));
   EXPECT_THAT(outcome.err, HasSubstr("1 of 1 compared values do not hold"));
@@ -258,7 +254,7 @@ TEST_F(Program, ClosesCleanlyWhenInterrupted) {
       EXPECT_FALSE(observer(2, 0.1));
       return stopped_result("stopped on request");
     };
-    const ProgramOutcome outcome = run_with(engine, InterruptGuard::signal);
+    const Outcome outcome = run_with(engine, InterruptGuard::signal);
     EXPECT_EQ(outcome.code, 128 + signal);
     EXPECT_THAT(outcome.err, HasSubstr("0 of 2 runs are complete"));
     EXPECT_EQ(summary()["complete"], false);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli/exit_code.hpp"
+#include "cli/outcome.hpp"
 #include "cli/run_main.hpp"
 #include "io/scratch_folder.hpp"
 
@@ -13,11 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-struct Finished {
-  int code = -1;
-  std::string out{}, err{};
-};
 
 /// Two links on two hinge springs under an axial load: two branch points.
 std::string column(const std::string& last) {
@@ -43,7 +39,7 @@ until = { lambda = [-0.2, 3], column.a = [-1, 1] }
 
 class DiagramProgram : public testing::Test {
  protected:
-  Finished run(const std::string& text) const {
+  Outcome run(const std::string& text) const {
     put_text(scratch.path() / "case.toml", text);
     const std::string file = (scratch.path() / "case.toml").string();
     const std::string folder = (scratch.path() / "out").string();
@@ -58,14 +54,14 @@ class DiagramProgram : public testing::Test {
 };
 
 TEST_F(DiagramProgram, WithoutBranchesSaysWhatItDidNotFollow) {
-  const Finished outcome = run(column(""));
+  const Outcome outcome = run(column(""));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("not followed, branches.depth = 0: what crosses at BP1, BP2"));
   EXPECT_THAT(outcome.out, HasSubstr("nothing is claimed about branches that are not connected"));
 }
 
 TEST_F(DiagramProgram, WritesOneTableForEveryBranch) {
-  const Finished outcome = run(column("branches = { depth = 1 }\n"));
+  const Outcome outcome = run(column("branches = { depth = 1 }\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("begins at BP2 of branch 1"));
   EXPECT_TRUE(fs::exists(scratch.path() / "out/branches/press-1.csv"));
@@ -74,27 +70,27 @@ TEST_F(DiagramProgram, WritesOneTableForEveryBranch) {
 }
 
 TEST_F(DiagramProgram, SaysWhatItsSearchFound) {
-  const Finished outcome = run(column("branches = { depth = 1, search_at = [0.1] }\n"));
+  const Outcome outcome = run(column("branches = { depth = 1, search_at = [0.1] }\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("search at lambda = 0.1: "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("nothing is claimed")));
 }
 
 TEST_F(DiagramProgram, EndsWithFourWhenTheStartMovesTooFar) {
-  const Finished outcome = run(column("load = [0, 0.05]\nstart = { maximum_move = 0.01 }\n"));
+  const Outcome outcome = run(column("load = [0, 0.05]\nstart = { maximum_move = 0.01 }\n"));
   EXPECT_EQ(outcome.code, no_start_point);
   EXPECT_THAT(outcome.err, HasSubstr("farther than start.maximum_move = 0.01"));
 }
 
 TEST_F(DiagramProgram, SaysHowFarTheStartMoved) {
-  const Finished outcome = run(column("load = [0, 0.05]\n"));
+  const Outcome outcome = run(column("load = [0, 0.05]\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(") from the guess, whose residual is 0.0"));
 }
 
 TEST_F(DiagramProgram, FollowsAllWaysFromAStartOnABranchPoint) {
   // The straight column under its first critical load, (3 - sqrt(5))/2.
-  const Finished outcome = run(column("load = [\"-(3 - sqrt(5))/2\", 0]\n"));
+  const Outcome outcome = run(column("load = [\"-(3 - sqrt(5))/2\", 0]\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("the start is a branch point: 4 ways"));
   EXPECT_THAT(outcome.out, HasSubstr("begins at BP1, the start"));

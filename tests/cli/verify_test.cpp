@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli/exit_code.hpp"
+#include "cli/outcome.hpp"
 #include "cli/run_main.hpp"
 #include "cli/small_case.hpp"
 #include "cli/verify_command.hpp"
@@ -16,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-struct Verdict {
-  int code = -1;
-  std::string out{}, err{};
-};
 
 /// A folder of two cases whose stiffness along x is K = 2.
 class Verify : public testing::Test {
@@ -36,7 +32,7 @@ class Verify : public testing::Test {
              "[[value]]\nname = \"K\"\nstudy = \"push\"\nquantity = \"stiffness\"\nexpected = " +
                  stiffness + "\ntolerance = 1e-9\nsource = \"by hand\"\n");
   }
-  Verdict run(std::vector<std::string> words = {}) const {
+  Outcome run(std::vector<std::string> words = {}) const {
     words.insert(words.begin(), {"springfold", "verify", scratch.path().string()});
     std::vector<const char*> argv;
     for (const auto& word : words) argv.push_back(word.c_str());
@@ -48,7 +44,7 @@ class Verify : public testing::Test {
 };
 
 TEST_F(Verify, PrintsOneTableOfAllCasesAndWritesNothing) {
-  const Verdict outcome = run();
+  const Outcome outcome = run();
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 of 2 cases hold, 2 of 2 values"));
   EXPECT_THAT(outcome.out, HasSubstr("by hand"));
@@ -57,7 +53,7 @@ TEST_F(Verify, PrintsOneTableOfAllCasesAndWritesNothing) {
 
 TEST_F(Verify, EndsWithFiveIfOneValueOfOneCaseDoesNotHold) {
   add("two", "2.1");
-  const Verdict outcome = run();
+  const Outcome outcome = run();
   EXPECT_EQ(outcome.code, partial);
   EXPECT_THAT(outcome.out, HasSubstr("1 of 2 cases hold, 1 of 2 values"));
   EXPECT_THAT(outcome.out, HasSubstr("NOT OK"));
@@ -65,7 +61,7 @@ TEST_F(Verify, EndsWithFiveIfOneValueOfOneCaseDoesNotHold) {
 
 TEST_F(Verify, EndsWithFiveIfACaseExpectsNothing) {
   fs::remove(scratch.path() / "two" / "expected.toml");
-  const Verdict outcome = run();
+  const Outcome outcome = run();
   EXPECT_EQ(outcome.code, partial);
   EXPECT_THAT(outcome.out, HasSubstr("NOT OK  two: has no expected values"));
 }
@@ -84,7 +80,7 @@ TEST_F(Verify, PrintsJsonForOtherPrograms) {
 TEST_F(Verify, ReportsMistakesOfAllCasesAndRunsNone) {
   for (const char* name : {"one", "two"})
     put_text(scratch.path() / name / "case.toml", small_case("titel = 1\n"));
-  const Verdict outcome = run();
+  const Outcome outcome = run();
   EXPECT_EQ(outcome.code, wrong_case_file);
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, HasSubstr("one/case.toml:1:1: titel: unknown key"));

@@ -5,33 +5,13 @@
 #include <memory>
 #include <numbers>
 
+#include "families.hpp"
 #include "springfold/continuation/two_parameter.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-template <class P>
-Family structure_family(std::function<P(double)> make) {
-  const auto held = std::make_shared<std::optional<P>>();
-  return {.at = [=](double mu) -> std::optional<ProblemView> {
-    held->emplace(make(mu));
-    return ProblemView(**held);
-  }};
-}
-
-CriticalEvent ends_at(double low, double high) {
-  return {"end", [=](const CriticalPoint& p) { return (p.mu - low) * (high - p.mu); },
-          EventAction::stop};
-}
-
-std::vector<CriticalHit> all_of_kind(const CriticalCurve& curve, Degeneracy kind) {
-  std::vector<CriticalHit> list;
-  for (const auto& hit : curve.hits)
-    if (hit.kind == kind) list.push_back(hit);
-  return list;
-}
 
 /// n bars of stiffness 1 from a circle of radius 1 to an apex; free length 1/cos(alpha); lateral springs kl at the apex; P down. n = 2 is a von Mises truss.
 struct Dome {
@@ -88,18 +68,18 @@ double root(const std::function<double(double)>& f, double a, double b) {
 TEST(CriticalStructures, SwayOfAVonMisesTrussHasAHilltopAndABirth) {
   const double h = 0.1, alpha = 74 * degree;
   const Family family =
-      structure_family<Dome>([=](double a) { return Dome{.n = 2, .alpha = a, .kl = 2 * h}; });
+      family_of<Dome>([=](double a) { return Dome{.n = 2, .alpha = a, .kl = 2 * h}; });
   const double f = root(
       [&](double t) { return std::cos(t) * std::pow(std::sin(t), 2) - (1 + h) * std::cos(alpha); },
       std::atan(std::sqrt(2)), alpha);
   const auto curve = follow_critical(family, branch_point(2, alpha, f), false,
-                                     {ends_at(65 * degree, 76 * degree)}, {});
+                                     {stop_at(65 * degree, 76 * degree)}, {});
   EXPECT_TRUE(curve.kept);
-  const auto births = all_of_kind(curve, Degeneracy::branch_points_merge);
+  const auto births = hits_of(curve, Degeneracy::branch_points_merge);
   ASSERT_EQ(births.size(), 1U);
   EXPECT_NEAR(births[0].point.mu / degree, 69.518235210634, 1e-9);
   EXPECT_NEAR(births[0].point.lambda, 1.8384776310850, 1e-9);
-  const auto hilltops = all_of_kind(curve, Degeneracy::hilltop);
+  const auto hilltops = hits_of(curve, Degeneracy::hilltop);
   ASSERT_EQ(hilltops.size(), 1U);
   EXPECT_NEAR(hilltops[0].point.mu / degree, 70.816016196273, 1e-8);
   EXPECT_NEAR(hilltops[0].point.lambda, 2.3073794659743, 1e-9);
@@ -108,7 +88,7 @@ TEST(CriticalStructures, SwayOfAVonMisesTrussHasAHilltopAndABirth) {
 TEST(CriticalStructures, DoubleBranchPointsOfADomeAreBornInPairsToo) {
   const double hh = 0.1, alpha = 62 * degree;
   const Family family =
-      structure_family<Dome>([=](double a) { return Dome{.n = 3, .alpha = a, .kl = 3 * hh}; });
+      family_of<Dome>([=](double a) { return Dome{.n = 3, .alpha = a, .kl = 3 * hh}; });
   const double f = root(
       [&](double t) {
         const double c = std::cos(t);
@@ -116,13 +96,13 @@ TEST(CriticalStructures, DoubleBranchPointsOfADomeAreBornInPairsToo) {
       },
       std::acos(std::sqrt(2.0 / 3)), alpha);
   const auto curve = follow_critical(family, branch_point(3, alpha, f), false,
-                                     {ends_at(55 * degree, 65 * degree)}, {});
+                                     {stop_at(55 * degree, 65 * degree)}, {});
   EXPECT_TRUE(curve.kept);
-  const auto births = all_of_kind(curve, Degeneracy::branch_points_merge);
+  const auto births = hits_of(curve, Degeneracy::branch_points_merge);
   ASSERT_FALSE(births.empty());  // further on: its mirror image, and the flat dome
   EXPECT_NEAR(births[0].point.mu / degree, 60.340376873088, 1e-9);
   EXPECT_NEAR(births[0].point.lambda, 1.3788582233138, 1e-9);
-  const auto hilltops = all_of_kind(curve, Degeneracy::hilltop);
+  const auto hilltops = hits_of(curve, Degeneracy::hilltop);
   ASSERT_FALSE(hilltops.empty());
   EXPECT_NEAR(hilltops[0].point.mu / degree, 60.389191389169, 1e-8);
   EXPECT_NEAR(hilltops[0].point.lambda, 1.3942740046347, 1e-9);
@@ -147,12 +127,12 @@ struct ExtensibleStrut {
 
 TEST(CriticalStructures, BranchPointsOfAnExtensibleStrutMerge) {
   const Family family =
-      structure_family<ExtensibleStrut>([](double k) { return ExtensibleStrut{.k = k}; });
+      family_of<ExtensibleStrut>([](double k) { return ExtensibleStrut{.k = k}; });
   const double k = 5, P = k / 2 * (1 - std::sqrt(1 - 4 / k));
   const auto curve = follow_critical(
       family, {.kind = CriticalKind::branch_point, .x = Vector{{0, -P / k}}, .lambda = P, .mu = k},
-      false, {ends_at(3, 6)}, {});
-  const auto births = all_of_kind(curve, Degeneracy::branch_points_merge);
+      false, {stop_at(3, 6)}, {});
+  const auto births = hits_of(curve, Degeneracy::branch_points_merge);
   ASSERT_EQ(births.size(), 1U);
   EXPECT_NEAR(births[0].point.mu, 4, 1e-12);
   EXPECT_NEAR(births[0].point.lambda, 2, 1e-9);
@@ -160,13 +140,13 @@ TEST(CriticalStructures, BranchPointsOfAnExtensibleStrutMerge) {
 
 TEST(CriticalStructures, BranchesOfAnImperfectExtensibleStrutCross) {
   const double t0 = 0.0052908288456748;
-  const Family family = structure_family<ExtensibleStrut>(
-      [=](double k) { return ExtensibleStrut{.k = k, .t0 = t0}; });
+  const Family family =
+      family_of<ExtensibleStrut>([=](double k) { return ExtensibleStrut{.k = k, .t0 = t0}; });
   const CriticalStart guess{.x = Vector{{0.227942, -0.437596}}, .lambda = 1.751943, .mu = 3.9};
   int crossings = 0;
   for (const bool growing : {true, false}) {
-    const auto curve = follow_critical(family, guess, growing, {ends_at(3.5, 5)}, {});
-    for (const auto& hit : all_of_kind(curve, Degeneracy::crossing)) {
+    const auto curve = follow_critical(family, guess, growing, {stop_at(3.5, 5)}, {});
+    for (const auto& hit : hits_of(curve, Degeneracy::crossing)) {
       if (std::abs(hit.point.x[0] - 0.2) > 1e-3) continue;
       ++crossings;
       EXPECT_NEAR(hit.point.mu, 3.8421219880058, 1e-9);
@@ -223,14 +203,14 @@ TEST(CriticalStructures, CornersOfAToggleWithAStopReverseTheLoadBetweenTheirEnds
     const double c = std::cos(f(w));
     return -4 * (c - std::cos(alpha) / (c * c)) / c;
   };
-  const Family family = structure_family<Bent>([=](double g) {
+  const Family family = family_of<Bent>([=](double g) {
     return Bent{P, slope, g, [=](double w) { return w - g; }, [](double) { return 1.0; }};
   });
   std::vector<CriticalHit> folds, reversals;
   for (const double g : {0.4, 1.0})
     for (const bool growing : {true, false}) {
       const auto curve = follow_critical(family, corner(g, P(g)), growing,
-                                         {ends_at(g < 0.7 ? 0.05 : 0.8, g < 0.7 ? 0.6 : 1.3)}, {});
+                                         {stop_at(g < 0.7 ? 0.05 : 0.8, g < 0.7 ? 0.6 : 1.3)}, {});
       for (const auto& hit : curve.hits) {
         if (hit.kind == Degeneracy::fold_meets_activation) folds.push_back(hit);
         if (hit.kind == Degeneracy::corner_loses_reversal) reversals.push_back(hit);
@@ -252,15 +232,15 @@ TEST(CriticalStructures, ASofteningStrutLosesItsCornerWhereTheSpringStaysStiffEn
   const auto slope = [](double t) {
     return (std::sin(t) - t * std::cos(t)) / std::pow(std::sin(t), 2);
   };
-  const Family family = structure_family<Bent>([=](double g) {
+  const Family family = family_of<Bent>([=](double g) {
     return Bent{free, slope, g, [=](double t) { return (kappa - 1) * (t - g) / std::sin(t); },
                 [=](double t) {
                   return (kappa - 1) * (std::sin(t) - (t - g) * std::cos(t)) /
                          std::pow(std::sin(t), 2);
                 }};
   });
-  const auto curve = follow_critical(family, corner(0.5, free(0.5)), true, {ends_at(0.1, 1.5)}, {});
-  const auto ends = all_of_kind(curve, Degeneracy::corner_loses_reversal);
+  const auto curve = follow_critical(family, corner(0.5, free(0.5)), true, {stop_at(0.1, 1.5)}, {});
+  const auto ends = hits_of(curve, Degeneracy::corner_loses_reversal);
   ASSERT_EQ(ends.size(), 1U);
   EXPECT_NEAR(ends[0].point.mu, 1.1655611852072, 1e-9);
   EXPECT_NEAR(ends[0].point.lambda, 1.2682794946153, 1e-9);

@@ -134,33 +134,6 @@ TEST(Davidenko, StopsAtAKinkWithSeveralWaysOut) {
   EXPECT_NEAR(curve.hits[0].point.lambda, 2, 1e-12);
 }
 
-/// lambda = max(0, x1) / 2 + ..., on the path x1 = height - lambda^2, x2 = lambda.
-struct Grazing {
-  double height = 0.01;
-  static Index size() { return 2; }
-  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
-    const double pushed = piece[0] > 0 ? 0.5 * x[0] : 0;
-    F = Vector{{x[0] + pushed - height + lambda * lambda, x[1] - lambda}};
-    return true;
-  }
-  static bool derivatives(const Vector&, double lambda, const Piece& piece, Matrix& dF_dx,
-                          Vector& dF_dlambda) {
-    dF_dx = Matrix{{piece[0] > 0 ? 1.5 : 1, 0}, {0, 1}};
-    dF_dlambda = Vector{{2 * lambda, -1}};
-    return true;
-  }
-  static Index switch_count() { return 1; }
-  static bool switches(const Vector& x, double, Vector& g) {
-    g = x.head(1);
-    return true;
-  }
-  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
-    dg_dx = Matrix{{1, 0}};
-    dg_dlambda = Vector::Zero(1);
-    return true;
-  }
-};
-
 TEST(Davidenko, MeetsASurfaceTwiceWhereItIsCrossedAndCrossedBackWithinAStep) {
   for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};

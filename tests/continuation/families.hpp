@@ -77,4 +77,17 @@ inline Given augusti(double m, double psi) {
       [=](const Vector& t, double) { return Vector(-slope(t) / height(t)); }, 2};
 }
 
+/// Ends a curve where its parameter leaves the range.
+inline CriticalEvent stop_at(double low, double high) {
+  return {"end", [=](const CriticalPoint& p) { return (p.mu - low) * (high - p.mu); },
+          EventAction::stop};
+}
+
+inline std::vector<CriticalHit> hits_of(const CriticalCurve& curve, Degeneracy kind) {
+  std::vector<CriticalHit> list;
+  for (const auto& hit : curve.hits)
+    if (hit.kind == kind) list.push_back(hit);
+  return list;
+}
+
 }  // namespace springfold::continuation

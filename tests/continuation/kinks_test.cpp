@@ -204,37 +204,9 @@ TEST(Kink, WithoutAWayOutEndsTheCurve) {
   EXPECT_NEAR(curve.hits[0].point.x[0], 0, 1e-13);
 }
 
-/// A one-sided spring that acts for x_1 > 0, on the smooth path x_1 = height - s^2: meets the
-/// surface twice, touches it, or misses it.
-struct GrazingStep {
-  double height = 0.01;
-  static Index size() { return 2; }
-  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
-    const double pushed = piece[0] > 0 ? 0.5 * x[0] : 0;
-    F = Vector{{x[0] + pushed - height + lambda * lambda, x[1] - lambda}};
-    return true;
-  }
-  static bool derivatives(const Vector&, double lambda, const Piece& piece, Matrix& dF_dx,
-                          Vector& dF_dlambda) {
-    dF_dx = Matrix{{piece[0] > 0 ? 1.5 : 1, 0}, {0, 1}};
-    dF_dlambda = Vector{{2 * lambda, -1}};
-    return true;
-  }
-  static Index switch_count() { return 1; }
-  static bool switches(const Vector& x, double, Vector& g) {
-    g = x.head(1);
-    return true;
-  }
-  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
-    dg_dx = Matrix{{1, 0}};
-    dg_dlambda = Vector::Zero(1);
-    return true;
-  }
-};
-
 TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
   for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const GrazingStep path{height};
+    const Grazing path{height};
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     ASSERT_EQ(curve.stop, StopReason::event) << "height " << height << ": " << curve.stop_detail;
@@ -247,7 +219,7 @@ TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
 
 TEST(Kink, IsNoneWhereTheSurfaceIsMissed) {
   for (const double gap : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const GrazingStep path{-gap};
+    const Grazing path{-gap};
     const StartPoint start{Vector{{-gap - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     EXPECT_EQ(curve.stop, StopReason::event) << "gap " << gap << ": " << curve.stop_detail;

@@ -23,18 +23,6 @@ CriticalStart start_at(CriticalKind kind, Vector x, double lambda, double mu) {
 }
 Vector single(double x) { return Vector::Constant(1, x); }
 
-CriticalEvent stop_at(double low, double high) {
-  return {"end", [=](const CriticalPoint& p) { return (p.mu - low) * (high - p.mu); },
-          EventAction::stop};
-}
-
-std::vector<CriticalHit> hits_of(const CriticalCurve& curve, Degeneracy kind) {
-  std::vector<CriticalHit> list;
-  for (const auto& hit : curve.hits)
-    if (hit.kind == kind) list.push_back(hit);
-  return list;
-}
-
 TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
                                [](double x, double mu) { return 3 * x * x - mu; });

@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "analysis/landscape.hpp"
 
 namespace springfold::analysis::test {
+
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// F = grad V(x, lambda), without closures.
 struct EnergyProblem {

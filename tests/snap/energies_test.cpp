@@ -12,11 +12,11 @@
 namespace springfold::analysis {
 namespace {
 
+using test::degree;
 using test::landscape_of;
 using test::shallow_arch;
 using test::trusses_in_series;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double fold_45 = 0.26502825343741, travel_45 = 0.49017547146604;
 
 struct Landed {

@@ -12,9 +12,8 @@ namespace springfold::analysis {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
+using test::degree;
 using State = std::vector<double>;
-
-constexpr double one_degree = std::numbers::pi / 180;
 
 /// Where x' = f(x) comes to rest, polished; nothing if it does not.
 std::optional<RestState> landing_by_odeint(const Landscape& landscape, const Vector& from) {
@@ -65,7 +64,7 @@ TEST(SecondFlow, LandsWhereTheFirstDoesFromABranchPointOfAnArch) {
 }
 
 TEST(SecondFlow, LandsWhereTheFirstDoesFromTheLimitPointOfTrusses) {
-  const auto trusses = test::trusses_in_series({45 * one_degree, 46 * one_degree});
+  const auto trusses = test::trusses_in_series({45 * degree, 46 * degree});
   expect_same_landing(test::landscape_of(trusses, 0.26502825343741),
                       Eigen::Vector2d(0.49017547146604, 0.37277119270476));
 }

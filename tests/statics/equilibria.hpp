@@ -185,4 +185,9 @@ inline State random_equilibrium(std::mt19937& random, TaskSpace space, int chain
   return balanced(random, m, load);
 }
 
+inline void drop_wrenches(const System& system, Vector& v) {
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) v[i] = 0;
+}
+
 }  // namespace springfold::statics

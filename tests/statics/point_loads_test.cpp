@@ -68,11 +68,6 @@ model::Mechanism everything(std::mt19937& random) {
 }
 
 /// No wrenches: what is left in the rows of the motions is the loads' and line springs'.
-void drop_wrenches(const System& system, Vector& v) {
-  for (Index i = 0; i < system.size; ++i)
-    if (system.is_wrench[static_cast<std::size_t>(i)]) v[i] = 0;
-}
-
 TEST(PointLoads, HaveExactDerivativesByCoordinatesPosesAndCommands) {
   std::mt19937 random(41);
   double worst = 0;

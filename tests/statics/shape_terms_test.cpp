@@ -65,17 +65,12 @@ model::Mechanism all_shapes(std::mt19937& random) {
   return m;
 }
 
-void without_wrenches(const System& system, Vector& v) {
-  for (Index i = 0; i < system.size; ++i)
-    if (system.is_wrench[static_cast<std::size_t>(i)]) v[i] = 0;
-}
-
 State some_state(std::mt19937& random) {
   const model::Mechanism mechanism = all_shapes(random);
   EXPECT_EQ(model::problems_in(mechanism), std::vector<std::string>{});
   State state{prepare(mechanism), {}, {}};
   state.z = random_vector(random, state.system.size, 1.5);
-  without_wrenches(state.system, state.z);
+  drop_wrenches(state.system, state.z);
   state.inputs = {random_vector(random, 2, 1), Vector::Zero(state.system.load_size),
                   random_vector(random, 1, 1)};
   return state;
@@ -101,7 +96,7 @@ TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
     Matrix A, by_rho;
     ASSERT_TRUE(equilibrium_matrix(system, piece, state.z, state.inputs, work, r, A, &by_rho));
     Vector direction = random_vector(random, system.size, 1);
-    without_wrenches(system, direction);
+    drop_wrenches(system, direction);
     const Vector along = random_vector(random, 2, 1), more = random_vector(random, 1, 1);
     const double scale = 1 + A.norm();
     const auto moved = [&](double t) {
@@ -117,7 +112,7 @@ TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
         (A * direction + by_rho * along + load_rate(system, state.z, state.inputs.rho, more)) /
         scale;
     Vector error = *difference - exact;
-    without_wrenches(system, error);
+    drop_wrenches(system, error);
     EXPECT_LT(error.norm() / (1 + exact.norm()), 1e-9) << trial;
     EXPECT_LT((A - A.transpose()).norm(), 1e-12 * scale);
   }
