@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "kink_problems.hpp"
 #include "tracing.hpp"
 #include "von_mises.hpp"
 
@@ -137,7 +138,7 @@ TEST(Davidenko, StopsAtAKinkWithSeveralWaysOut) {
 TEST(Davidenko, MeetsASurfaceTwiceWhereItIsCrossedAndCrossedBackWithinAStep) {
   for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
-    const Curve curve = flow_along(Grazing{height}, start, {lambda_reaches(1)});
+    const Curve curve = flow_along(OverSurface{height}, start, {lambda_reaches(1)});
     ASSERT_EQ(curve.stop, StopReason::event) << "height " << height << ": " << curve.stop_detail;
     const auto kinks = hits_of(curve, HitKind::kink);
     ASSERT_EQ(kinks.size(), 2u) << "height " << height;
@@ -149,7 +150,7 @@ TEST(Davidenko, MeetsASurfaceTwiceWhereItIsCrossedAndCrossedBackWithinAStep) {
 TEST(Davidenko, MeetsNoSurfaceWhereItIsMissed) {
   for (const double gap : {1e-3, 1e-5, 1e-7}) {
     const StartPoint start{Vector{{-gap - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
-    const Curve curve = flow_along(Grazing{-gap}, start, {lambda_reaches(1)});
+    const Curve curve = flow_along(OverSurface{-gap}, start, {lambda_reaches(1)});
     EXPECT_EQ(curve.stop, StopReason::event) << "gap " << gap << ": " << curve.stop_detail;
     EXPECT_EQ(curve.hits.size(), 1u);
   }

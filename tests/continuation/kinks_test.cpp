@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "continuation/kinks/kink.hpp"
+#include "kink_problems.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {
@@ -206,7 +207,7 @@ TEST(Kink, WithoutAWayOutEndsTheCurve) {
 
 TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
   for (const double height : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const Grazing path{height};
+    const OverSurface path{height};
     const StartPoint start{Vector{{height - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     ASSERT_EQ(curve.stop, StopReason::event) << "height " << height << ": " << curve.stop_detail;
@@ -219,7 +220,7 @@ TEST(Kink, IsFoundTwiceWhereASurfaceIsCrossedAndCrossedBackWithinAStep) {
 
 TEST(Kink, IsNoneWhereTheSurfaceIsMissed) {
   for (const double gap : {0.1, 1e-3, 1e-5, 1e-7}) {
-    const Grazing path{-gap};
+    const OverSurface path{-gap};
     const StartPoint start{Vector{{-gap - 1, -1}}, -1, {-1}, {Vector{{2, 1}}, 1}};
     const Curve curve = follow(path, start, {lambda_reaches(1)}, steps_up_to(0.2));
     EXPECT_EQ(curve.stop, StopReason::event) << "gap " << gap << ": " << curve.stop_detail;

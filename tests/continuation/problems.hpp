@@ -179,32 +179,4 @@ struct BarsInSeries {
 static_assert(SmoothProblem<ScalarProblem> && SmoothProblem<TwoModes>);
 static_assert(PiecewiseSmoothProblem<PiecewiseLine> && PiecewiseSmoothProblem<BarsInSeries>);
 
-/// A one-sided spring that acts for x_1 > 0, on the smooth path x_1 = height - s^2: meets the
-/// surface twice, touches it, or misses it.
-struct Grazing {
-  double height = 0.01;
-  static Index size() { return 2; }
-  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
-    const double pushed = piece[0] > 0 ? 0.5 * x[0] : 0;
-    F = Vector{{x[0] + pushed - height + lambda * lambda, x[1] - lambda}};
-    return true;
-  }
-  static bool derivatives(const Vector&, double lambda, const Piece& piece, Matrix& dF_dx,
-                          Vector& dF_dlambda) {
-    dF_dx = Matrix{{piece[0] > 0 ? 1.5 : 1, 0}, {0, 1}};
-    dF_dlambda = Vector{{2 * lambda, -1}};
-    return true;
-  }
-  static Index switch_count() { return 1; }
-  static bool switches(const Vector& x, double, Vector& g) {
-    g = x.head(1);
-    return true;
-  }
-  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
-    dg_dx = Matrix{{1, 0}};
-    dg_dlambda = Vector::Zero(1);
-    return true;
-  }
-};
-
 }  // namespace springfold::continuation
