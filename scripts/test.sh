@@ -16,6 +16,7 @@ scripts/verify-cases.sh | tee "$log/cases.txt"
 # scripts/known-answers.sh runs more of them.
 draws=1000
 build/release/bench/known_answers "$draws" 1 --named bench/known_answers/draws.txt --check | tee "$log/known-answers.txt"
+build/release/bench/guyed --named bench/guyed/draws.txt --threads "$(nproc)" --check | tee "$log/guyed.txt"
 
 tests=$(sed -n 's/^100% tests passed, 0 tests failed out of \([0-9]*\)$/\1/p' "$log/tests.txt")
 cases=$(sed -n 's/^\([0-9]*\) of \1 cases hold, .*/\1/p' "$log/cases.txt")

@@ -1,9 +1,9 @@
 // Campaign of guyed columns and frames: random structures whose cables are stretched, slack or just at rest while the
 // load grows, run as case files and judged against closed forms of the linearised cones.
 //
-//     guyed [N] [seed] [--check] [--threads n] [--draw i] [--verbose] [--case file]
+//     guyed [N] [seed] [--check] [--threads n] [--named file] [--draw i] [--verbose] [--case file]
 //
-// Draw i of a seed is always the same problem. README.md says what is drawn and what is judged. With --check the exit
+// Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what is drawn and what is judged. With --check the exit
 // code is 1 if anything is wrong, or more than one draw in a hundred is unresolved.
 #include <unistd.h>
 
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <thread>
 
 #include "judge.hpp"
@@ -29,11 +30,17 @@ struct Settings {
   unsigned threads = 1;
   long draw = -1;  ///< only this one
   bool verbose = false, check = false;
-  std::string file{};  ///< where the case of the draw is kept
+  std::string file{};   ///< where the case of the draw is kept
+  std::string named{};  ///< draws of this file instead
+};
+
+struct DrawName {
+  unsigned long long seed = 1;
+  long number = 0;
 };
 
 struct Judged {
-  long number = 0;
+  DrawName name{};
   std::string family{};
   double pretension = 0;
   Verdict verdict{};
@@ -59,15 +66,42 @@ void print_truth(const Draw& draw) {
   }
 }
 
-Judged run(const Settings& settings, long number) {
-  Random random(settings.seed * 1000003ull + static_cast<unsigned long long>(number));
+/// Lines "seed draw   # what it showed". @throws std::runtime_error with the line that cannot be read
+std::vector<DrawName> read_names(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::vector<DrawName> names;
+  int count = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++count;
+    std::istringstream words(line.substr(0, line.find('#')));
+    DrawName name;
+    if (!(words >> std::ws) || words.eof()) continue;
+    if (!(words >> name.seed >> name.number) || name.number < 0 || !(words >> std::ws).eof())
+      throw std::runtime_error(path + ":" + std::to_string(count) + ": need seed and draw");
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<DrawName> draws_of(const Settings& settings) {
+  if (!settings.named.empty()) return read_names(settings.named);
+  if (settings.draw >= 0) return {{settings.seed, settings.draw}};
+  std::vector<DrawName> names;
+  for (long i = 0; i < settings.count; ++i) names.push_back({settings.seed, i});
+  return names;
+}
+
+Judged run(const Settings& settings, const DrawName& name) {
+  const long number = name.number;
+  Random random(name.seed * 1000003ull + static_cast<unsigned long long>(number));
   const Draw drawn = draw(random);
-  const auto file =
-      settings.file.empty()
-          ? std::filesystem::temp_directory_path() /
-                ("guyed-" + std::to_string(::getpid()) + "-" + std::to_string(number) + ".toml")
-          : std::filesystem::path(settings.file);
-  Judged judged{.number = number, .family = drawn.family, .pretension = drawn.pretension};
+  const auto file = settings.file.empty()
+                        ? std::filesystem::temp_directory_path() /
+                              ("guyed-" + std::to_string(::getpid()) + "-" +
+                               std::to_string(name.seed) + "-" + std::to_string(number) + ".toml")
+                        : std::filesystem::path(settings.file);
+  Judged judged{.name = name, .family = drawn.family, .pretension = drawn.pretension};
   if (settings.verbose) print_truth(drawn);
   try {
     const analysis::StudyResult result = run_case(drawn.text, file);
@@ -80,14 +114,11 @@ Judged run(const Settings& settings, long number) {
   return judged;
 }
 
-std::vector<Judged> run_all(const Settings& settings) {
-  const long first = settings.draw >= 0 ? settings.draw : 0;
-  const long last = settings.draw >= 0 ? settings.draw + 1 : settings.count;
-  std::vector<Judged> results(static_cast<std::size_t>(std::max(0L, last - first)));
-  std::atomic<long> next{first};
+std::vector<Judged> run_all(const Settings& settings, const std::vector<DrawName>& names) {
+  std::vector<Judged> results(names.size());
+  std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (long i = next++; i < last; i = next++)
-      results[static_cast<std::size_t>(i - first)] = run(settings, i);
+    for (std::size_t i = next++; i < names.size(); i = next++) results[i] = run(settings, names[i]);
   };
   std::vector<std::jthread> threads;
   for (unsigned t = 1; t < settings.threads; ++t) threads.emplace_back(work);
@@ -98,8 +129,8 @@ std::vector<Judged> run_all(const Settings& settings) {
 
 void print(const Judged& judged, bool all) {
   const Verdict& verdict = judged.verdict;
-  std::printf("draw %ld, %s, pretension %g, %.2f s: %s\n", judged.number, judged.family.c_str(),
-              judged.pretension, judged.seconds,
+  std::printf("seed %llu, draw %ld, %s, pretension %g, %.2f s: %s\n", judged.name.seed,
+              judged.name.number, judged.family.c_str(), judged.pretension, judged.seconds,
               verdict.outcome == Outcome::wrong        ? "WRONG"
               : verdict.outcome == Outcome::unresolved ? "unresolved"
                                                        : "right");
@@ -157,14 +188,15 @@ int main(int argc, char** argv) {
   app.add_option("N", settings.count, "number of draws")->check(CLI::NonNegativeNumber);
   app.add_option("seed", settings.seed, "the same seed gives the same draws");
   app.add_option("--threads", settings.threads, "default: 1")->check(CLI::Range(1, 256));
+  app.add_option("--named", settings.named, "a file of lines: seed, draw; instead of N and seed");
   app.add_option("--draw", settings.draw, "only this draw");
   app.add_option("--case", settings.file, "with --draw: keep the case in this file");
   app.add_flag("--verbose", settings.verbose, "all that was expected and found");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   CLI11_PARSE(app, argc, argv);
-  if (settings.draw < 0) settings.file.clear();
+  if (settings.draw < 0 || !settings.named.empty()) settings.file.clear();
   try {
-    const bool met = report(run_all(settings), settings);
+    const bool met = report(run_all(settings, draws_of(settings)), settings);
     return settings.check && !met ? 1 : 0;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "guyed: %s\n", e.what());

@@ -36,8 +36,9 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, Piece piece)
     if (!linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
     const auto tangent = tangent_at(at, problem.metric(), {Vector::Zero(x.size()), 1});
     if (!tangent) return std::nullopt;
-    return member->evaluator->force_rate(
-        {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
+    return member->evaluator
+        ->force_rate({.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece})
+        .value;
   };
 }
 

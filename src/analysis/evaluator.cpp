@@ -228,16 +228,16 @@ std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quan
     if (q.kind == Kind::unknown) rate = dz[q.entry];
     if (q.kind == Kind::command && !problem_.rule().family)
       rate = dlambda * problem_.rule().rho_rate[q.entry];
-    if (q.kind == Kind::force) rate = force_rate(point);
+    if (q.kind == Kind::force) rate = force_rate(point).told();
 
     rates.push_back(q.scale * rate);
   }
   return rates;
 }
 
-double Evaluator::force_rate(const continuation::CurvePoint& point) const {
+RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
   const double dlambda = point.tangent.dlambda;
-  if (control_ == ControlMode::load) return dlambda * load_rate();
+  if (control_ == ControlMode::load) return {dlambda * load_rate(), 0};
   double rate = 0, size = 0;
   if (stages_) {
     rate = force_rate_in_stages(point, size);
@@ -248,7 +248,7 @@ double Evaluator::force_rate(const continuation::CurvePoint& point) const {
     if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
                             problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
                             work, r, A))
-      return undefined;
+      return {undefined, 0};
     const Matrix rows = A.middleRows(t_, d_);
     rate = conjugate_.dot(rows * problem_.local_rate(point.x, point.tangent.dx, dlambda));
     size = rows.norm();
@@ -259,7 +259,7 @@ double Evaluator::force_rate(const continuation::CurvePoint& point) const {
                                                         problem_.inputs(point.lambda).rho,
                                                         problem_.rule().load_rate)
                                          .segment(t_, d_));
-  return std::abs(rate) > 1e-14 * size ? rate : 0;
+  return {rate, tangent_rounding * size};
 }
 
 Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {

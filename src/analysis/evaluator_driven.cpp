@@ -8,9 +8,7 @@
 
 namespace springfold::analysis {
 
-double Evaluator::displacement_rate(const continuation::CurvePoint& point) const {
-  // Rounding of the rates, relative to what they are made of.
-  constexpr double rounding = 1e-12;
+RoundedRate Evaluator::displacement_rate(const continuation::CurvePoint& point) const {
   const PathRule& rule = problem_.rule();
   const Vector dz = problem_.local_rate(point.x, point.tangent.dx, point.tangent.dlambda);
   const Vector poses = dz.tail(dz.size() - first_pose_);
@@ -22,7 +20,7 @@ double Evaluator::displacement_rate(const continuation::CurvePoint& point) const
     rate -= forces.dot(dz);
     size += forces.norm();
   }
-  return std::abs(rate) > rounding * size ? rate : 0;
+  return {rate, tangent_rounding * size};
 }
 
 /// With the matrix A of all motions and the load's rate b the count under the constraint that b does no
@@ -31,7 +29,9 @@ double Evaluator::driven_index(const continuation::CurvePoint& point, double ind
   if (std::isnan(index) || index == 0) return index;  // what is stable free is so constrained
   if (point.tangent.dx.size() != point.x.size() || !resting_switches(problem_, point).empty())
     return undefined;
-  return displacement_rate(point) * point.tangent.dlambda < 0 ? index - 1 : index;
+  const RoundedRate rate = displacement_rate(point);
+  if (rate.is_zero()) return index;
+  return rate.value * point.tangent.dlambda < 0 ? index - 1 : index;
 }
 
 }  // namespace springfold::analysis

@@ -85,9 +85,12 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   if (study.control == ControlMode::pose || study.control == ControlMode::mixed)
     events.push_back({"limit point of the force",
                       [&evaluator](const continuation::CurvePoint& point) {
-                        return evaluator.force_rate(point);
+                        return evaluator.force_rate(point).value;
                       },
-                      continuation::EventAction::record, force_limit});
+                      continuation::EventAction::record, force_limit,
+                      [&evaluator](const continuation::CurvePoint& point) {
+                        return evaluator.force_rate(point).noise;
+                      }});
   if (study.control == ControlMode::pose && evaluator.problem().symmetric() &&
       !evaluator.problem().structured())
     events.push_back(dead_load_event(evaluator));
@@ -95,9 +98,12 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
       evaluator.problem().symmetric())
     events.push_back({driven_change_name,
                       [&evaluator](const continuation::CurvePoint& point) {
-                        return evaluator.displacement_rate(point);
+                        return evaluator.displacement_rate(point).value;
                       },
-                      continuation::EventAction::record, driven_change});
+                      continuation::EventAction::record, driven_change,
+                      [&evaluator](const continuation::CurvePoint& point) {
+                        return evaluator.displacement_rate(point).noise;
+                      }});
   add_whole_turns(study, evaluator, quantities, events);
   for (const Limit& limit : study.until) {
     if (std::isfinite(limit.low))

@@ -84,7 +84,7 @@ std::optional<double> slope_at(const Member& member, const CurvePoint& point,
   if (control != ControlMode::pose && control != ControlMode::mixed) return tangent->dlambda;
   CurvePoint along = point;
   along.tangent = *tangent;
-  return member.evaluator->force_rate(along);
+  return member.evaluator->force_rate(along).told();
 }
 
 std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path,

@@ -1,6 +1,8 @@
 // Named quantities of a study and their values on a path. Private to analysis.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,16 @@
 #include "springfold/statics/stage_stiffness.hpp"
 
 namespace springfold::analysis {
+
+/// Rounding of tangents, relative to what a rate is made of.
+inline constexpr double tangent_rounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// A rate along a curve, and what rounding may do to it.
+struct RoundedRate {
+  double value = 0, noise = 0;
+  bool is_zero() const { return std::abs(value) <= noise; }  ///< not told from it
+  double told() const { return is_zero() ? 0 : value; }
+};
 
 struct QuantityDefinition {
   enum class Kind {
@@ -88,12 +100,12 @@ class Evaluator {
                             const continuation::CurvePoint& point,
                             const Turns* turns = nullptr) const;
 
-  /// d(force)/ds along the branch, dimensionless; zero if it is below rounding.
-  double force_rate(const continuation::CurvePoint& point) const;
+  /// d(force)/ds along the branch, dimensionless.
+  RoundedRate force_rate(const continuation::CurvePoint& point) const;
 
   /// d(displacement along the load)/ds under load control, dimensionless: what the rate of the load does
-  /// work on; zero if it is below rounding.
-  double displacement_rate(const continuation::CurvePoint& point) const;
+  /// work on.
+  RoundedRate displacement_rate(const continuation::CurvePoint& point) const;
 
   /// Stiffness of the study's body, all others free (K_Sigma where it is the only one), physical
   /// units, world axes; empty if undefined.

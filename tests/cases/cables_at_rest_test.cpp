@@ -1,6 +1,7 @@
 // Cables that just rest, or are stretched or slack by next to nothing, in the upright state of a guyed mast.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -113,6 +114,27 @@ TEST(CablesAtRest, StretchedByAMillionthTheirBranchesSwitchRightBehindTheBranchP
       EXPECT_EQ(releases, 1) << "one cable goes slack";
     }
   }
+}
+
+TEST(CablesAtRest, SlackByAMillionthTheyBearTheMastRightBehindTheBranchPoint) {
+  // P = c = 0.3; a cable that has become taut bears the mast from there on, at a sway of a few millionths.
+  for (const As as : {As::chain, As::spring})
+    for (const double slack : {1e-6, 1e-5}) {
+      SCOPED_TRACE(number(slack) + (as == As::chain ? ", chain" : ", spring"));
+      const StudyResult result =
+          run(mast(0.3, cable("left", -1, -slack, as) + cable("right", 1, -slack, as))).of("press");
+      EXPECT_TRUE(complete(result));
+      const auto loads = lambdas(result, EventKind::branch_point);
+      ASSERT_FALSE(loads.empty());
+      EXPECT_NEAR(loads[0], 0.3, 1e-10);
+      EXPECT_EQ(branches_from(result, "BP1"), 2u);
+      for (std::size_t i = 1; i < result.branches.size(); ++i) {
+        const auto& events = result.branches[i].events;
+        EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                                [](const auto& e) { return e.kind == EventKind::switching; }),
+                  1);
+      }
+    }
 }
 
 }  // namespace

@@ -47,6 +47,28 @@ TEST(Events, ThatOnlyTouchZeroAreNone) {
   EXPECT_EQ(curve.hits.size(), 1u);
 }
 
+/// Rounding that can be foreseen: no larger than 1e-13.
+double ripple(double x) { return 1e-13 * std::sin(1e7 * x); }
+
+TEST(Events, WhoseValuesAreLostInTheirNoiseAreNone) {
+  const Event lost{.name = "lost",
+                   .value = [](const CurvePoint& p) { return ripple(p.x[0]); },
+                   .noise = [](const CurvePoint&) { return 2e-13; }};
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), {lost, x_reaches(1)});
+  EXPECT_EQ(curve.stop, StopReason::event);
+  EXPECT_EQ(curve.hits.size(), 1u);
+}
+
+TEST(Events, ThatAreLostInTheirNoiseAroundTheirZeroAreFoundOnce) {
+  const Event flat{
+      .name = "flat",
+      .value = [](const CurvePoint& p) { return std::pow(p.x[0] - 0.5, 3) + ripple(p.x[0]); },
+      .noise = [](const CurvePoint&) { return 2e-13; }};
+  const Curve curve = follow(parabola, at(0.1, 0.01, 1, 0), {flat, x_reaches(1)});
+  ASSERT_EQ(curve.hits.size(), 2u);
+  EXPECT_NEAR(curve.hits[0].point.x[0], 0.5, std::cbrt(4e-13));
+}
+
 TEST(Events, AtTheStartBelongToTheStartAndAreNotFoundAgain) {
   const Curve curve = follow(parabola, at(0.5, 0.25, 1, 0), {mark("start", 0.5), x_reaches(1)});
   EXPECT_EQ(curve.hits.size(), 1u);

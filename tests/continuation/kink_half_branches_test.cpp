@@ -137,6 +137,19 @@ TEST(HalfBranches, AreNotInventedWhereTheModeLiesInAnotherPiece) {
   EXPECT_EQ(kinks[0].leaving.size(), 1u);
 }
 
+TEST(HalfBranches, AreToldOnceWherePiecesWithAndWithoutAHardlyStretchedSpringBuckleTogether) {
+  // The mode (1, 5e-4) buckles at 2 - sqrt(1 + b^2) without springs and at 1/2 more with both. With only one of them the
+  // zero is about 1e-7 beside, and its mode lies in another piece.
+  const double b = -1e-3;
+  const OneSidedModes problem{2, Vector{{1, 3}}, Vector::Constant(2, 0.5), b};
+  const Curve curve = follow_straight(problem, {1, 1}, 2);
+  const auto kinks = hits_of(curve, HitKind::branching_kink);
+  ASSERT_EQ(kinks.size(), 2u);
+  EXPECT_NEAR(kinks[0].point.lambda, 2 - std::sqrt(1 + b * b), 1e-10);
+  EXPECT_NEAR(kinks[1].point.lambda, 2.5 - std::sqrt(1 + b * b), 1e-10);
+  for (const Hit& kink : kinks) EXPECT_EQ(kink.leaving.size(), 2u);
+}
+
 TEST(HalfBranches, AreTheSameInTheOtherDirection) {
   const OneSidedModes problem{2, Vector{{1, 1.1}}, Vector{{0.5, 0.3}}, -0.2};
   const Curve up = follow_straight(problem, {1, -1}, 2.2);

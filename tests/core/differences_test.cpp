@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace springfold {
 namespace {
@@ -45,6 +47,48 @@ TEST(SixPointDerivative, HasNoValueWhereTheFunctionHasNone) {
   };
   EXPECT_FALSE(six_point_derivative(root, 0.02, 0.01).has_value());
   EXPECT_TRUE(six_point_derivative(root, 0.04, 0.01).has_value());
+}
+
+TEST(GridDerivative, IsExactForPolynomialsUpToDegreeSeven) {
+  for (int degree = 0; degree <= 7; ++degree) {
+    const auto power = [degree](double p) -> std::optional<Vector> {
+      return Vector::Constant(1, std::pow(p, degree));
+    };
+    for (const double p : {1.5, 1.6, 1.75}) {
+      const double exact = degree == 0 ? 0 : degree * std::pow(p, degree - 1);
+      EXPECT_NEAR((*grid_derivative(power, p, 0.25))[0], exact, 1e-11 * std::max(1.0, exact));
+    }
+  }
+}
+
+TEST(GridDerivative, KeepsTwelveDigitsAtTheRecommendedStepWhereverItIsTaken) {
+  for (const double h : {0x1p-6, 0x1p-7, 0x1p-8})
+    for (const double p : {0.7, 0.703, 0.71, 0.75, -0.7})
+      EXPECT_LT((*grid_derivative(sine_and_exponential, p, h) - Vector{{std::cos(p), std::exp(p)}})
+                    .norm(),
+                1e-12)
+          << "h = " << h << ", p = " << p;
+}
+
+TEST(GridDerivative, AsksForTheSamePlacesOfNeighbours) {
+  std::set<double> places;
+  for (const double p : {0.51, 0.5101, 0.511, 0.514})
+    grid_derivative(
+        [&](double at) -> std::optional<Vector> {
+          places.insert(at);
+          return Vector::Zero(1);
+        },
+        p, 0x1p-6);
+  EXPECT_EQ(places.size(), 8u);
+}
+
+TEST(GridDerivative, HasNoValueWhereTheFunctionHasNone) {
+  const auto root = [](double p) -> std::optional<Vector> {
+    if (p < 0) return std::nullopt;
+    return Vector::Constant(1, std::sqrt(p));
+  };
+  EXPECT_FALSE(grid_derivative(root, 0x1p-6, 0x1p-7).has_value());
+  EXPECT_TRUE(grid_derivative(root, 0x1p-5, 0x1p-7).has_value());
 }
 
 }  // namespace

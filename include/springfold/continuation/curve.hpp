@@ -118,6 +118,9 @@ struct Event {
   std::function<double(const CurvePoint&)> value{};
   EventAction action = EventAction::record;
   int tag = 0;  ///< the caller's own: its hits carry it
+  /// What rounding may do to the value there: values that are no larger are not told from zero. Not given: a few units
+  /// in the last place of the values on a step.
+  std::function<double(const CurvePoint&)> noise{};
 };
 
 }  // namespace springfold::continuation

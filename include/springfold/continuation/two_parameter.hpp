@@ -15,7 +15,7 @@ namespace springfold::continuation {
 struct Family {
   /// The problem at mu, valid until the next call; nothing where the family is not defined.
   std::function<std::optional<ProblemView>(double mu)> at{};
-  double step = 0x1p-8;  ///< of the six-point differences in mu
+  double step = 0x1p-8;  ///< of differences in mu, a power of two
 };
 
 /// A function of the state that is zero at a point of kind `zero`; nothing outside its domain.

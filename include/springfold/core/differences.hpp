@@ -17,4 +17,11 @@ namespace springfold {
 std::optional<Vector> six_point_derivative(const std::function<std::optional<Vector>(double)>& f,
                                            double p, double h);
 
+/// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for functions
+/// that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h  a power of two,
+/// so that the places are the same numbers
+/// @returns nothing when f has no value at one of them
+std::optional<Vector> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                      double p, double h);
+
 }  // namespace springfold

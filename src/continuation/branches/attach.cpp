@@ -28,16 +28,23 @@ std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, con
   return length;
 }
 
-/// Along a family of equilibria at one lambda the trace back does not see the junction: special points are not
-/// looked for there. It has arrived if it passes the very place.
+/// How far a curve is from the chord between two of its points, from their tangents; on a family of equilibria at one
+/// lambda, whose tangents may be rough, a bound.
+double off_chord(const Walker& walker, const CurvePoint& a, const CurvePoint& b, double length) {
+  constexpr double still = 1e-8, sure = 2;
+  if (std::max(std::abs(a.tangent.dlambda), std::abs(b.tangent.dlambda)) <= still)
+    return length * length;
+  const Direction turn{b.tangent.dx - a.tangent.dx, b.tangent.dlambda - a.tangent.dlambda};
+  return sure * length_of(walker, turn) * length / 8;
+}
+
+/// The junction is known and need not be seen as a special point: where springs switch just beside it, or along a family,
+/// it cannot be told. The trace back has arrived if it passes the very place.
 /// @returns length of the way to the junction
-std::optional<double> passage_on_level(const Walker& walker, const CurvePoint& junction,
-                                       const Curve& back, double tolerance) {
-  constexpr double still = 1e-8;
+std::optional<double> passage(const Walker& walker, const CurvePoint& junction, const Curve& back,
+                              double tolerance) {
   for (std::size_t i = 0; i + 1 < back.points.size(); ++i) {
     const CurvePoint &a = back.points[i], &b = back.points[i + 1];
-    if (std::max(std::abs(a.tangent.dlambda), std::abs(b.tangent.dlambda)) > still)
-      return std::nullopt;
     const Direction to_junction = between(walker, a, junction), step = between(walker, a, b);
     const double length = length_of(walker, step);
     const double share =
@@ -46,7 +53,7 @@ std::optional<double> passage_on_level(const Walker& walker, const CurvePoint& j
     if (share < 0 || share > 1) continue;
     const Direction off{to_junction.dx - share * step.dx,
                         to_junction.dlambda - share * step.dlambda};
-    if (length_of(walker, off) > tolerance + length * length) return std::nullopt;
+    if (length_of(walker, off) > tolerance + off_chord(walker, a, b, length)) return std::nullopt;
     return a.s + share * (b.s - a.s);
   }
   return std::nullopt;
@@ -102,8 +109,8 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
   const auto not_too_far = [&](const CurvePoint& p) { return p.s < 3 * gap; };
   TraceOptions near = options.trace;
   near.maximum_points = 500;
-  near.verify_arcs = false;  // the piece is too near to the junction to be shown
-  near.step.initial = 0.5 * gap;
+  near.verify_arcs = false;       // the piece is too near to the junction to be shown
+  near.step.initial = 0.6 * gap;  // what is left is the smaller part: rest_of_way_back
   near.step.maximum = gap;
   near.step.minimum = std::min(near.step.minimum, 1e-3 * gap);
   const Direction inwards{-way.start.tangent.dx, -way.start.tangent.dlambda};
@@ -120,9 +127,11 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
 std::optional<double> length_back(const Walker& walker, const CurvePoint& junction, const Way& way,
                                   double gap, double tolerance, WayBack& back) {
   if (back.reached) return back.curve.hits.back().point.s;
-  if (const auto level = passage_on_level(walker, junction, back.curve, tolerance)) {
-    std::erase_if(back.met, [](const Hit& hit) { return hit.kind == HitKind::family; });
-    return level;
+  if (const auto passed = passage(walker, junction, back.curve, tolerance)) {
+    std::erase_if(back.met, [&](const Hit& hit) {
+      return hit.kind == HitKind::family || hit.point.s >= *passed - tolerance;
+    });
+    return passed;
   }
   const auto rest = rest_of_way_back(walker, way, back.curve, gap);
   if (!rest) return std::nullopt;

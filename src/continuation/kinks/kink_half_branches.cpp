@@ -22,20 +22,22 @@ constexpr double located = 1e-7;    // ratio of singular values at a located bra
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {
   Hit hit{};
-  bool own = false;      ///< in the step's own piece
-  bool crosses = false;  ///< of some piece it changes sign
+  std::vector<Piece> pieces{};  ///< which
+  bool own = false;             ///< the step's own piece is one of them
+  bool crosses = false;         ///< of some piece it changes sign
 };
 
 bool singular_kind(HitKind kind) { return kind == HitKind::branch_point || kind == HitKind::touch; }
 
-void add_place(Hit hit, bool own, std::vector<ZeroBeside>& places) {
+void add_place(Hit hit, const Piece& piece, bool own, std::vector<ZeroBeside>& places) {
   const bool crosses = hit.kind == HitKind::branch_point;
   for (ZeroBeside& place : places)
     if (std::abs(place.hit.point.s - hit.point.s) <= one_point) {
       place.crosses = place.crosses || crosses;
+      place.pieces.push_back(piece);
       return;
     }
-  places.push_back({std::move(hit), own, crosses});
+  places.push_back({std::move(hit), {piece}, own, crosses});
 }
 
 /// Those of the step's own piece are taken out of `found`.
@@ -45,7 +47,8 @@ void take_own(StepEvents& found, std::vector<ZeroBeside>& places) {
   rest.stops.clear();
   for (std::size_t i = 0; i < found.hits.size(); ++i) {
     if (singular_kind(found.hits[i].kind)) {
-      add_place(std::move(found.hits[i]), true, places);
+      const Piece own = found.hits[i].point.piece;
+      add_place(std::move(found.hits[i]), own, true, places);
     } else {
       rest.hits.push_back(std::move(found.hits[i]));
       rest.stops.push_back(found.stops[i]);
@@ -131,7 +134,7 @@ void find_places(const Walker& walker, Samples samples, const std::vector<Index>
     for (Hit& hit : singular.hits)
       if (singular_kind(hit.kind)) {
         hit.point.piece = own;
-        add_place(std::move(hit), false, places);
+        add_place(std::move(hit), piece, false, places);
       }
   }
 }
@@ -151,15 +154,26 @@ CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) 
   return start;
 }
 
+/// Pieces that differ by a spring which the branch hardly stretches are zero so near to each other that both are
+/// singular, to rounding, at both places. What leaves in a piece leaves where that piece is zero.
+bool leaves_elsewhere(const Ray& ray, const ZeroBeside& place,
+                      const std::vector<ZeroBeside>& places) {
+  const auto is_zero_at = [&ray](const ZeroBeside& other) {
+    return std::find(other.pieces.begin(), other.pieces.end(), ray.piece) != other.pieces.end();
+  };
+  return !is_zero_at(place) && std::any_of(places.begin(), places.end(), is_zero_at);
+}
+
 /// Turns a place into what it is; false: nothing leaves here and nothing of this piece changes.
-bool explain(const Walker& walker, const std::vector<Index>& resting, ZeroBeside& place) {
+bool explain(const Walker& walker, const std::vector<Index>& resting,
+             const std::vector<ZeroBeside>& places, ZeroBeside& place) {
   Hit& hit = place.hit;
   const std::string names = names_of(walker.problem, resting);
   const Rays rays = rays_around(walker, hit.point, resting, located);
   hit.switches = resting;
   hit.leaving = {start_of(walker, hit.point, {hit.point.piece, hit.point.tangent})};
   for (const Ray& ray : rays.rays)
-    if (!along_the_curve(walker, ray, hit.point.tangent))
+    if (!along_the_curve(walker, ray, hit.point.tangent) && !leaves_elsewhere(ray, place, places))
       hit.leaving.push_back(start_of(walker, hit.point, ray));
   if (!rays.complete) {
     hit.kind = HitKind::unresolved;
@@ -224,7 +238,7 @@ void add_half_branches(const Walker& walker, Samples samples, const std::vector<
   find_places(walker, samples, resting, found, places);
   for (ZeroBeside& place : places) {
     const double s = place.hit.point.s;
-    if (explain(walker, resting, place)) {
+    if (explain(walker, resting, places, place)) {
       found.hits.push_back(std::move(place.hit));
       found.stops.push_back(false);
     } else {

@@ -47,6 +47,17 @@ std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePo
   return point;
 }
 
+/// The value behind the step, where it is first told from zero; 0 if it is not.
+template <class Function>
+double clear_value_beyond(const Function& value, double h, double noise) {
+  for (const double share : {1.01, 1.1, 1.5}) {
+    const auto beyond = value(share * h);
+    if (!beyond || std::isnan(*beyond)) return 0;
+    if (std::abs(*beyond) > noise) return *beyond;
+  }
+  return 0;
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 bool add_user_event(const Walker& walker, Samples samples, const Event& event,
@@ -56,15 +67,17 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
   std::array<double, 3> storage{};
   assert(samples.size() <= storage.size());
   const std::span values(storage.data(), samples.size());
-  double scale = 0;
+  double scale = 0, noise = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     values[i] = event.value(*samples[i]);
     scale = std::max(scale, std::abs(values[i]));
+    if (event.noise) noise = std::max(noise, event.noise(*samples[i]));
   }
   // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
   constexpr double rounding = 1e-14, resolution = 1e-9;
+  noise = std::max(noise, rounding * scale);
   for (double* end : {&values.front(), &values.back()})
-    if (std::abs(*end) <= rounding * scale) *end = 0;
+    if (std::abs(*end) <= noise) *end = 0;
   if (!within_reach(values)) return true;
   // At the ends the very values that the neighbouring steps see: a sign must not change in between.
   const auto value = [&](double ds) -> std::optional<double> {
@@ -73,7 +86,7 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     const auto point = point_between(walker, from, to, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
-  const ZeroSearch search = find_zeros(value, 0, h, rounding * scale, resolution * h);
+  const ZeroSearch search = find_zeros(value, 0, h, noise, resolution * h);
   const auto add = [&](CurvePoint point, double before, double after) {
     Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
     hit.point = std::move(point);
@@ -92,8 +105,10 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     add(std::move(*point), zero.before, zero.after);
   }
   // Zero exactly at the end: a crossing if the sign beyond is another one.
-  const auto beyond = values.back() == 0 && values.front() != 0 ? value(1.01 * h) : std::nullopt;
-  if (beyond && !at_end && (*beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
+  if (values.back() == 0 && values.front() != 0 && !at_end) {
+    const double beyond = clear_value_beyond(value, h, noise);
+    if (beyond != 0 && (beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
+  }
   return search.resolved;
 }
 

@@ -231,22 +231,24 @@ bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& d
     dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
   }
   dF_dX.bottomLeftCorner(1, n_ + 1) = last.transpose();
-  const auto by_mu = six_point_derivative(
-      [&](double m) -> std::optional<Vector> {
-        BaseTerms there;
-        if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
-        Vector values(n_ + 1);
-        values.head(n_) = there.F;
-        if (is_bordered()) {
-          values[n_] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
-          return values;
-        }
-        const auto g = surface(x, l, m);
-        if (!g) return std::nullopt;
-        values[n_] = *g;
-        return values;
-      },
-      mu, family_.step);
+  const auto at_parameter = [&](double m) -> std::optional<Vector> {
+    BaseTerms there;
+    if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
+    Vector values(n_ + 1);
+    values.head(n_) = there.F;
+    if (is_bordered()) {
+      values[n_] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
+      return values;
+    }
+    const auto g = surface(x, l, m);
+    if (!g) return std::nullopt;
+    values[n_] = *g;
+    return values;
+  };
+  // A member of the family is dear: neighbours share those of a grid. Beside the end of its domain the formula that
+  // reaches less far may have all of its places.
+  auto by_mu = grid_derivative(at_parameter, mu, family_.step);
+  if (!by_mu) by_mu = six_point_derivative(at_parameter, mu, family_.step);
   if (!by_mu) return false;
   dF_dmu = Vector::Zero(size());
   dF_dmu.head(n_) = by_mu->head(n_);
