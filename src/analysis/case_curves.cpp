@@ -87,7 +87,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near) const {
   }
   Setup& setup = member->setup;
   setup = set_up(variant.mechanism, member->study, along ? &*along : nullptr,
-                 near == nullptr ? nullptr : &near->setup.scales);
+                 near == nullptr ? nullptr : &near->setup);
   if (near == nullptr) {
     member->first = find_start(setup, member->study, member->report);
   } else {

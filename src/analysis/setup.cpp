@@ -165,7 +165,7 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
 namespace {
 
 Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const Study& study,
-                const ParameterFamily* family, const Units& units) {
+                const ParameterFamily* family, const Units& units, const Setup* like) {
   Setup setup;
   setup.scales = scales;
   setup.system = statics::prepare(dimensionless(mechanism, setup.scales));
@@ -179,7 +179,9 @@ Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const S
   setup.origins_found = origins.has_value();
   if (!origins) origins = Origins{};
   setup.system = statics::prepare(with_origins(setup.system.mechanism, *origins));
-  setup.redundancy = statics::redundant_closures(setup.system, z, setup.system.commands);
+  setup.redundancy = like != nullptr
+                         ? like->redundancy
+                         : statics::redundant_closures(setup.system, z, setup.system.commands);
   setup.system.redundant = setup.redundancy.count;
   setup.rule.body = study.body;
   setup.rule.length = setup.scales.length;
@@ -203,16 +205,16 @@ Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const S
 }  // namespace
 
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
-             const Scales* scales) {
-  const Scales own = scales != nullptr ? *scales : scales_for(mechanism, study.constant_load);
-  return set_up_in(own, mechanism, study, family, {own.force, {}});
+             const Setup* like) {
+  const Scales own = like != nullptr ? like->scales : scales_for(mechanism, study.constant_load);
+  return set_up_in(own, mechanism, study, family, {own.force, {}}, like);
 }
 
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
              const Units& units) {
   Scales scales = scales_for(mechanism, study.constant_load);
   scales.force = units.force;
-  return set_up_in(scales, mechanism, study, family, units);
+  return set_up_in(scales, mechanism, study, family, units, nullptr);
 }
 
 }  // namespace springfold::analysis

@@ -26,8 +26,9 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
                                                 const Study& study);
 
 /// @param family needed for control mode `parameter` only, otherwise nullptr
-/// @param scales those of another value of a parameter; nullptr: from the mechanism
+/// @param like  the set-up for another value of a parameter, whose scales and redundant closures are kept; nullptr: from
+///              the mechanism
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
-             const Scales* scales = nullptr);
+             const Setup* like = nullptr);
 
 }  // namespace springfold::analysis

@@ -11,8 +11,8 @@ namespace springfold::continuation {
 namespace {
 
 /// Where a point is nearly as symmetric as a circle, branches are hard to tell from each other beside it,
-/// and a trace back ends before it. It has arrived all the same if most of the way lies behind it, nothing
-/// singular was met, and the rest leads straight to the junction along the way's own tangent.
+/// and a trace back ends before it. It has arrived all the same if most of the way lies behind it, no other branch
+/// was met, and the rest leads straight to the junction along the way's own tangent.
 /// @returns length of the rest
 std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, const Curve& back,
                                        double gap) {
@@ -20,8 +20,9 @@ std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, con
   const CurvePoint& last = back.points.back();
   const Direction rest = between(walker, way.point, last);
   const double length = length_of(walker, rest);
-  const bool met = std::any_of(back.hits.begin(), back.hits.end(),
-                               [](const Hit& hit) { return hit.kind != HitKind::unresolved; });
+  const bool met = std::any_of(back.hits.begin(), back.hits.end(), [](const Hit& hit) {
+    return hit.kind != HitKind::unresolved && hit.kind != HitKind::limit_point;
+  });
   if (met || back.stop == StopReason::observer || !(length > 0) || length > most * gap ||
       cosine(walker, rest, way.point.tangent) < straight)
     return std::nullopt;
