@@ -91,15 +91,26 @@ bool is_junction(const Hit& hit) {
          hit.kind == HitKind::branching_kink;
 }
 
+/// The nearest junction that is the same point. Points that a curve has passed right before are others: between two
+/// passages of one point lies a whole loop.
 int Tracer::junction_at(const Hit& hit) {
   const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
+  const double same = options_.same_place * scale;
+  const auto just_passed = [&](int number) {
+    return std::any_of(met_.begin(), met_.end(), [&](const Met& met) {
+      return met.junction == number && std::abs(met.s - hit.point.s) <= 2 * same;
+    });
+  };
+  int best = -1;
+  double nearest = same;
   for (std::size_t i = 0; i < diagram_.junctions.size(); ++i) {
-    const Junction& junction = diagram_.junctions[i];
-    if (length_of(walker_, between(walker_, junction.point, hit.point)) <=
-        options_.same_place * scale)
-      return static_cast<int>(i);
+    const double distance =
+        length_of(walker_, between(walker_, at(static_cast<int>(i)).point, hit.point));
+    if (!(distance <= nearest) || just_passed(static_cast<int>(i))) continue;
+    best = static_cast<int>(i);
+    nearest = distance;
   }
-  return -1;
+  return best;
 }
 
 /// Finds the ways out of a special point. A touch may have no more than the curve itself.

@@ -125,6 +125,10 @@ void check_narrow_places(const Walker& walker, Curve& curve) {
             .point = curve.points[(stretch.first + stretch.last) / 2],
             .s_before = a.s,
             .s_after = b.s};
+    // Where the sign of an eigenvalue does not change on a curve that may have changed its branch, nothing is shown.
+    std::erase_if(curve.hits, [&](const Hit& h) {
+      return h.kind == HitKind::touch && h.point.s >= a.s && h.point.s <= b.s;
+    });
     const auto behind = std::find_if(curve.hits.begin(), curve.hits.end(),
                                      [&](const Hit& h) { return h.point.s > hit.point.s; });
     curve.hits.insert(behind, std::move(hit));
