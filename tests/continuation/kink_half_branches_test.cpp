@@ -2,8 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+#include <set>
+
 #include "continuation/kinks/kink.hpp"
 #include "kink_problems.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "tracing.hpp"
 
 namespace springfold::continuation {
@@ -165,13 +170,97 @@ TEST(HalfBranches, AreTheSameInTheOtherDirection) {
 }
 
 TEST(HalfBranches, AreSaidToBeUnresolvedWhereTooManySwitchesRest) {
-  const OneSidedModes problem{7, Vector::Constant(7, 1.0), Vector::Constant(7, 0.5), 0};
-  const Curve curve = follow_straight(problem, Piece(7, 1), 0.5);
+  // nine springs in nine motions of their own: 512 pieces, all with room beside the branch
+  const OneSidedModes problem{9, Vector::Constant(9, 1.0), Vector::Constant(9, 0.5), 0};
+  const Curve curve = follow_straight(problem, Piece(9, 1), 0.5);
   EXPECT_EQ(curve.stop, StopReason::event);
   const auto unresolved = hits_of(curve, HitKind::unresolved);
   ASSERT_EQ(unresolved.size(), 1u) << "once for the whole branch";
   EXPECT_EQ(unresolved[0].s_before, 0);
   EXPECT_NEAR(unresolved[0].s_after, 0.5, 0.06);
+}
+
+/// A mast on springs that are strung all around it, and just rest: each pulls along its direction d_j with
+/// c_j (d_j x)_+, the load pushes with lambda x, |x|^2 x holds beyond.
+struct SpringsAround {
+  Matrix d{};  ///< k x 2
+  Vector c{};
+
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  Matrix stiffness(const Piece& piece) const {
+    Matrix K = Matrix::Zero(2, 2);
+    for (Index j = 0; j < c.size(); ++j)
+      if (piece[static_cast<std::size_t>(j)] > 0) K += c[j] * d.row(j).transpose() * d.row(j);
+    return K;
+  }
+  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
+    F = stiffness(piece) * x + (x.squaredNorm() - lambda) * x;
+    return true;
+  }
+  bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
+                   Vector& dF_dlambda) const {
+    dF_dx = stiffness(piece) + (x.squaredNorm() - lambda) * Matrix::Identity(2, 2) +
+            2 * x * x.transpose();
+    dF_dlambda = -x;
+    return true;
+  }
+  Index switch_count() const { return c.size(); }
+  bool switches(const Vector& x, double, Vector& g) const {
+    g = d * x;
+    return true;
+  }
+  bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) const {
+    dg_dx = d;
+    dg_dlambda = Vector::Zero(c.size());
+    return true;
+  }
+
+  Piece piece_of(const Vector& x) const {
+    Piece piece;
+    for (Index j = 0; j < c.size(); ++j) piece.push_back(d.row(j).dot(x) > 0 ? 1 : -1);
+    return piece;
+  }
+
+  /// Loads at which something leaves: eigenvalues of the stiffness of a cone whose eigenvector lies in it. The cones are
+  /// found by going round in small steps.
+  std::vector<double> branching_loads() const {
+    std::set<Piece> seen;
+    std::vector<double> loads;
+    for (int step = 0; step < 36000; ++step) {
+      const double angle = 2 * std::numbers::pi * (step + 0.5) / 36000;
+      const Piece piece = piece_of(Vector{{std::cos(angle), std::sin(angle)}});
+      if (!seen.insert(piece).second) continue;
+      const SymmetricEigen eigen = symmetric_eigen(stiffness(piece));
+      for (Index i = 0; i < 2; ++i)
+        for (const double sign : {1.0, -1.0})
+          if (piece_of(sign * eigen.vectors.col(i)) == piece) loads.push_back(eigen.values[i]);
+    }
+    std::sort(loads.begin(), loads.end());
+    return loads;
+  }
+};
+
+TEST(HalfBranches, OfTwelveSpringsAroundAMastAreAllFound) {
+  SpringsAround problem{Matrix(12, 2), Vector(12)};
+  for (Index j = 0; j < 12; ++j) {
+    const auto number = static_cast<double>(j);
+    const double angle = 2 * std::numbers::pi * number / 12 + 0.1 * std::sin(5 * number);
+    problem.d.row(j) << std::cos(angle), std::sin(angle);
+    problem.c[j] = 1 + 0.8 * std::sin(2 * number + 1);
+  }
+  const std::vector<double> loads = problem.branching_loads();
+  ASSERT_GE(loads.size(), 4u) << "least and largest stiffness of the way round, at the least";
+  const Curve curve = follow(problem, {Vector::Zero(2), 0, Piece(12, 1), {Vector::Zero(2), 1}},
+                             {lambda_reaches(loads.back() + 1)});
+  EXPECT_EQ(curve.stop, StopReason::event) << curve.stop_detail;
+  EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
+  const auto kinks = hits_of(curve, HitKind::branching_kink);
+  ASSERT_EQ(kinks.size(), loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    EXPECT_NEAR(kinks[i].point.lambda, loads[i], 1e-10);
+    EXPECT_EQ(kinks[i].leaving.size(), 2u) << "straight on, and one half-branch";
+  }
 }
 
 TEST(HalfBranches, TheStepLogSaysThatASwitchRestsAndWhatTheOtherSideIs) {

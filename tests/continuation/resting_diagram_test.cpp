@@ -102,6 +102,17 @@ TEST(RestingDiagram, EqualSpringsOnBothSidesAreOneLinearSpring) {
   expect_branches_to(diagram, 1 / std::sin(1.0), 1 / std::sin(1.0));
 }
 
+TEST(RestingDiagram, TwoHalfBranchesNextToEachOtherAreTwoJunctions) {
+  for (const double gap : {5e-8, 3e-7}) {
+    const Diagram diagram = around({0, 1, 1 + gap}, 0, 0, above({true, false}));
+    EXPECT_EQ(texts(diagram), "") << gap;
+    ASSERT_EQ(diagram.junctions.size(), 2u) << gap;
+    for (const Junction& junction : diagram.junctions)
+      EXPECT_EQ(junction.ways.size(), 3u) << gap << ": up, down, and to one side";
+    expect_branches_to(diagram, (1 + gap) / std::sin(1.0), 1 / std::sin(1.0));
+  }
+}
+
 TEST(RestingDiagram, AStartOnItsOwnBranchingKinkIsAJunction) {
   const Diagram diagram = around({0, 1, 0.6}, 0, 0.6, above({true, false}));
   EXPECT_EQ(texts(diagram), "");

@@ -55,11 +55,13 @@ struct Hit {
   std::string name{};                 ///< the caller's event, or the switches that are crossed
   CurvePoint point{};                 ///< tangent and piece of the arriving side
   std::vector<CurvePoint> leaving{};  ///< kinks: every way out, the one that was taken first
-  std::vector<Index> switches{};      ///< kinks: which ones are crossed
-  int multiplicity = 1;               ///< branch points: how many eigenvalues vanish
-  double s_before = 0, s_after = 0;   ///< on the branch, the event lies between these two
-  bool stops = false;                 ///< the curve ends here
-  int tag = 0;                        ///< of the caller's event
+  /// Half-branches: what seems to leave here within rounding, and leaves at another point next to it.
+  std::vector<CurvePoint> leaving_beside{};
+  std::vector<Index> switches{};     ///< kinks: which ones are crossed
+  int multiplicity = 1;              ///< branch points: how many eigenvalues vanish
+  double s_before = 0, s_after = 0;  ///< on the branch, the event lies between these two
+  bool stops = false;                ///< the curve ends here
+  int tag = 0;                       ///< of the caller's event
   /// In a diagram: the junction at this place, and which of its ways lie on the two sides of it, that by
   /// which the curve arrives and that by which it would go on. -1: none.
   int junction = -1, way_back = -1, way_on = -1;

@@ -129,7 +129,7 @@ int Tracer::add_junction(const Hit& hit) {
 /// Number of the way that leads most nearly into this direction, or -1.
 int Tracer::way_along(int junction, const Direction& direction, const Piece* piece) {
   int best = -1;
-  double nearest = 0.98;
+  double nearest = same_way;
   const std::vector<Way>& ways = at(junction).ways;
   for (std::size_t w = 0; w < ways.size(); ++w) {
     const double c = cosine(walker_, ways[w].point.tangent, direction) -

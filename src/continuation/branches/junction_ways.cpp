@@ -1,5 +1,6 @@
 #include "continuation/branches/junction_ways.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "continuation/kinks/kink_numerics.hpp"
@@ -7,6 +8,7 @@
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
 #include "continuation/locating/exits.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
@@ -28,9 +30,18 @@ CurvePoint start_on(const Walker& walker, const CurvePoint& leaving, const Ray& 
   return leaving;
 }
 
+/// A ray that leaves at another point, next to this one: rounding does not tell the two.
+bool leaves_beside(const Walker& walker, const Hit& hit, const Ray& ray) {
+  return std::any_of(
+      hit.leaving_beside.begin(), hit.leaving_beside.end(), [&](const CurvePoint& p) {
+        return p.piece == ray.piece && cosine(walker, p.tangent, ray.tangent) > same_way;
+      });
+}
+
 /// The ways out of a point on switching surfaces.
-void add_rays(const Walker& walker, const CurvePoint& point, const std::vector<Index>& active,
+void add_rays(const Walker& walker, const Hit& hit, const std::vector<Index>& active,
               Junction& junction) {
+  const CurvePoint& point = hit.point;
   Surfaces surfaces{.active = active};
   if (!walker.problem.switch_gradients(point.x, point.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
     return;
@@ -38,6 +49,7 @@ void add_rays(const Walker& walker, const CurvePoint& point, const std::vector<I
   junction.complete = rays.complete;
   junction.why = rays.why;
   for (const Ray& ray : rays.rays) {
+    if (leaves_beside(walker, hit, ray)) continue;
     const CurvePoint leaving = point_on_ray(walker, point, ray);
     junction.ways.push_back({leaving, start_on(walker, leaving, ray, surfaces)});
   }
@@ -79,7 +91,7 @@ void find_ways(const Walker& walker, const DiagramOptions& options, const Hit& h
   const std::vector<Index> active = active_switches(walker, hit.point.x, hit.point.lambda);
   const bool on_surfaces = !active.empty() && active.size() <= most_active;
   if (hit.kind == HitKind::branching_kink || on_surfaces)
-    add_rays(walker, hit.point, active, junction);
+    add_rays(walker, hit, active, junction);
   else
     add_exits(walker, options, hit, junction);
 }

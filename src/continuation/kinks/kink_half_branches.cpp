@@ -15,7 +15,7 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr std::size_t most_resting = 6;  // 2^6 pieces are watched on every step
+constexpr std::size_t most_pieces = 256;  // beside the curve, that are watched on every step
 constexpr double one_point = 1e-8;  // arc length within which zeros of different pieces are one
 constexpr double located = 1e-7;    // ratio of singular values at a located branch point
 
@@ -76,15 +76,50 @@ std::optional<Matrix> admitted_directions(const Walker& walker, const CurvePoint
   return form ? std::optional<Matrix>(form->form.directions) : std::nullopt;
 }
 
-/// Is there room for the piece beside the curve? (Two opposite springs are never both stretched.)
-bool has_room(const std::optional<Matrix>& directions, const Piece& piece,
-              const std::vector<Index>& resting) {
-  if (!directions) return true;
-  Matrix sides = *directions;
-  for (std::size_t k = 0; k < resting.size(); ++k)
-    sides.row(static_cast<Index>(k)) *= piece[static_cast<std::size_t>(resting[k])];
-  return inside_cone(sides).has_value();
-}
+/// The other pieces that have room beside the curve. (Two opposite springs are never both stretched.) Grown switch by
+/// switch: k surfaces cut r dimensions into far fewer than 2^k cones.
+class PiecesBeside {
+ public:
+  PiecesBeside(std::optional<Matrix> directions, const std::vector<Index>& resting)
+      : directions_{std::move(directions)}, resting_{resting} {}
+
+  /// @returns nothing for more than `most_pieces`
+  std::optional<std::vector<Piece>> of(const Piece& own) {
+    Piece piece = own;
+    if (resting_.size() > most_active || !grow(0, piece)) return std::nullopt;
+    std::erase(pieces_, own);
+    return pieces_;
+  }
+
+ private:
+  bool grow(std::size_t k, Piece& piece) {
+    if (k == resting_.size()) {
+      pieces_.push_back(piece);
+      return pieces_.size() <= most_pieces;
+    }
+    auto& side = piece[static_cast<std::size_t>(resting_[k])];
+    const auto own = side;
+    bool few = true;
+    for (const int sign : {1, -1}) {
+      side = static_cast<std::int8_t>(sign * (own > 0 ? 1 : -1));
+      few = few && (!has_room(k + 1, piece) || grow(k + 1, piece));
+    }
+    side = own;
+    return few;
+  }
+
+  bool has_room(std::size_t count, const Piece& piece) const {
+    if (!directions_) return true;
+    Matrix sides = directions_->topRows(static_cast<Index>(count));
+    for (std::size_t k = 0; k < count; ++k)
+      sides.row(static_cast<Index>(k)) *= piece[static_cast<std::size_t>(resting_[k])];
+    return inside_cone(sides).has_value();
+  }
+
+  std::optional<Matrix> directions_;
+  const std::vector<Index>& resting_;
+  std::vector<Piece> pieces_{};
+};
 
 /// A piece that is singular at the begin of the step, where the curve leaves a junction, is looked at from a
 /// little further on: that zero belongs to the junction.
@@ -105,18 +140,15 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   first = std::move(*moved);
 }
 
-void find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
+/// Zeros of the eigenvalues in all pieces beside the step.
+/// @returns false for too many pieces
+bool find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
                  StepEvents& found, std::vector<ZeroBeside>& places) {
   const Piece own = samples.front()->piece;
-  const auto directions = admitted_directions(walker, *samples.front(), resting);
-  for (unsigned pattern = 1; pattern < (1u << resting.size()); ++pattern) {
-    Piece piece = own;
-    for (std::size_t k = 0; k < resting.size(); ++k)
-      if ((pattern >> k) & 1u) {
-        auto& side = piece[static_cast<std::size_t>(resting[k])];
-        side = side > 0 ? -1 : 1;
-      }
-    if (!has_room(directions, piece, resting)) continue;
+  const auto pieces =
+      PiecesBeside(admitted_directions(walker, *samples.front(), resting), resting).of(own);
+  if (!pieces) return false;
+  for (const Piece& piece : *pieces) {
     std::vector<CurvePoint> moved;
     for (const CurvePoint* sample : samples) {
       moved.push_back(*sample);
@@ -137,6 +169,7 @@ void find_places(const Walker& walker, Samples samples, const std::vector<Index>
         add_place(std::move(hit), piece, false, places);
       }
   }
+  return true;
 }
 
 bool along_the_curve(const Walker& walker, const Ray& ray, const Direction& tangent) {
@@ -173,8 +206,10 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
   hit.switches = resting;
   hit.leaving = {start_of(walker, hit.point, {hit.point.piece, hit.point.tangent})};
   for (const Ray& ray : rays.rays)
-    if (!along_the_curve(walker, ray, hit.point.tangent) && !leaves_elsewhere(ray, place, places))
-      hit.leaving.push_back(start_of(walker, hit.point, ray));
+    if (!along_the_curve(walker, ray, hit.point.tangent)) {
+      auto& ways = leaves_elsewhere(ray, place, places) ? hit.leaving_beside : hit.leaving;
+      ways.push_back(start_of(walker, hit.point, ray));
+    }
   if (!rays.complete) {
     hit.kind = HitKind::unresolved;
     hit.name = "unresolved: branches beside " + names + ": " + rays.why;
@@ -231,11 +266,12 @@ void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vec
 void add_half_branches(const Walker& walker, Samples samples, const std::vector<Index>& resting,
                        StepEvents& found, Curve& curve) {
   if (!walker.problem.symmetric() || !walker.options.branch_points) return;
-  if (resting.size() > most_resting)
-    return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
   std::vector<ZeroBeside> places;
-  take_own(found, places);
-  find_places(walker, samples, resting, found, places);
+  StepEvents others = found;
+  take_own(others, places);
+  if (!find_places(walker, samples, resting, others, places))
+    return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
+  found = std::move(others);
   for (ZeroBeside& place : places) {
     const double s = place.hit.point.s;
     if (explain(walker, resting, places, place)) {

@@ -16,6 +16,9 @@ double length_of(const Walker& walker, const Direction& d);
 
 inline Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
 
+/// Directions with a larger cosine are ways of one curve; the ways out of one point are further apart.
+inline constexpr double same_way = 0.98;
+
 /// Cosine of the angle between two directions.
 double cosine(const Walker& walker, const Direction& a, const Direction& b);
 

@@ -154,6 +154,7 @@ Hit Normalised::outside(const Hit& hit) const {
   Hit result = hit;
   result.point = outside(hit.point);
   for (CurvePoint& point : result.leaving) point = outside(std::move(point));
+  for (CurvePoint& point : result.leaving_beside) point = outside(std::move(point));
   return result;
 }
 
