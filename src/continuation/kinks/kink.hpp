@@ -45,6 +45,7 @@ struct KinkSearch {
   CurvePoint point{};
   double before = 0, after = 0;  ///< step lengths that bracket it
   std::vector<Index> active{};   ///< switches that are zero there
+  bool singular = false;         ///< it is a branch point of the piece on which the curve arrives
   Index suspect = -1;            ///< the switch that asks for a shorter step
   std::vector<Index> touched{};  ///< switches that touch zero on this step without crossing it
 };

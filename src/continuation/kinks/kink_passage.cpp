@@ -10,7 +10,9 @@
 #include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/flat_turns.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/core/inertia.hpp"
 
@@ -38,6 +40,16 @@ Beside beside(const Walker& walker, const CurvePoint& at, int direction, double 
   for (const double distance : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
     if (point && told_from_zero(*point)) return {*point, sense_of(*point), true};
+  }
+  return {at, 0};
+}
+
+/// The curve just before a kink at which its own piece is singular: the branch point belongs to the kink.
+Beside before_singular(const Walker& walker, const CurvePoint& at, double room) {
+  for (const double distance : {1e-6, 1e-5, told_apart}) {
+    const auto point = point_at(walker, at, -std::min(distance, 0.5 * room));
+    if (point && cosine(walker, point->tangent, at.tangent) > same_way)
+      return {*point, sense_of(*point), true};
   }
   return {at, 0};
 }
@@ -368,7 +380,7 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
     from = Beside{clear ? *clear : end, 0, true};
   }
   if (kink.status == KinkSearch::Status::found) {
-    to = beside(walker, end, -1, length);
+    to = kink.singular ? before_singular(walker, end, length) : beside(walker, end, -1, length);
     if (to->sense == 0) to = Beside{begin, 0, true};  // too flat and short for anything
   }
   const CurvePoint &first = from ? from->point : begin, &last = to ? to->point : end;

@@ -8,6 +8,7 @@
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 
@@ -229,6 +230,28 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
   return judge(f, a, cubic);
 }
 
+/// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations have
+/// two directions and do not say which is that of this curve.
+std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
+  constexpr double nearest = 0.9;  // of the way: nearer points may belong to the other branch
+  const Index n = from.x.size();
+  const auto unknowns = [&](double t) -> std::optional<Vector> {
+    const auto point = point_at(walker, from, t);
+    if (!point) return std::nullopt;
+    Vector u(n + 1);
+    u << point->x, point->lambda;
+    return u;
+  };
+  const auto curve = interpolate(unknowns, 0, nearest * ds);
+  if (!curve) return std::nullopt;
+  const Vector rate = curve->slope(ds);
+  Direction tangent{rate.head(n), rate[n]};
+  const double length = std::sqrt(metric_product(walker.weights, tangent, tangent));
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  return tangent;
+}
+
 /// Where a branch point of the piece lies on the surface, corrected points beside it are uncertain, and so is the
 /// kink: it is the branch point itself, if that is on the surface too.
 void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSearch& kink) {
@@ -252,6 +275,9 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   point.lambda = place->lambda;
   point.s = std::max(from.s, point.s + metric_product(walker.weights, moved, point.tangent));
   point.negative.reset();
+  if (auto tangent = arriving_tangent(walker, from, point.s - from.s))
+    point.tangent = std::move(*tangent);
+  kink.singular = true;
   kink.before = std::min(kink.before, point.s - from.s);
   kink.after = std::max(kink.after, point.s - from.s);
 }
