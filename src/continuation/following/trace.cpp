@@ -148,13 +148,14 @@ bool beside_junction(const Progress& progress, const CurvePoint& end) {
   return progress.from_singular && end.s <= told_apart;
 }
 
-/// Nothing is told of the number of negative eigenvalues there.
-void accept_beside_junction(double ds, StepEvents& found, CurvePoint& end, Curve& curve) {
+/// Nothing is told of the number of negative eigenvalues on this stretch: the counts may differ from point to point.
+void accept_beside_junction(double ds, StepEvents& found, Progress& progress, Curve& curve) {
   curve.log.push_back({curve.points.back().s, ds, "beside the junction: " + found.doubt});
   found.doubt.clear();
   found.unexplained = 0;
   found.flat = found.passing = false;
-  end.negative.reset();
+  progress.blurred = true;
+  for (CurvePoint& point : curve.points) point.negative.reset();
 }
 
 /// One step: predict, correct, look for switching surfaces and events, record.
@@ -191,7 +192,8 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   StepEvents found = passage_events(walker, progress, kink, end, middle, events, curve);
   if (closed) end_at(*start, found);
   if (!found.doubt.empty() && !found.of_caller && beside_junction(progress, end))
-    accept_beside_junction(progress.ds, found, end, curve);
+    accept_beside_junction(progress.ds, found, progress, curve);
+  if (progress.blurred && beside_junction(progress, end)) end.negative.reset();
   if (!found.doubt.empty()) {
     refusal = found.doubt;
     refused.special = true;

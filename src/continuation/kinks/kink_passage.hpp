@@ -21,6 +21,7 @@ struct Progress {
   bool flat = false;           ///< lambda stands still as far as could be seen from the last kink
   double clear_of = -1;        ///< special points before this s belong to the last kink
   bool from_singular = false;  ///< the curve began at a junction at which its piece is singular
+  bool blurred = false;        ///< and rounding hides eigenvalues beside it
 };
 
 enum class Outcome { go_on, shorten, stop };
