@@ -196,14 +196,8 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
   return all;
 }
 
-/// Special points between the bounds, events of the caller on the whole step.
-StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                          const CurvePoint& end, const CurvePoint& begin, const CurvePoint* middle,
-                          const std::vector<Event>& events) {
-  StepEvents found = events_on_step(without_special_points(walker), begin, end, middle, events);
-  if (!(to.s > from.s)) return found;
-  const bool inside = middle && middle->s > from.s && middle->s < to.s;
-  StepEvents special = special_points(walker, from, to, end.s, inside ? middle : nullptr);
+/// Adds special points in their order.
+void add_special(StepEvents special, StepEvents& found) {
   for (std::size_t i = 0; i < special.hits.size(); ++i) {
     const auto after = std::find_if(found.hits.begin(), found.hits.end(), [&](const Hit& hit) {
       return hit.point.s > special.hits[i].point.s;
@@ -211,8 +205,34 @@ StepEvents events_between(const Walker& walker, const CurvePoint& from, const Cu
     found.stops.insert(found.stops.begin() + (after - found.hits.begin()), special.stops[i]);
     found.hits.insert(after, std::move(special.hits[i]));
   }
+  if (special.doubt.empty()) return;
   if (found.doubt.empty()) found.doubt = special.doubt;
   found.unexplained = special.unexplained;
+}
+
+/// A stretch on which the rate of lambda is lost in rounding: a fold there belongs to the kink, branches that cross do not.
+void add_crossings(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                   StepEvents& found) {
+  if (!(to.s > from.s)) return;
+  Walker plain = walker;
+  plain.options.limit_points = false;
+  add_special(events_on_step(plain, from, to, nullptr, {}), found);
+}
+
+/// Special points between the bounds, branches that cross also beside them, events of the caller on the whole step.
+StepEvents events_between(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                          const CurvePoint& end, const CurvePoint& begin, const CurvePoint* middle,
+                          const std::vector<Event>& events, bool ends_singular) {
+  StepEvents found = events_on_step(without_special_points(walker), begin, end, middle, events);
+  const CurvePoint& last = ends_singular ? to : end;
+  if (!(to.s > from.s)) {
+    add_crossings(walker, begin, last, found);
+    return found;
+  }
+  add_crossings(walker, begin, from, found);
+  const bool inside = middle && middle->s > from.s && middle->s < to.s;
+  add_special(special_points(walker, from, to, end.s, inside ? middle : nullptr), found);
+  add_crossings(walker, to, last, found);
   return found;
 }
 
@@ -384,9 +404,9 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
     if (to->sense == 0) to = Beside{begin, 0, true};  // too flat and short for anything
   }
   const CurvePoint &first = from ? from->point : begin, &last = to ? to->point : end;
-  StepEvents found = from || (to && to->moved)
-                         ? events_between(walker, first, last, end, begin, middle, events)
-                         : events_on_step(walker, begin, end, middle, events);
+  StepEvents found = from || (to && to->moved) ? events_between(walker, first, last, end, begin,
+                                                                middle, events, kink.singular)
+                                               : events_on_step(walker, begin, end, middle, events);
   const std::vector<Index> resting = resting_switches(walker, begin, end);
   if (resting.empty()) return found;
   if (!progress.left.empty()) note_resting(walker, begin, resting, curve.log);
