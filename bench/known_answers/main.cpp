@@ -159,6 +159,7 @@ bool named_draws_hold(const Settings& settings) {
   for (const NamedDraw& named : read_named(settings.named)) {
     Settings own = settings;
     own.seed = named.seed;
+    own.wide = named.wide;
     own.family.clear();
     const auto result = run(own, named.number);
     if (result->verdict.family != named.family) {
@@ -197,7 +198,7 @@ int main(int argc, char** argv) {
   try {
     const Outcomes outcomes = report(run_all(settings));
     if (!settings.failures.empty())
-      write_failures(settings.failures, settings.seed, outcomes.failures);
+      write_failures(settings.failures, settings.seed, settings.wide, outcomes.failures);
     const bool named_hold = settings.named.empty() || named_draws_hold(settings);
     return settings.check && !(outcomes.met && named_hold) ? 1 : 0;
   } catch (const std::exception& e) {

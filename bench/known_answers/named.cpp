@@ -19,6 +19,9 @@ std::vector<NamedDraw> read_named(const std::string& path) {
     const bool numbers = static_cast<bool>(words >> draw.seed >> draw.number >> std::ws);
     std::getline(words, draw.family);
     draw.family.erase(draw.family.find_last_not_of(' ') + 1);
+    const std::string wide = "wide ";
+    draw.wide = draw.family.starts_with(wide);
+    if (draw.wide) draw.family.erase(0, wide.size());
     if (!numbers || draw.number < 0 || draw.family.empty())
       throw std::runtime_error(path + ":" + std::to_string(number) +
                                ": need seed, draw and family");
@@ -27,12 +30,13 @@ std::vector<NamedDraw> read_named(const std::string& path) {
   return draws;
 }
 
-void write_failures(const std::string& path, unsigned long long seed,
+void write_failures(const std::string& path, unsigned long long seed, bool wide,
                     const std::map<long, Failure>& failures) {
   if (failures.empty()) return;
   std::ofstream file(path);
   for (const auto& [number, failure] : failures)
-    file << seed << ' ' << number << ' ' << failure.family << "  # " << failure.requirement << '\n';
+    file << seed << ' ' << number << (wide ? " wide " : " ") << failure.family << "  # "
+         << failure.requirement << '\n';
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
