@@ -337,6 +337,7 @@ std::string description_of(const io::Case& the_case) {
   for (const auto& plot : the_case.plots) text += "  figure    " + plot.name + "\n";
   for (const auto& plot : the_case.map_plots) text += "  figure    " + plot.name + "\n";
   for (const auto& plot : the_case.tornados) text += "  figure    " + plot.name + "\n";
+  for (const auto& picture : the_case.pictures) text += "  picture   " + picture.name + "\n";
   if (!the_case.expected.values.empty())
     text += "  expected  " +
             counted(static_cast<Index>(the_case.expected.values.size()), "compared value") + "\n";

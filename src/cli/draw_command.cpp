@@ -59,7 +59,7 @@ PlannedRun start_alone(PlannedRun run) {
 Wanted first_equilibrium(const io::Case& the_case, const PlannedRun& run, const Session& session) {
   const StudyKind kind = run.plan.kind;
   if (kind == StudyKind::map || kind == StudyKind::workspace)
-    return {{io::guess_panel(run, heading_of(run, "as it is given"))}};
+    return {{io::guess_panel(run, io::posture_title(run, "as it is given"))}};
   const PlannedRun alone = kind == StudyKind::control ? run : start_alone(run);
   const StudyResult result = result_of(alone, session);
   if (!result.branches.empty() && !result.branches.front().samples.empty()) {
@@ -68,19 +68,13 @@ Wanted first_equilibrium(const io::Case& the_case, const PlannedRun& run, const 
     const bool is_family = run.plan.control == analysis::ControlMode::parameter;
     const io::RowScenes scenes{is_family ? alone : run, result};
     const auto& row = result.branches.front().samples.front();
-    if (auto panel = scenes.panel_of(row, heading_of(run, "first equilibrium"), the_case.units))
+    if (auto panel =
+            scenes.panel_of(row, io::posture_title(run, "first equilibrium"), the_case.units))
       return {{std::move(*panel)}};
   }
   say(session.err, run.study + ": no first equilibrium: " + io::start_problem(result.start, &run) +
                        "; this is the guess");
-  return {{io::guess_panel(run, heading_of(run, "guess, no equilibrium"))}, no_start_point};
-}
-
-std::string labels_of(const StudyResult& result) {
-  std::string list;
-  for (const io::FoundRow& row : io::special_rows(result))
-    list += (list.empty() ? "" : ", ") + row.title;
-  return list + (list.empty() ? "none" : ", end");
+  return {{io::guess_panel(run, io::posture_title(run, "guess, no equilibrium"))}, no_start_point};
 }
 
 Wanted at_points(const Arguments& arguments, const io::Case& the_case, const PlannedRun& run,
@@ -95,21 +89,16 @@ Wanted at_points(const Arguments& arguments, const io::Case& the_case, const Pla
   Wanted wanted;
   for (const io::FoundRow& row : rows) {
     if (row.row == nullptr) continue;
-    const std::string title = arguments.draw_all.empty() ? heading_of(run, row.title) : row.title;
+    const std::string title =
+        arguments.draw_all.empty() ? io::posture_title(run, row.title) : row.title;
     if (auto panel = scenes.panel_of(*row.row, title, the_case.units))
       wanted.panels.push_back(std::move(*panel));
   }
   if (!wanted.panels.empty()) return wanted;
   wanted.code = result.start.found ? wrong_usage : no_start_point;
-  if (!result.start.found && !result.start.message.empty())
-    say(session.err, run.study + ": " + io::start_problem(result.start, &run));
-  else if (!scenes.has_postures())
-    say(session.err, run.study +
-                         ": results of this kind do not say where everything is; "
-                         "try springfold draw without --at");
-  else
-    say(session.err, "there is no posture \"" + label + "\" in " + run.study +
-                         "; there are: " + labels_of(result));
+  const bool knows_postures = !result.start.found || scenes.has_postures();
+  say(session.err, io::why_no_posture(run, result, label) +
+                       (knows_postures ? "" : "; try springfold draw without --at"));
   return wanted;
 }
 
@@ -136,7 +125,7 @@ std::filesystem::path file_of(const Arguments& arguments) {
 int draw_guess(const Arguments& arguments, const io::Case& the_case, const Session& session) {
   if (the_case.runs.empty()) return all_done;
   const PlannedRun& run = the_case.runs.front();
-  const Panel panel = io::guess_panel(run, heading_of(run, "as it is given"));
+  const Panel panel = io::guess_panel(run, io::posture_title(run, "as it is given"));
   return write(file_of(arguments), illustrate({panel}, options_of(arguments, the_case)), session);
 }
 
@@ -156,7 +145,7 @@ int draw_command(const Arguments& arguments, const Session& session) {
   }
   Wanted wanted;
   if (arguments.draws_guess)
-    wanted.panels = {io::guess_panel(*run, heading_of(*run, "guess"))};
+    wanted.panels = {io::guess_panel(*run, io::posture_title(*run, "guess"))};
   else if (target.label.empty() && arguments.draw_all.empty())
     wanted = first_equilibrium(the_case, *run, session);
   else

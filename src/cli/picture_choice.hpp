@@ -12,9 +12,6 @@ namespace springfold::cli {
 /// The run with this number. @param study  empty: of any study. @returns nullptr if there is none
 const io::PlannedRun* run_of(const io::Case& the_case, const std::string& study, int number);
 
-/// "push, Kv = 0.1: what".
-std::string heading_of(const io::PlannedRun& run, const std::string& what);
-
 /// Title, units, --colour and --view.
 drawing::IllustrationOptions options_of(const Arguments& arguments, const io::Case& the_case);
 

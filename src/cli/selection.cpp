@@ -72,6 +72,8 @@ io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted)
   for (auto& plot : the_case.map_plots) std::erase_if(plot.panels, is_left_out);
   std::erase_if(the_case.map_plots, [](const auto& plot) { return plot.panels.empty(); });
   std::erase_if(the_case.tornados, is_left_out);
+  for (auto& picture : the_case.pictures) std::erase_if(picture.postures, is_left_out);
+  std::erase_if(the_case.pictures, [](const auto& picture) { return picture.postures.empty(); });
   if (the_case.expected.values.empty()) the_case.expected.notes.clear();
   return the_case;
 }

@@ -274,11 +274,12 @@ class Builder {
       check_quantity(quantity, names_[study][r], draft_->studies[study], problems_);
   }
 
-  void check_curves(const std::string& plot, std::size_t i) {
+  /// @param what  shows them: `plot "force"`
+  void check_curves(const std::string& what, std::size_t i) {
     const StudyDraft& study = draft_->studies[i];
     if (study.vary && !study.vary->keeps_curves)
       problems_.add(study.place, study.key + ".vary.curves",
-                    "got false, need true: plot \"" + plot + "\" draws these curves");
+                    "got false, need true: " + what + " draws these curves");
   }
 
   /// "K.x.y" and "C.x.y"; nothing for all other names.
@@ -304,7 +305,7 @@ class Builder {
       for (const PlotCurves& curves : spec.curves)
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
-          check_curves(spec.name, i);
+          check_curves("plot \"" + spec.name + "\"", i);
           check_use(plot.x, i, 1);
           for (const NamedPlace& y : plot.y) check_use(y, i, 1);
         }
@@ -330,6 +331,11 @@ class Builder {
     for (const TornadoDraft& tornado : draft_->tornados) {
       if (tornado.study) check_use(tornado.quantity, *tornado.study, tornado.spec.run);
       result_.tornados.push_back(tornado.spec);
+    }
+    for (const PictureDraft& picture : draft_->pictures) {
+      for (const std::size_t i : picture.studies)
+        check_curves("picture \"" + picture.spec.name + "\"", i);
+      result_.pictures.push_back(picture.spec);
     }
   }
 

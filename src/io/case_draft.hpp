@@ -40,6 +40,12 @@ struct TornadoDraft {
   NamedPlace quantity{};
 };
 
+struct PictureDraft {
+  PictureSpec spec{};
+  std::vector<std::size_t>
+      studies{};  ///< positions in CaseDraft::studies of those that it shows after a run
+};
+
 struct CaseDraft {
   std::string title{};
   UnitLabels units{};
@@ -50,6 +56,7 @@ struct CaseDraft {
   std::vector<PlotDraft> plots{};
   std::vector<MapPlotDraft> map_plots{};
   std::vector<TornadoDraft> tornados{};
+  std::vector<PictureDraft> pictures{};
   std::vector<ExpectedDraft> expected{};
   std::vector<std::string> notes{};
   bool wants_report = false;

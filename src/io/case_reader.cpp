@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t most_parameters = 1000;
 
-const std::vector<std::string> case_keys{"title",    "include", "units", "parameters", "gravity",
-                                         "template", "body",    "node",  "chain",      "spring",
-                                         "bar",      "load",    "study", "plot",       "map_plot",
-                                         "expected", "tornado", "report"};
+const std::vector<std::string> case_keys{"title",    "include", "units",   "parameters", "gravity",
+                                         "template", "body",    "node",    "chain",      "spring",
+                                         "bar",      "load",    "study",   "plot",       "map_plot",
+                                         "expected", "tornado", "picture", "report"};
 
 /// Tables of one name in all files that may have them; each file numbers its own.
 std::vector<Item> tables_of(const std::vector<Document>& documents, const std::string& name,
@@ -36,7 +36,8 @@ void check_included(const Document& document, Problems& problems) {
   if (!document.included) return;
   for (const NodeEntry& entry : document.root.entries)
     if (entry.key == "study" || entry.key == "plot" || entry.key == "map_plot" ||
-        entry.key == "tornado" || entry.key == "expected" || entry.key == "report")
+        entry.key == "tornado" || entry.key == "picture" || entry.key == "expected" ||
+        entry.key == "report")
       problems.add(entry.place, entry.key,
                    "belongs into the case file itself, not into an included file");
 }
@@ -195,6 +196,9 @@ CaseDraft read_case(const std::vector<Document>& documents,
   for (const MapPlotDraft& plot : draft.map_plots) taken.insert(plot.spec.name);
   draft.tornados =
       read_tornados(tables_of(documents, "tornado", reading), draft.studies, taken, reading);
+  for (const TornadoDraft& tornado : draft.tornados) taken.insert(tornado.spec.name);
+  draft.pictures =
+      read_pictures(tables_of(documents, "picture", reading), draft.studies, taken, reading);
   draft.wants_report = read_report(documents, reading);
   read_expectations(expected_file, draft, reading);
   return draft;

@@ -256,6 +256,18 @@ const std::vector<std::string>& event_codes() {
   return codes;
 }
 
+bool is_event_code(const std::string& text) {
+  const auto& codes = event_codes();
+  return std::find(codes.begin(), codes.end(), text) != codes.end();
+}
+
+bool is_event_label(const std::string& text) {
+  if (text.size() < 3 || text[2] == '0') return false;
+  const bool digits =
+      std::all_of(text.begin() + 2, text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits && is_event_code(text.substr(0, 2));
+}
+
 std::vector<std::string> general_quantities() {
   std::vector<std::string> names{"corank",         "ways",        "potential",
                                  "count.branches", "count.jumps", "count.equilibria"};

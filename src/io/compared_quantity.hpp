@@ -29,6 +29,11 @@ std::vector<std::string> general_quantities();
 /// Codes of special points, "LP", "BP", ..., and "EQ" for one of several equilibria
 const std::vector<std::string>& event_codes();
 
+bool is_event_code(const std::string& text);
+
+/// "LP1": a code and a number from 1.
+bool is_event_label(const std::string& text);
+
 /// Stands where a code may stand: the rows that are no special points.
 inline constexpr const char* any_row = "row";
 

@@ -12,19 +12,6 @@ namespace {
 const std::vector<std::string> agreement_words{"equal", "at_least", "at_most"};
 const std::vector<std::string> side_words{"after", "before"};
 
-bool is_event_code(const std::string& text) {
-  const auto& codes = event_codes();
-  return std::find(codes.begin(), codes.end(), text) != codes.end();
-}
-
-/// "LP1": a code and a number from 1.
-bool is_event_label(const std::string& text) {
-  if (text.size() < 3 || text[2] == '0') return false;
-  const bool digits =
-      std::all_of(text.begin() + 2, text.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return digits && is_event_code(text.substr(0, 2));
-}
-
 /// Whether the point is one that there can be, and `near` is there if and only if it is needed.
 void check_point(const TableReader& table, const std::string& at, Reading& reading) {
   const bool is_code = is_event_code(at) || at == any_row || at == "J";

@@ -124,11 +124,16 @@ std::string last_lines(const std::string& text) {
   return all.size() <= longest ? all : "..." + all.substr(all.size() - longest);
 }
 
-std::optional<std::string> reason_of(int status, const std::string& messages) {
+std::string program_of(const GnuplotCall& call) {
+  return call.words.empty() ? "gnuplot" : call.words.front();
+}
+
+std::optional<std::string> reason_of(int status, const std::string& messages,
+                                     const std::string& program) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   std::string reason = WIFSIGNALED(status)
-                           ? "gnuplot was ended by signal " + std::to_string(WTERMSIG(status))
-                           : "gnuplot ended with code " + std::to_string(WEXITSTATUS(status));
+                           ? program + " was ended by signal " + std::to_string(WTERMSIG(status))
+                           : program + " ended with code " + std::to_string(WEXITSTATUS(status));
   const std::string said = last_lines(messages);
   return said.empty() ? reason : reason + ": " + said;
 }
@@ -149,8 +154,9 @@ std::optional<int> finish(pid_t process) {
   return status;
 }
 
-std::string timeout_text(double seconds) {
-  return "gnuplot did not finish within " + rounded(seconds, 3) + " s and was stopped";
+std::string timeout_text(const GnuplotCall& call) {
+  return program_of(call) + " did not finish within " + rounded(call.timeout_seconds, 3) +
+         " s and was stopped";
 }
 
 }  // namespace
@@ -175,10 +181,11 @@ std::optional<fs::path> find_executable(const std::string& name) {
 
 std::optional<std::string> run_gnuplot(const GnuplotCall& call) {
   Pipe errors;
-  if (errors.ends[0] < 0) return "no pipe to gnuplot: " + std::generic_category().message(errno);
+  if (errors.ends[0] < 0)
+    return "no pipe to " + program_of(call) + ": " + std::generic_category().message(errno);
   pid_t process = 0;
   if (const int error = spawn(call, errors.ends[1], process))
-    return "gnuplot cannot be started: " + std::generic_category().message(error);
+    return program_of(call) + " cannot be started: " + std::generic_category().message(error);
   errors.close_write_end();
 
   const auto deadline = Clock::now() + std::chrono::duration<double>{call.timeout_seconds};
@@ -188,7 +195,7 @@ std::optional<std::string> run_gnuplot(const GnuplotCall& call) {
     const bool is_stopped = call.stop_requested && call.stop_requested();
     if (is_stopped || Clock::now() >= deadline) {
       finish(process);
-      return is_stopped ? "stopped on request" : timeout_text(call.timeout_seconds);
+      return is_stopped ? "stopped on request" : timeout_text(call);
     }
     if (is_open)
       is_open = read_some(errors.ends[0], longest_wait_ms, messages) != PipeState::ended;
@@ -198,7 +205,8 @@ std::optional<std::string> run_gnuplot(const GnuplotCall& call) {
   while (is_open && read_some(errors.ends[0], 0, messages) == PipeState::got_some) {
   }
   const auto status = finish(process);
-  return status ? reason_of(*status, messages) : "gnuplot's exit code was lost";
+  return status ? reason_of(*status, messages, program_of(call))
+                : program_of(call) + "'s exit code was lost";
 }
 
 }  // namespace springfold::io

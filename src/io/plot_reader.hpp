@@ -26,6 +26,11 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
                                         const std::vector<StudyDraft>& studies,
                                         std::set<std::string> taken, Reading& reading);
 
+/// [[picture]] tables. @param taken  names of plots
+std::vector<PictureDraft> read_pictures(const std::vector<Item>& tables,
+                                        const std::vector<StudyDraft>& studies,
+                                        std::set<std::string> taken, Reading& reading);
+
 /// Reports a name that cannot be a file name, or that another plot has already.
 void check_plot_name(const TableReader& table, const std::string& name,
                      const std::set<std::string>& taken, Reading& reading);

@@ -8,9 +8,11 @@
 #include <system_error>
 
 #include "atomic_file.hpp"
+#include "case_pictures.hpp"
 #include "figure.hpp"
 #include "gnuplot_process.hpp"
 #include "gnuplot_text.hpp"
+#include "graph_pictures.hpp"
 #include "jump_arrows.hpp"
 #include "label_layout.hpp"
 #include "manifest.hpp"
@@ -19,7 +21,6 @@
 #include "sha256.hpp"
 #include "text.hpp"
 #include "tornado_figure.hpp"
-#include "transition_access.hpp"
 #include "work_folder.hpp"
 
 namespace springfold::io {
@@ -318,39 +319,25 @@ std::optional<std::string> draw(const fs::path& folder, const std::string& name,
   return std::nullopt;
 }
 
-/// Graphs of stable states by Graphviz, where it is installed: nobody misses them otherwise.
-void draw_graphs(const fs::path& folder, const std::vector<analysis::StudyResult>& results,
-                 const PlotOptions& options, PlotOutcome& outcome) {
-  const auto names = graph_names(results);
-  const auto dot = find_executable("dot");
-  for (std::size_t i = 0; i < results.size() && dot; ++i) {
-    if (names[i].empty() || (options.stop_requested && options.stop_requested())) continue;
-    make_folder(folder / "plots");
-    const WorkFolder work{folder / "plots"};
-    const std::string picture = names[i] + "-graph.svg";
-    write_file(work.path() / "graph.gv", transitions_dot(results[i]));
-    const auto failure = run_gnuplot({.executable = *dot,
-                                      .folder = work.path(),
-                                      .timeout_seconds = options.timeout_seconds,
-                                      .stop_requested = options.stop_requested,
-                                      .words = {"dot", "-Tsvg", "-ograph.svg", "graph.gv"}});
-    std::error_code error;
-    if (failure || !fs::is_regular_file(work.path() / "graph.svg", error)) {
-      outcome.warnings.push_back("figure '" + picture + "': Graphviz drew nothing; graphs/" +
-                                 names[i] + ".gv has the graph");
-      continue;
-    }
-    const std::string bytes = read_file(work.path() / "graph.svg");
-    list_in_manifest(folder, {{"plots/" + picture, sha256(bytes), bytes.size()}});
-    publish_file(work.path() / "graph.svg", folder / "plots" / picture);
-    outcome.files.push_back(folder / "plots" / picture);
-  }
-}
-
 void expect_pictures(const std::string& name, const std::vector<std::string>& formats,
                      PlotOutcome& outcome) {
   for (const std::string& ending : endings_of(formats))
     outcome.missing.push_back("plots/" + name + ending);
+}
+
+/// All pictures share a folder. Names that the case gives stay as they are, those of figures that it does
+/// not ask for make way.
+template <class Figures, class Maps, class Tornados>
+void make_names_differ(const Case& the_case, Figures& figures, Maps& maps, Tornados& tornados) {
+  UniqueNames names;
+  for (const PictureSpec& picture : the_case.pictures) names.make(safe_file_name(picture.name));
+  const auto set_apart = [&names](auto& list) {
+    for (auto& figure : list) figure.name = names.make(figure.name);
+  };
+  set_apart(tornados);
+  if (!the_case.map_plots.empty()) set_apart(maps);
+  set_apart(figures);
+  if (the_case.map_plots.empty()) set_apart(maps);
 }
 
 }  // namespace
@@ -360,10 +347,12 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
                        const PlotOptions& options) {
   PlotOutcome outcome;
   try {
-    const auto figures = figures_of(the_case, results, outcome.warnings);
+    draw_case_pictures(folder, the_case, results, options, outcome);
+    auto figures = figures_of(the_case, results, outcome.warnings);
     draw_graphs(folder, results, options, outcome);
-    const auto maps = map_figures_of(the_case, results, outcome.warnings);
-    const auto tornados = tornado_figures_of(the_case, results, outcome.warnings);
+    auto maps = map_figures_of(the_case, results, outcome.warnings);
+    auto tornados = tornado_figures_of(the_case, results, outcome.warnings);
+    make_names_differ(the_case, figures, maps, tornados);
     if (figures.empty() && maps.empty() && tornados.empty()) return outcome;
     for (const auto& figure : figures) expect_pictures(figure.name, figure.look.formats, outcome);
     for (const auto& figure : maps) expect_pictures(figure.name, figure.formats, outcome);

@@ -8,6 +8,7 @@
 #include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/run.hpp"
+#include "springfold/io/start_text.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -179,6 +180,27 @@ std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::
   return panel;
 }
 
+std::string posture_title(const PlannedRun& planned, const std::string& what) {
+  return planned.study + (planned.label.empty() ? "" : ", " + planned.label) + ": " + what;
+}
+
+drawing::IllustrationOptions illustration_options(const Case& the_case, const std::string& view,
+                                                  const std::string& colour) {
+  using Vec = model::Vec3<double>;
+  drawing::IllustrationOptions options;
+  options.title = the_case.title;
+  options.force_unit = the_case.units.force;
+  options.energy_unit = the_case.units.force + "·" + the_case.units.length;
+  options.colouring = colour == "force"    ? drawing::Colouring::force
+                      : colour == "energy" ? drawing::Colouring::energy
+                      : colour == "none"   ? drawing::Colouring::none
+                                           : drawing::Colouring::stability;
+  if (view == "xy") options.view = drawing::View{};
+  if (view == "xz") options.view = drawing::View{Vec::UnitX(), Vec::UnitZ()};
+  if (view == "yz") options.view = drawing::View{Vec::UnitY(), Vec::UnitZ()};
+  return options;
+}
+
 drawing::Panel guess_panel(const PlannedRun& planned, const std::string& title) {
   model::Mechanism mechanism = planned.mechanism;
   const auto body = static_cast<std::size_t>(planned.plan.body - 1);
@@ -201,6 +223,18 @@ FoundRow row_at(const StudyResult& result, const std::string& label) {
   if (label != "end" || result.branches.empty() || result.branches.front().samples.empty())
     return {};
   return {&result.branches.front().samples.back(), label};
+}
+
+std::string why_no_posture(const PlannedRun& planned, const StudyResult& result,
+                           const std::string& label) {
+  if (!result.start.found && !result.start.message.empty())
+    return planned.study + ": " + start_problem(result.start, &planned);
+  if (!RowScenes{planned, result}.has_postures())
+    return planned.study + ": results of this kind do not say where everything is";
+  std::string list;
+  for (const FoundRow& row : special_rows(result)) list += (list.empty() ? "" : ", ") + row.title;
+  return "there is no posture" + (label.empty() ? "" : " \"" + label + "\"") + " in " +
+         planned.study + "; there are: " + list + (list.empty() ? "none" : ", end");
 }
 
 std::vector<FoundRow> special_rows(const StudyResult& result) {

@@ -129,5 +129,30 @@ TEST_F(Draw, WantsANameThatSaysWhatKindOfPicture) {
   EXPECT_THAT(messages.str(), HasSubstr(".svg or .png"));
 }
 
+class PictureOfACase : public Draw {
+ protected:
+  /// @param study  the one that is run; empty: all
+  int run_case(const std::string& study) {
+    std::vector<std::string> words{"run", "--out", out().string()};
+    if (!study.empty()) words.insert(words.end(), {"--study", study, "--quiet"});
+    return run(words, small_case("", "[[picture]]\nname = \"pushed\"\nat = \"push/EP2\"\n"));
+  }
+  std::filesystem::path out() const { return scratch.path() / "out"; }
+};
+
+TEST_F(PictureOfACase, IsThereWhenTheRunSaysThatItIsWhole) {
+  EXPECT_EQ(run_case(""), all_done);
+  EXPECT_THAT(text_in(out() / "plots/pushed.svg"), HasSubstr(">push: EP2</text>"));
+  const std::string manifest = text_in(out() / "manifest.json");
+  EXPECT_THAT(manifest, HasSubstr("\"state\": \"whole\""));
+  EXPECT_THAT(manifest, HasSubstr("\"plots/pushed.svg\""));
+}
+
+TEST_F(PictureOfACase, IsLeftOutWhereItsStudyIsNotRun) {
+  EXPECT_EQ(run_case("rest"), all_done);
+  EXPECT_THAT(err, Not(HasSubstr("pushed")));
+  EXPECT_FALSE(std::filesystem::exists(out() / "plots/pushed.svg"));
+}
+
 }  // namespace
 }  // namespace springfold::cli

@@ -169,6 +169,25 @@ struct TornadoSpec {
   std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
 };
 
+/// A posture of a picture.
+struct PostureSpec {
+  std::string study{};
+  /// Of a special point or an equilibrium ("LP1", "EQ2"); "start", "end"; "guess": as the case gives it;
+  /// "all": the start and all special points.
+  std::string label{};
+};
+
+/// A picture of the mechanism: one posture, or several side by side.
+struct PictureSpec {
+  std::string name{};        ///< file name without ending
+  std::string title{};       ///< empty: the case's
+  std::vector<int> runs{1};  ///< of every study that is named
+  std::vector<PostureSpec> postures{};
+  std::string view{};                       ///< "xy", "xz", "yz"; empty: as drawing::natural_view
+  std::string colour = "stability";         ///< also "force", "energy", "none"
+  std::vector<std::string> formats{"svg"};  ///< also "png"
+};
+
 struct Expectations {
   std::vector<ExpectedValue> values{};
   std::vector<std::string> notes{};  ///< printed below the table
@@ -190,6 +209,7 @@ struct Case {
   std::vector<PlotSpec> plots{};
   std::vector<MapPlotSpec> map_plots{};
   std::vector<TornadoSpec> tornados{};
+  std::vector<PictureSpec> pictures{};
   bool wants_report = false;  ///< [report]: every run writes the HTML page
   Expectations expected{};
   std::string hash{};  ///< of the bytes of all files read and the overrides

@@ -46,6 +46,15 @@ class RowScenes {
   std::optional<std::size_t> lambda_{}, force_{}, deflection_{}, dead_{}, driven_{};
 };
 
+/// "push, Kv = 0.1: LP1".
+std::string posture_title(const PlannedRun& planned, const std::string& what);
+
+/// Title and units of the case.
+/// @param view    "xy", "xz", "yz"; otherwise as drawing::natural_view
+/// @param colour  "force", "energy", "none"; otherwise stability
+drawing::IllustrationOptions illustration_options(const Case& the_case, const std::string& view,
+                                                  const std::string& colour);
+
 /// The mechanism of a run as the case gives it, before anything is solved.
 drawing::Panel guess_panel(const PlannedRun& planned, const std::string& title);
 
@@ -57,6 +66,11 @@ struct FoundRow {
 
 /// @param label  of an event or an equilibrium ("LP1", "EQ2"), "start" or "end"
 FoundRow row_at(const analysis::StudyResult& result, const std::string& label);
+
+/// Why a run cannot be shown in this posture, and which ones there are instead.
+/// @param label  empty: any @pre it cannot
+std::string why_no_posture(const PlannedRun& planned, const analysis::StudyResult& result,
+                           const std::string& label);
 
 /// The start, then all special points of all branches, each once; of a study of kind equilibria these.
 std::vector<FoundRow> special_rows(const analysis::StudyResult& result);
