@@ -7,6 +7,7 @@
 #include "case_draft.hpp"
 #include "case_hints.hpp"
 #include "compared_quantity.hpp"
+#include "figure.hpp"
 #include "jump_access.hpp"
 #include "memory_limits.hpp"
 #include "numbered_place.hpp"
@@ -306,7 +307,7 @@ class Builder {
         for (std::size_t i = 0; i < draft_->studies.size(); ++i) {
           if (draft_->studies[i].name != curves.study) continue;
           check_curves("plot \"" + spec.name + "\"", i);
-          check_use(plot.x, i, 1);
+          if (!is_over_parameter(spec)) check_use(plot.x, i, 1);
           for (const NamedPlace& y : plot.y) check_use(y, i, 1);
         }
       result_.plots.push_back(std::move(spec));

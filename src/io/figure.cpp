@@ -37,7 +37,7 @@ FigureText axis_title(const FigureText& given, const std::string& quantity, doub
   if (!given.text.empty()) return given;
   const auto column = column_of(result, quantity);
   const std::string name = name_of(quantity, result);
-  const std::string title = factor == 1 ? name : shortest(factor) + " · " + name;
+  const std::string title = factor == 1 ? name : factor_text(factor) + name;
   if (!column) return {title};
   const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
   return {unit.empty() ? title : title + " [" + unit + "]"};
@@ -113,22 +113,6 @@ void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, con
                {analysis::code_of(event.kind), event.label, axes.point(result, branch, event.row)});
 }
 
-/// Do two curves show the same line? Mirrored branches do where the figure does not show the mirror.
-bool look_alike(const FigureCurve& a, const FigureCurve& b) {
-  if (a.parts.size() != b.parts.size()) return false;
-  for (std::size_t i = 0; i < a.parts.size(); ++i) {
-    const Polyline &p = a.parts[i].line, &q = b.parts[i].line;
-    if (p.size() != q.size()) return false;
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      const auto near = [](double u, double v) {
-        return std::abs(u - v) <= 1e-6 * std::max({1e-3, std::abs(u), std::abs(v)});
-      };
-      if (!near(p[k].first, q[k].first) || !near(p[k].second, q[k].second)) return false;
-    }
-  }
-  return true;
-}
-
 /// Labels the branches of a diagram with their numbers; one label for those that look alike.
 void number_branches(Figure& figure, std::size_t first) {
   auto& curves = figure.curves;
@@ -194,11 +178,9 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
   const PlotSpec& spec = axes.spec;
   const UnitLabels& units = axes.units;
   if (figure.x_title.text.empty()) {
-    const FigureText x{spec.x_label, spec.markup}, y{spec.y_label, spec.markup};
+    const FigureText x{spec.x_label, spec.markup};
     figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
-    figure.y_title = axis_title(y, spec.y, spec.y_factor, result, units);
-    for (const std::string& more : spec.y_label.empty() ? spec.more_y : std::vector<std::string>{})
-      figure.y_title.text += ", " + axis_title({}, more, spec.y_factor, result, units).text;
+    figure.y_title = ordinate_title(spec, result, units);
     if (spec.polar) {  // both axes show the distance
       const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
       if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
@@ -294,6 +276,31 @@ bool has_columns(const PlotSpec& spec, const StudyResult& result,
 
 }  // namespace
 
+bool look_alike(const FigureCurve& a, const FigureCurve& b) {
+  if (a.parts.size() != b.parts.size()) return false;
+  for (std::size_t i = 0; i < a.parts.size(); ++i) {
+    const Polyline &p = a.parts[i].line, &q = b.parts[i].line;
+    if (p.size() != q.size()) return false;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const auto near = [](double u, double v) {
+        return std::abs(u - v) <= 1e-6 * std::max({1e-3, std::abs(u), std::abs(v)});
+      };
+      if (!near(p[k].first, q[k].first) || !near(p[k].second, q[k].second)) return false;
+    }
+  }
+  return true;
+}
+
+std::string factor_text(double factor) { return shortest(factor) + " · "; }
+
+FigureText ordinate_title(const PlotSpec& spec, const StudyResult& result,
+                          const UnitLabels& units) {
+  FigureText title = axis_title({spec.y_label, spec.markup}, spec.y, spec.y_factor, result, units);
+  for (const std::string& more : spec.y_label.empty() ? spec.more_y : std::vector<std::string>{})
+    title.text += ", " + axis_title({}, more, spec.y_factor, result, units).text;
+  return title;
+}
+
 std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResult>& results,
                                std::vector<std::string>& problems) {
   std::vector<Figure> figures;
@@ -304,7 +311,8 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     figure.look = spec.look;
     std::vector<RunCurves> runs;
     bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
-    for (const auto& curves : spec.curves) {
+    if (is_over_parameter(spec)) add_sweep_points(the_case, spec, results, figure);
+    for (const auto& curves : is_over_parameter(spec) ? std::vector<PlotCurves>{} : spec.curves) {
       for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
         if (!has_columns(spec, *result, problems)) continue;
@@ -313,6 +321,7 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
         runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first});
       }
     }
+    is_wanted = is_wanted || is_over_parameter(spec);
     if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, figure);
     say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))

@@ -61,6 +61,8 @@ struct Figure {
   std::vector<FigureMark> marks{};
   std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
   PlotLook look{};
+  bool tells_stability =
+      true;  ///< false: its lines are not equilibria, and the key has none of them
   std::optional<ColourBar> bar{};  ///< none: the curves' labels say enough
 };
 
@@ -77,6 +79,24 @@ std::vector<PlotSpec> plots_of(const Case& the_case,
 /// Sets the corners; false if there is nothing to see.
 /// @param polar  the origin is seen, and angles are right
 bool fit_axes(Figure& figure, bool polar);
+
+/// Is it a figure of special points over a parameter, x = "parameter.Kv"?
+bool is_over_parameter(const PlotSpec& spec);
+
+/// The special points of all runs that the figure shows over this parameter, a line for each label.
+/// @pre is_over_parameter(spec)
+void add_sweep_points(const Case& the_case, const PlotSpec& spec,
+                      const std::vector<analysis::StudyResult>& results, Figure& figure);
+
+/// Do two curves show the same line? Mirrored branches do where the figure does not show the mirror.
+bool look_alike(const FigureCurve& a, const FigureCurve& b);
+
+/// "2 · ": before the name of what is multiplied.
+std::string factor_text(double factor);
+
+/// What stands along the y axis: the text that the case gives, or quantities and units.
+FigureText ordinate_title(const PlotSpec& spec, const analysis::StudyResult& result,
+                          const UnitLabels& units);
 
 /// The curves of one run of a figure.
 struct RunCurves {

@@ -3,6 +3,7 @@
 
 #include "figure.hpp"
 #include "result_access.hpp"
+#include "sweep_points.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -32,6 +33,18 @@ PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
   return spec;
 }
 
+/// The special points of a study over the one number that it varies, if there are any to compare.
+void add_point_spec(const SweepPoints& sweep, const PlotSpec& of_curves,
+                    std::vector<PlotSpec>& specs) {
+  if (sweep.parameters.size() != 1) return;
+  PlotSpec spec{.name = safe_file_name(sweep.study) + "-points",
+                .title = sweep.study + ": special points",
+                .x = parameter_prefix + sweep.parameters.front(),
+                .y = of_curves.y};
+  spec.curves.push_back({.study = sweep.study});
+  specs.push_back(std::move(spec));
+}
+
 bool has_curve(const StudyResult& result) {
   return std::any_of(result.branches.begin(), result.branches.end(),
                      [](const Branch& branch) { return branch.samples.size() > 1; });
@@ -51,6 +64,10 @@ std::vector<PlotSpec> plots_of(const Case& the_case, const std::vector<StudyResu
     studies.push_back(result.study);
     specs.push_back(default_plot(the_case, result));
   }
+  const std::vector<PlotSpec> of_curves = specs;
+  for (const SweepPoints& sweep : sweep_points_of(the_case, results))
+    for (const PlotSpec& spec : of_curves)
+      if (spec.curves.front().study == sweep.study) add_point_spec(sweep, spec, specs);
   return specs;
 }
 

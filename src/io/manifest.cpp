@@ -73,7 +73,7 @@ bool stays_in_the_set(const std::string& path) {
   const auto folder = slash == std::string::npos ? "" : path.substr(0, slash);
   const auto name = slash == std::string::npos ? path : path.substr(slash + 1);
   const bool is_ours = folder.empty() || folder == "branches" || folder == "equilibria" ||
-                       folder == "sweeps" || folder == "plots";
+                       folder == "graphs" || folder == "sweeps" || folder == "plots";
   return is_ours && !name.empty() && name.find('/') == std::string::npos && name != "." &&
          name != "..";
 }

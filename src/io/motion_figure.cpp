@@ -7,8 +7,8 @@
 namespace springfold::io {
 
 Figure motion_figure(const Case& the_case, const analysis::StudyResult& result) {
-  Figure figure{.name =
-                    safe_file_name(result.study) + "-" + std::to_string(result.run) + "-energy"};
+  Figure figure{.name = safe_file_name(result.study) + "-" + std::to_string(result.run) + "-energy",
+                .tells_stability = false};
   if (!result.snap) return figure;
   const std::string unit = unit_label(analysis::Unit::energy, result.lambda_unit, the_case.units);
   figure.title.text = heading_of(result) + ": energy along the jumps";

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "figure.hpp"
 #include "gnuplot_text.hpp"
+#include "result_access.hpp"
 
 namespace springfold::io {
 namespace {
@@ -94,6 +96,32 @@ std::vector<NamedPlace> read_ordinates(const TableReader& table, const std::stri
   return ordinates;
 }
 
+/// A figure of special points over a parameter: what its studies vary, and what has no meaning there.
+void check_parameter_plot(const TableReader& table, const PlotDraft& draft,
+                          const std::vector<StudyDraft>& studies, Reading& reading) {
+  const PlotSpec& spec = draft.spec;
+  const std::string name = spec.x.substr(std::string_view{parameter_prefix}.size());
+  for (const PlotCurves& curves : spec.curves)
+    for (const StudyDraft& study : studies) {
+      if (study.name != curves.study || !study.runs_known) continue;
+      std::vector<std::string> varied;
+      if (study.vary)
+        for (const std::size_t p : study.vary->parameters)
+          varied.push_back(parameter_prefix + (*reading.parameters)[p].name);
+      if (std::find(varied.begin(), varied.end(), parameter_prefix + name) == varied.end())
+        reading.problems.add(draft.x.place, draft.x.key,
+                             "got \"" + spec.x + "\", need a parameter that study \"" + study.name +
+                                 "\" varies" + suggestion(spec.x, varied));
+      if (!curves.labels.empty())
+        reading.problems.add(table.find("curves")->place, table.key_of("curves"),
+                             "labels name runs, need none: lines over a parameter have the names "
+                             "of their points");
+    }
+  if (spec.polar)
+    reading.problems.add(table.find("polar")->place, table.key_of("polar"),
+                         "got true, need false: a parameter is no angle");
+}
+
 }  // namespace
 
 std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
@@ -180,6 +208,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     if (curves && curves->kind == Node::Kind::array && curves->items.empty())
       reading.problems.add(curves->place, table.key_of("curves"),
                            "got an empty list, need at least one curve");
+    if (is_over_parameter(spec)) check_parameter_plot(table, draft, studies, reading);
     if (spec.markup)
       for (const PlotCurves& of : spec.curves)
         check_vary_labels({table.find("markup"), table.key_of("markup")}, of, studies, reading);

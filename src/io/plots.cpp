@@ -85,7 +85,8 @@ std::string word_of(Stability stability) {
   return "";
 }
 
-void send_parts(Gnuplot& gnuplot, const DrawnLines& drawn) {
+/// @param has_key  the key tells the kinds of lines
+void send_parts(Gnuplot& gnuplot, const DrawnLines& drawn, bool has_key) {
   std::string parts, first_parts;
   for (const auto stability : {Stability::stable, Stability::driven, Stability::unstable}) {
     bool is_first = true;
@@ -98,7 +99,7 @@ void send_parts(Gnuplot& gnuplot, const DrawnLines& drawn) {
       gnuplot << "$" << name << begin_block;
       gnuplot.send2d(lines);  // an empty line between polylines: gnuplot does not connect them
       add_word(parts, name);
-      if (is_first) add_word(first_parts, name);
+      if (is_first && has_key) add_word(first_parts, name);
       is_first = false;
     }
   }
@@ -111,7 +112,7 @@ void send_parts(Gnuplot& gnuplot, const DrawnLines& drawn) {
 
 void send_curves(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   const DrawnLines drawn = without_overlaps(figure, canvas);
-  send_parts(gnuplot, drawn);
+  send_parts(gnuplot, drawn, figure.tells_stability);
   gnuplot << assignment("has_mixed", drawn.mixed.empty() ? 0 : 1);
   if (!drawn.mixed.empty()) {
     gnuplot << "$mixed" << begin_block;

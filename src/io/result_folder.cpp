@@ -101,7 +101,7 @@ FolderLock::~FolderLock() {
 }
 
 void remove_leftovers(const fs::path& folder) {
-  for (const char* part : {".", "branches", "equilibria", "plots"}) {
+  for (const char* part : {".", "branches", "equilibria", "graphs", "plots", "sweeps"}) {
     std::error_code error;
     std::vector<fs::path> leftovers;
     // A folder that cannot be read to its end keeps what is left over there: the run goes on.

@@ -11,6 +11,7 @@
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
 #include "summary_start.hpp"
+#include "sweep_points.hpp"
 #include "sweep_tables.hpp"
 #include "text.hpp"
 
@@ -343,6 +344,16 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
   return text;
 }
 
+/// One block for every study whose special points change with what it varies.
+std::string point_blocks(const Case& the_case, const std::vector<StudyResult>& results) {
+  const auto sweeps = sweep_points_of(the_case, results);
+  const auto files = sweep_points_files(the_case, sweeps);
+  std::string text;
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    text += "\n" + sweep_points_lines(sweeps[i], files[i]);
+  return text;
+}
+
 }  // namespace
 
 std::string steps_table(const std::vector<StudyResult>& results) {
@@ -370,6 +381,7 @@ std::string summary_table(const Case& the_case, const std::vector<StudyResult>& 
   if (!the_case.title.empty()) text += shown(the_case.title) + "\n";
   for (const auto& result : results)
     if (!result.row) text += (text.empty() ? "" : "\n") + run_block(the_case, result);
+  text += point_blocks(the_case, results);
   text += sweep_blocks(the_case, results, text.empty());
   for (const auto& planned : the_case.runs)
     if (planned.keeps_curves && result_of(results, planned.study, planned.run) == nullptr)

@@ -12,18 +12,6 @@ namespace {
 
 using analysis::StudyResult;
 
-/// "complete", or the first thing that is missing.
-std::string status_of(const PlannedRun& planned, const StudyResult& result) {
-  const std::string problem = start_problem(result.start, &planned);
-  if (!result.start.found) return "no start point: " + problem;
-  if (!problem.empty()) return "nothing was traced: " + problem;
-  for (const analysis::Branch& branch : result.branches)
-    for (const auto* stop : {&branch.backward, &branch.forward})
-      if (!stop->complete) return "stopped early: " + stop->reason;
-  if (!result.doubts.empty()) return "unresolved: " + result.doubts.front();
-  return analysis::complete(result) ? "complete" : "has points that could not be resolved";
-}
-
 /// Rows of a study in the order of its runs.
 template <class Visit>
 void for_each_run(const Case& the_case, const SweepTable& sweep,
@@ -44,14 +32,28 @@ void for_each_run(const Case& the_case, const SweepTable& sweep,
 
 }  // namespace
 
+std::string run_status(const PlannedRun& planned, const StudyResult& result) {
+  const auto plain = [](std::string text) {
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    return text;
+  };
+  const std::string problem = start_problem(result.start, &planned);
+  if (!result.start.found) return plain("no start point: " + problem);
+  if (!problem.empty()) return plain("nothing was traced: " + problem);
+  for (const analysis::Branch& branch : result.branches)
+    for (const auto* stop : {&branch.backward, &branch.forward})
+      if (!stop->complete) return plain("stopped early: " + stop->reason);
+  if (!result.doubts.empty()) return plain("unresolved: " + result.doubts.front());
+  return analysis::complete(result) ? "complete" : "has points that could not be resolved";
+}
+
 analysis::SweepRow sweep_row(const Case& the_case, const PlannedRun& planned,
                              const StudyResult& result) {
   if (result.row) return *result.row;
   analysis::SweepRow row;
-  row.status = status_of(planned, result);
+  row.status = run_status(planned, result);
   row.complete = row.status == "complete";
-  for (char& c : row.status)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
   for (const ExpectedValue& column : planned.columns)
     row.values.push_back(column.factor * found_value(column, result));
   for (const ExpectedValue& value : the_case.expected.values)

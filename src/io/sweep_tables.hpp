@@ -9,6 +9,9 @@
 
 namespace springfold::io {
 
+/// "complete", or the first thing that is missing, in one line.
+std::string run_status(const PlannedRun& planned, const analysis::StudyResult& result);
+
 /// Columns: run, the parameters that vary, those of the study, status. Runs without a result have no row.
 std::string sweep_csv(const Case& the_case, const SweepTable& sweep,
                       const std::vector<analysis::StudyResult>& results);

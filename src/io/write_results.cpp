@@ -12,6 +12,7 @@
 #include "springfold/analysis/snap.hpp"
 #include "springfold/io/report.hpp"
 #include "springfold/io/results.hpp"
+#include "sweep_points.hpp"
 #include "sweep_tables.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
@@ -58,6 +59,10 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
   const auto sweeps = sweep_files(the_case);
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     files.push_back({sweeps[i], sweep_csv(the_case, the_case.sweeps[i], results)});
+  const auto points = sweep_points_of(the_case, results);
+  const auto tables = sweep_points_files(the_case, points);
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    files.push_back({tables[i], sweep_points_csv(points[i])});
   files.push_back({"events.csv", events_csv(the_case, results)});
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.snap != nullptr; }))
     files.push_back({"jumps.csv", jumps_csv(results)});
@@ -109,8 +114,10 @@ std::vector<fs::path> write_results(const fs::path& folder, const Case& the_case
                   [](const StudyResult& result) { return result.equilibria.has_value(); }))
     make_folder(folder / "equilibria");
   if (has_graphs(results)) make_folder(folder / "graphs");
-  if (!the_case.sweeps.empty()) make_folder(folder / "sweeps");
   const auto files = planned_files(the_case, results, with_report);
+  if (std::any_of(files.begin(), files.end(),
+                  [](const PlannedFile& file) { return file.path.starts_with("sweeps/"); }))
+    make_folder(folder / "sweeps");
   std::vector<ListedFile> list;
   for (const auto& file : files) list.push_back(listed(file));
   std::vector<ListedFile> leftovers;
