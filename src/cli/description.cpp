@@ -5,6 +5,7 @@
 #include <set>
 
 #include "check_command.hpp"
+#include "law_text.hpp"
 #include "selection.hpp"
 #include "springfold/io/shown_text.hpp"
 
@@ -197,10 +198,16 @@ std::string text_of(const Mechanism& mechanism, const model::Shape& shape) {
 }
 
 std::string text_of(const Mechanism& mechanism, const model::ShapeSpring& spring) {
-  return fmt::format("{}: {}{}", spring.name, text_of(mechanism, spring.shape),
-                     spring.gas ? fmt::format(", gas with nRT {:.6g} at rest at {:.6g}",
+  return fmt::format("{}: {}, {}", spring.name, text_of(mechanism, spring.shape),
+                     spring.gas ? fmt::format("gas with nRT {:.6g} at rest at {:.6g}",
                                               spring.gas->nRT, spring.gas->initial)
-                                : "");
+                                : law_text(spring.law));
+}
+
+/// A bar that is no line spring.
+std::string bar_text(const Mechanism& mechanism, const model::ShapeSpring& bar) {
+  return fmt::format("{}: {} to {}, {}", bar.name, place_text(mechanism, bar.shape.points[0]),
+                     place_text(mechanism, bar.shape.points[1]), law_text(bar.law));
 }
 
 std::string text_of(const Mechanism& mechanism, std::size_t i) {
@@ -240,7 +247,10 @@ std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
                          place_text(mechanism, spring.from), place_text(mechanism, spring.to),
                          spring.stiffness, spring.free));
   for (const model::ShapeSpring& spring : mechanism.shape_springs)
-    springs.add(text_of(mechanism, spring));
+    if (of_bars.contains(spring.name))
+      bars.add(bar_text(mechanism, spring));
+    else
+      springs.add(text_of(mechanism, spring));
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) loads.add(text_of(mechanism, i));
   return nodes.text() + bodies.text() + chains + springs.text() + bars.text() + loads.text();
 }

@@ -40,58 +40,106 @@ model::Vec3<double> drawn(const model::Mechanism& mechanism, const model::Anchor
   return motion.pose.p;
 }
 
-double drawn_length(const model::Mechanism& mechanism, const model::LineSpring& bar) {
-  return (drawn(mechanism, bar.to) - drawn(mechanism, bar.from)).norm();
+/// What a bar comes to with its numbers.
+struct Bar {
+  model::Anchor from{}, to{};
+  double length = 0;     ///< as drawn
+  double free = 0;       ///< length without force
+  double stiffness = 0;  ///< of one without a law [force/length]
+};
+
+Bar bar_of(const BarDraft& draft, const model::Mechanism& mechanism, const Numbers& numbers) {
+  Bar bar{.from = anchor_of(draft.from, numbers), .to = anchor_of(draft.to, numbers)};
+  bar.length = (drawn(mechanism, bar.to) - drawn(mechanism, bar.from)).norm();
+  bar.free = draft.free ? numbers[*draft.free] : bar.length;
+  if (draft.pretension) {
+    const double tension = numbers[*draft.pretension];
+    bar.free = draft.EA ? bar.length / (1 + tension / numbers[*draft.EA])
+                        : bar.length - tension / numbers[*draft.stiffness];
+  }
+  if (draft.EA) bar.stiffness = numbers[*draft.EA] / bar.free;
+  if (draft.stiffness) bar.stiffness = numbers[*draft.stiffness];
+  return bar;
 }
 
-double free_length(const BarDraft& draft, double length, const Numbers& numbers) {
-  if (!draft.pretension) return length;
-  const double tension = numbers[*draft.pretension];
-  return draft.EA ? length / (1 + tension / numbers[*draft.EA])
-                  : length - tension / numbers[*draft.stiffness];
+bool is_line(const BarDraft& draft) {
+  return !draft.law && draft.acts == BarDraft::Acts::both_ways;
 }
+
+/// The bar's force as a law of its length.
+model::SpringLaw law_of_length(const BarDraft& draft, const Bar& bar, const Numbers& numbers) {
+  if (!draft.law)
+    return model::OneSidedSpring{bar.stiffness, bar.free,
+                                 draft.acts == BarDraft::Acts::in_tension
+                                     ? model::OneSidedSpring::Side::above
+                                     : model::OneSidedSpring::Side::below};
+  model::SpringLaw law = law_of(*draft.law, numbers);
+  if (const auto* logarithmic = std::get_if<LogarithmicDraft>(&*draft.law);
+      logarithmic != nullptr && !logarithmic->length)
+    std::get<model::LogarithmicSpring>(law).length = bar.free;
+  return model::moved(law, bar.free);
+}
+
+/// A pretension that the bar cannot have; empty: it can.
+std::string pretension_problem(const BarDraft& draft, const Bar& bar, const Numbers& numbers) {
+  const double tension = numbers[*draft.pretension];
+  const std::string got = "pretension: got " + shortest(tension);
+  if (draft.acts == BarDraft::Acts::in_tension && tension < 0)
+    return got + ", need a number >= 0: the bar has tension_only = true";
+  if (draft.acts == BarDraft::Acts::in_compression && tension > 0)
+    return got + ", need a number <= 0: the bar has compression_only = true";
+  if (bar.free >= 0 && std::isfinite(bar.free) && std::isfinite(bar.stiffness)) return "";
+  return got + (draft.EA ? ", need a tension > -EA = " + shortest(-numbers[*draft.EA])
+                         : ", need at most stiffness times length as drawn, " +
+                               shortest(bar.stiffness * bar.length) +
+                               ", and a stiffness > 0: the free length would be negative");
+}
+
+bool stands(const AnchorDraft& anchor) { return anchor.chain < 0 && anchor.body == 0; }
 
 /// What is wrong with a bar whose numbers are each what they must be; empty when usable.
-std::string problem_in(const BarDraft& draft, const model::LineSpring& bar,
-                       const model::Mechanism& mechanism, const Numbers& numbers) {
+std::string problem_in(const BarDraft& draft, const model::Mechanism& mechanism,
+                       const Numbers& numbers) {
+  const Bar bar = bar_of(draft, mechanism, numbers);
+  if (!is_line(draft) && stands(draft.from) && stands(draft.to))
+    return "from, to: one of both must be able to move";
   if (draft.free)
     return draft.EA && bar.free == 0
                ? "free: got 0, need a number > 0: EA is stiffness times free length"
                : "";
-  const double length = drawn_length(mechanism, bar);
-  if (length == 0)
-    return "the ends of the bar lie on each other as drawn, need other ends, or free with "
-           "stiffness";
-  if (!draft.pretension ||
-      (bar.free >= 0 && std::isfinite(bar.free) && std::isfinite(bar.stiffness)))
-    return "";
-  const double T = numbers[*draft.pretension];
-  return "pretension: got " + shortest(T) +
-         (draft.EA ? ", need a tension > -EA = " + shortest(-numbers[*draft.EA])
-                   : ", need at most stiffness times length as drawn, " +
-                         shortest(numbers[*draft.stiffness] * length) +
-                         ", and a stiffness > 0: the free length would be negative");
+  if (bar.length == 0)
+    return "the ends of the bar lie on each other as drawn, need other ends, or free" +
+           std::string{draft.law ? "" : " with stiffness"};
+  return draft.pretension ? pretension_problem(draft, bar, numbers) : "";
 }
 
 }  // namespace
 
-model::LineSpring bar_of(const BarDraft& draft, const model::Anchor& from, const model::Anchor& to,
-                         const model::Mechanism& mechanism, const Numbers& numbers) {
-  model::LineSpring bar{.name = draft.name, .from = from, .to = to};
-  bar.free =
-      draft.free ? numbers[*draft.free] : free_length(draft, drawn_length(mechanism, bar), numbers);
-  bar.stiffness = draft.EA ? numbers[*draft.EA] / bar.free : numbers[*draft.stiffness];
-  return bar;
+void add_bars(const MechanismDraft& draft, const Numbers& numbers, model::Mechanism& mechanism) {
+  for (const BarDraft& own : draft.bars) {
+    const Bar bar = bar_of(own, mechanism, numbers);
+    if (is_line(own)) {
+      mechanism.line_springs.push_back({own.name, bar.from, bar.to, bar.stiffness, bar.free});
+      continue;
+    }
+    model::ShapeSpring spring{.name = own.name, .law = law_of_length(own, bar, numbers)};
+    spring.shape.points = {bar.from, bar.to};
+    mechanism.shape_springs.push_back(std::move(spring));
+  }
+}
+
+std::vector<const BarDraft*> bars_of(const MechanismDraft& draft, bool line) {
+  std::vector<const BarDraft*> list;
+  for (const BarDraft& bar : draft.bars)
+    if (is_line(bar) == line) list.push_back(&bar);
+  return list;
 }
 
 void check_bars(const MechanismDraft& draft, const Numbers& numbers,
                 const model::Mechanism& mechanism, const std::string& when, Problems& problems) {
-  for (std::size_t i = 0; i < draft.bars.size(); ++i) {
-    const BarDraft& bar = draft.bars[i];
-    const std::string problem =
-        problem_in(bar, mechanism.line_springs[draft.springs.size() + i], mechanism, numbers);
-    if (!problem.empty()) problems.add(bar.place, bar.key, problem, when);
-  }
+  for (const BarDraft& bar : draft.bars)
+    if (const std::string problem = problem_in(bar, mechanism, numbers); !problem.empty())
+      problems.add(bar.place, bar.key, problem, when);
 }
 
 void list_nodes(const MechanismDraft& draft, Case& the_case) {

@@ -6,12 +6,16 @@
 
 namespace springfold::io {
 
-/// The line spring that the bar is. Its free length is the one given; or that between its ends as
-/// drawn, less what the pretension has stretched it: (l - T/k), or l/(1 + T/EA). Points of chains are
-/// drawn with the guesses of their joints.
-/// @param mechanism  bodies and chains are built
-model::LineSpring bar_of(const BarDraft& draft, const model::Anchor& from, const model::Anchor& to,
-                         const model::Mechanism& mechanism, const std::vector<double>& numbers);
+/// Adds the bars, behind the springs that are there: linear ones as line springs, those that act one
+/// way or have a law as springs of a distance. The free length is the one given; or that between the
+/// ends as drawn, less what the pretension has stretched it: (l - T/k), or l/(1 + T/EA). Points of
+/// chains are drawn with the guesses of their joints.
+/// @param mechanism  bodies, chains and springs are built
+void add_bars(const MechanismDraft& draft, const std::vector<double>& numbers,
+              model::Mechanism& mechanism);
+
+/// Bars that are line springs, or those that are not, in the order of the mechanism.
+std::vector<const BarDraft*> bars_of(const MechanismDraft& draft, bool line);
 
 /// Reports bars without length, and pretensions that no free length gives.
 void check_bars(const MechanismDraft& draft, const std::vector<double>& numbers,

@@ -40,15 +40,20 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
     const LineSpringDraft& at = draft.springs[spring->number - 1];
     return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
   }
-  if (spring && spring->number <= draft.springs.size() + draft.bars.size()) {
-    const BarDraft& at = draft.bars[spring->number - 1 - draft.springs.size()];
-    return problems.add(at.place, at.key, rest_of(view.substr(spring->length)), when);
-  }
+  const auto add_bar = [&](bool line, std::size_t i, std::size_t length) {
+    const std::vector<const BarDraft*> bars = bars_of(draft, line);
+    if (i < bars.size())
+      problems.add(bars[i]->place, bars[i]->key, rest_of(view.substr(length)), when);
+    return i < bars.size();
+  };
+  if (spring && add_bar(true, spring->number - 1 - draft.springs.size(), spring->length)) return;
   const auto shape = numbered(view, "shape");
   if (shape && shape->number <= draft.shape_springs.size()) {
     const ShapeSpringDraft& at = draft.shape_springs[shape->number - 1];
     return problems.add(at.place, at.key, rest_of(view.substr(shape->length)), when);
   }
+  if (shape && add_bar(false, shape->number - 1 - draft.shape_springs.size(), shape->length))
+    return;
   const auto chain = numbered(view, "chain");
   if (!chain || chain->number > draft.chains.size())
     return problems.add(study.place, study.key, text, when);

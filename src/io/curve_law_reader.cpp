@@ -106,10 +106,11 @@ SpringDraft read_formula_law(const SpringReader& reader) {
 
 SpringDraft read_logarithmic(const SpringReader& reader) {
   const TableReader t = reader.table({"stiffness", "length", "free"});
-  return LogarithmicDraft{.stiffness = reader.stiffness(t, "stiffness"),
-                          .length = t.required_number(
-                              "length", {Range::positive, reader.units.coordinate}, reader.numbers),
-                          .free = reader.free(t)};
+  LogarithmicDraft draft{.stiffness = reader.stiffness(t, "stiffness"), .free = reader.free(t)};
+  if (!reader.units.has_length || t.has("length"))
+    draft.length =
+        t.required_number("length", {Range::positive, reader.units.coordinate}, reader.numbers);
+  return draft;
 }
 
 SpringDraft read_power(const SpringReader& reader) {

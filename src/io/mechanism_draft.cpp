@@ -118,13 +118,6 @@ model::CoupledSpring coupled_of(const CoupledDraft& draft, const std::vector<std
   return spring;
 }
 
-model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
-  return {.body = draft.body,
-          .chain = draft.chain,
-          .point = draft.point,
-          .at = vec3_of(draft.at, numbers)};
-}
-
 model::Shape shape_of(const ShapeDraft& draft, const Numbers& numbers) {
   model::Shape shape{.kind = draft.kind, .closed = draft.closed, .triangles = draft.triangles};
   for (const AnchorDraft& point : draft.points) shape.points.push_back(anchor_of(point, numbers));
@@ -150,6 +143,13 @@ model::ChainPoint point_of(const PointDraft& draft, std::size_t elements_before,
 }
 
 }  // namespace
+
+model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
+  return {.body = draft.body,
+          .chain = draft.chain,
+          .point = draft.point,
+          .at = vec3_of(draft.at, numbers)};
+}
 
 std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers) {
   model::Chain chain;
@@ -215,11 +215,9 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
                                       .to = anchor_of(spring.to, numbers),
                                       .stiffness = numbers[spring.stiffness],
                                       .free = numbers[spring.free]});
-  for (const BarDraft& bar : draft.bars)
-    mechanism.line_springs.push_back(
-        bar_of(bar, anchor_of(bar.from, numbers), anchor_of(bar.to, numbers), mechanism, numbers));
   for (const ShapeSpringDraft& spring : draft.shape_springs)
     mechanism.shape_springs.push_back(shape_spring_of(spring, numbers));
+  add_bars(draft, numbers, mechanism);
   return mechanism;
 }
 

@@ -120,11 +120,15 @@ struct SupportDraft {
   std::string key{};
 };
 
-/// A straight linear bar between two points: a line spring whose free length may be that drawn.
+/// A straight bar between two points, whose free length may be that drawn: linear, one-sided or with
+/// a law of its elongation.
 struct BarDraft {
+  enum class Acts { both_ways, in_tension, in_compression };
   std::string name{};
   AnchorDraft from{}, to{};
-  std::optional<NumberId> stiffness{}, EA{};     ///< one of both [force/length], [force]
+  std::optional<NumberId> stiffness{}, EA{};     ///< one of both, or `law` [force/length], [force]
+  Acts acts = Acts::both_ways;                   ///< with stiffness or EA
+  std::optional<SpringDraft> law{};              ///< force over elongation
   std::optional<NumberId> free{}, pretension{};  ///< one or none [length], [force]
   Place place{};
   std::string key{};
@@ -183,8 +187,9 @@ struct MechanismDraft {
   std::vector<NumberId> gravity{};
   std::vector<LineSpringDraft> springs{};
   std::vector<SupportDraft> supports{};
-  std::vector<BarDraft> bars{};  ///< in the model they are line springs behind `springs`
   std::vector<ShapeSpringDraft> shape_springs{};
+  std::vector<BarDraft>
+      bars{};  ///< in the model line springs behind `springs`, or shapes behind these
   std::vector<LoadDraft> loads{};  ///< of all studies
 };
 
@@ -193,6 +198,9 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
 
 /// For every element of the chain's model, the place of the element of the draft that it comes from.
 std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers);
+
+/// @param numbers  values of the table that the draft's ids belong to
+model::Anchor anchor_of(const AnchorDraft& draft, const std::vector<double>& numbers);
 
 /// @param numbers  values of the table that the draft's ids belong to
 std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts,

@@ -15,6 +15,7 @@ struct JointUnits {
   std::string coordinate{};  ///< "rad" or "m"
   std::string torque{};      ///< "N*m" or "N"
   std::string stiffness{};   ///< "N*m/rad" or "N/m"
+  bool has_length = false;   ///< is it the elongation of a bar, which has a length of its own?
 };
 JointUnits units_of(model::JointKind kind, const UnitLabels& labels);
 

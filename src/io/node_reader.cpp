@@ -1,4 +1,4 @@
-// [[node]] and [[bar]].
+// [[node]].
 #include <algorithm>
 
 #include "anchor_reader.hpp"
@@ -98,52 +98,6 @@ void read_node(const Item& item, MechanismDraft& draft, Reading& reading) {
   draft.bodies.push_back(std::move(node));
 }
 
-/// The name of a bar that has none: "a-b".
-std::string read_bar_name(const TableReader& table, const MechanismDraft& draft, Reading& reading) {
-  if (table.has("name")) return read_own_name(table, draft, reading);
-  const Node *from = table.find("from"), *to = table.find("to");
-  std::string name = (from ? from->text : "base") + "-" + (to ? to->text : "");
-  if (is_taken(name, draft))
-    reading.problems.add(table.place(), table.key_of("name"),
-                         "missing, need a name: \"" + name + "\", as it would be called, is taken");
-  return name;
-}
-
-BarDraft read_bar(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{
-      *item.node,
-      item.key,
-      {"name", "from", "from_at", "to", "to_at", "stiffness", "EA", "free", "pretension"},
-      reading};
-  BarDraft bar{.place = item.node->place, .key = item.key};
-  bar.name = read_bar_name(table, draft, reading);
-  const std::string ends = "the name of a node, of a body, or \"chain.point\"";
-  for (const auto& [name, anchor] : {std::pair{"from", &bar.from}, {"to", &bar.to}})
-    if (table.required_text(name, ends))
-      find_anchor({table.find(name), table.key_of(name)}, draft, true, *anchor, reading);
-  NumberTable& numbers = draft.numbers;
-  bar.from.at = read_at(table, "from_at", draft, bar.from, numbers, reading);
-  bar.to.at = read_at(table, "to_at", draft, bar.to, numbers, reading);
-  const std::string length = reading.units.length, force = reading.units.force;
-  if (table.has("stiffness") == table.has("EA"))
-    reading.problems.add(
-        table.place(), table.key(),
-        std::string{table.has("EA") ? "got stiffness and EA" : "got neither stiffness nor EA"} +
-            ", need exactly one of them");
-  if (table.has("free") && table.has("pretension"))
-    reading.problems.add(table.find("pretension")->place, table.key_of("pretension"),
-                         "either free or pretension, not both: each says how long the bar is "
-                         "without force");
-  if (table.has("stiffness"))
-    bar.stiffness =
-        table.number("stiffness", {Range::non_negative, force + "/" + length}, numbers, 0);
-  if (table.has("EA")) bar.EA = table.number("EA", {Range::positive, force}, numbers, 0);
-  if (table.has("free")) bar.free = table.number("free", {Range::non_negative, length}, numbers, 0);
-  if (table.has("pretension"))
-    bar.pretension = table.number("pretension", {Range::finite, force}, numbers, 0);
-  return bar;
-}
-
 }  // namespace
 
 void read_nodes(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
@@ -151,10 +105,6 @@ void read_nodes(const std::vector<Item>& tables, MechanismDraft& draft, Reading&
   if (draft.bodies.empty() && !tables.empty())
     reading.problems.add(tables.front().node->place, tables.front().key,
                          "all nodes are fixed, need one that moves");
-}
-
-void read_bars(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
-  for (const Item& item : tables) draft.bars.push_back(read_bar(item, draft, reading));
 }
 
 }  // namespace springfold::io

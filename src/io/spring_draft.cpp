@@ -73,7 +73,7 @@ struct LawBuilder {
     return law;
   }
   SpringLaw operator()(const LogarithmicDraft& s) const {
-    return model::LogarithmicSpring{n[s.stiffness], n[s.length], n[s.free]};
+    return model::LogarithmicSpring{n[s.stiffness], s.length ? n[*s.length] : 1, n[s.free]};
   }
   SpringLaw operator()(const PowerDraft& s) const {
     return model::PowerSpring{n[s.force], n[s.depth], n[s.exponent], n[s.from], s.below};

@@ -1,6 +1,7 @@
 // Spring laws whose numbers are still formulas.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -52,8 +53,11 @@ struct FormulaDraft {
   NumberId free = 0, low = 0, high = 0;
   bool from_start = false, falling = false;
 };
+/// Without a length: that of the bar whose law it is.
 struct LogarithmicDraft {
-  NumberId stiffness = 0, length = 0, free = 0;
+  NumberId stiffness = 0;
+  std::optional<NumberId> length{};
+  NumberId free = 0;
   bool from_start = false;
 };
 struct PowerDraft {

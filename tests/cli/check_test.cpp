@@ -89,6 +89,12 @@ at = [1, "1 + i"]
 from = "pin"
 to = "foot"
 stiffness = 3
+[[bar]]
+name = "cable"
+from = "pin"
+to = "n1"
+stiffness = 3
+tension_only = true
 [[spring]]
 name = "tie"
 to = "n0"
@@ -116,6 +122,7 @@ start = { from = "press", at = "start" }
        {"node      pin (fixed)", "node      foot (held in y)", "node      and 10 more: 22 in all",
         "spring    tie: base [0, 0] to n0, stiffness 2, free length 0",
         "bar       pin-foot: base [0, 0] to foot, stiffness 3, free length 2",
+        "bar       cable: base [0, 0] to n1, stiffness 3 above 2.23607",
         "load      1: force [0, -1, 0] on n0, times lambda",
         "lambda: force [N] on foot along [-1, 0], and factor of load 1",
         "starts from study \"press\" at start",

@@ -130,8 +130,8 @@ TEST_F(NodeMessages, WantOneStiffnessAndOneFreeLength) {
       after("EA = 6\n", "EA = 6\nstiffness = 1\n"),
       ElementsAre("case.toml:17:1: bar[2]: got stiffness and EA, need exactly one of them"));
   EXPECT_THAT(after("EA = 6\n", "\n"),
-              ElementsAre("case.toml:17:1: bar[2]: got neither stiffness nor EA, need exactly one "
-                          "of them"));
+              ElementsAre("case.toml:17:1: bar[2]: got neither stiffness nor EA nor a law, need "
+                          "exactly one of them"));
   EXPECT_THAT(
       after("pretension = 1", "pretension = 1\nfree = 1"),
       ElementsAre("case.toml:22:14: bar[2].pretension: either free or pretension, not both: "
@@ -184,6 +184,74 @@ TEST_F(NodeMessages, RefuseWhatAFixedNodeCannotDo) {
                "\"a\"\nto = \"a\"\nstiffness = 1\n[[study]]\nname = \"s\"\nkind = "
                "\"equilibrium\"\n"),
       testing::Contains("case.toml:1:1: node[1]: all nodes are fixed, need one that moves"));
+}
+
+TEST_F(NodeMessages, BarsWithALawAreSpringsOfADistanceFromTheirFreeLength) {
+  const auto read = load(replaced(
+      replaced(toggle, "stiffness = 2", "law = { law = \"one_sided\", stiffness = 2, from = 0 }"),
+      "pretension = 1", "free = 1.5\ncompression_only = true"));
+  const model::Mechanism& mechanism = read.runs.front().mechanism;
+  EXPECT_TRUE(mechanism.line_springs.empty());
+  ASSERT_EQ(mechanism.shape_springs.size(), 2U);
+  const auto& cable = std::get<model::OneSidedSpring>(mechanism.shape_springs[0].law);
+  EXPECT_EQ(cable.from, std::sqrt(2.0));
+  EXPECT_EQ(cable.side, model::OneSidedSpring::Side::above);
+  const auto& strut = std::get<model::OneSidedSpring>(mechanism.shape_springs[1].law);
+  EXPECT_EQ(strut.from, 1.5);
+  EXPECT_EQ(strut.stiffness, 6 / 1.5);
+  EXPECT_EQ(strut.side, model::OneSidedSpring::Side::below);
+  EXPECT_THAT(read.bars, ElementsAre("pin-top", "right"));
+}
+
+TEST_F(NodeMessages, WantOneLawOrOneStiffness) {
+  const std::string law = "law = { law = \"linear\", stiffness = 2 }\n";
+  EXPECT_THAT(
+      after("EA = 6\n", "EA = 6\n" + law),
+      testing::Contains("case.toml:17:1: bar[2]: got EA and law, need exactly one of them"));
+  EXPECT_THAT(after("EA = 6\n", law),
+              ElementsAre("case.toml:22:14: bar[2].pretension: goes with stiffness or EA; of a bar "
+                          "with a law give the free length, free"));
+  EXPECT_THAT(after("EA = 6\npretension = 1", law + "tension_only = true"),
+              ElementsAre("case.toml:22:16: bar[2].tension_only: goes with stiffness or EA; of a "
+                          "law say so in the law, such as { law = \"one_sided\", stiffness = 3, "
+                          "from = 0 }"));
+  EXPECT_THAT(after("stiffness = 2", "law = { law = \"linear\", stiffness = -2 }"),
+              ElementsAre("case.toml:16:37: bar[1].law.stiffness: got -2, need a number >= 0 "
+                          "[N/m], or falling = true for a law that may fall"));
+  EXPECT_THAT(
+      after("stiffness = 2", "law = { law = \"linear\", stiffness = 2, origin = \"start\" }"),
+      ElementsAre("case.toml:16:7: bar[1].law.origin: laws of bars count from the free "
+                  "length: need \"joint\" or no origin"));
+}
+
+TEST_F(NodeMessages, WantPretensionsThatStrutsAndCablesCanCarry) {
+  EXPECT_THAT(after("pretension = 1", "pretension = -1\ntension_only = true"),
+              ElementsAre("case.toml:17:1: bar[2]: pretension: got -1, need a number >= 0: the bar "
+                          "has tension_only = true (study \"a\")"));
+  EXPECT_THAT(after("pretension = 1", "pretension = 1\ncompression_only = true"),
+              ElementsAre("case.toml:17:1: bar[2]: pretension: got 1, need a number <= 0: the bar "
+                          "has compression_only = true (study \"a\")"));
+  EXPECT_THAT(after("pretension = 1", "tension_only = true\ncompression_only = true"),
+              ElementsAre("case.toml:23:20: bar[2].compression_only: either tension_only or "
+                          "compression_only, not both: it would carry nothing"));
+}
+
+// The second bar is a line spring, the first one is not: each has its own place.
+TEST_F(NodeMessages, NameTheRightBarWhereOthersHaveLaws) {
+  const std::string mixed = replaced(toggle, "stiffness = 2", "stiffness = 2\ntension_only = true");
+  EXPECT_THAT(messages(replaced(mixed, "pretension = 1", "pretension = -6")),
+              ElementsAre("case.toml:18:1: bar[2]: pretension: got -6, need a tension > -EA = -6 "
+                          "(study \"a\")"));
+  EXPECT_THAT(messages(replaced(mixed, "pretension = 1", "to_at = [1, 0]")),
+              ElementsAre("case.toml:18:1: bar[2]: to: at: a body that is a point has no other "
+                          "points, need none (study \"a\")"));
+  EXPECT_THAT(messages(replaced(mixed, "stiffness = 2", "to_at = [1, 0]\nstiffness = 2")),
+              ElementsAre("case.toml:13:1: bar[1]: of[2]: at: a body that is a point has no other "
+                          "points, need none (study \"a\")"));
+  EXPECT_THAT(messages(replaced(mixed, "from = \"pin\"\nto = \"top\"",
+                                "from = \"pin\"\nto = \"base\"\nto_at = [3, 3]")),
+              ElementsAre("case.toml:13:1: bar[1]: from, to: one of both must be able to move "
+                          "(study \"a\")"));
 }
 
 }  // namespace
