@@ -32,7 +32,8 @@ Anchor random_anchor(const Bare& bare, Random& random) {
     anchor.at << sign(random) * reach, 0;
   else
     anchor.at << reach * std::cos(azimuth), reach * std::sin(azimuth), 0;
-  anchor.at[bare.horizontals] = -uniform(random, -0.5, bare.corners[anchor.corner].height + 0.5);
+  const double height = bare.corners[anchor.corner].place[bare.horizontals];
+  anchor.at[bare.horizontals] = -uniform(random, -0.5, height + 0.5);
   return anchor;
 }
 
@@ -80,12 +81,13 @@ std::string study(const Bare& bare, const Draw& draw) {
 }
 
 /// One try; false: it would fall under no load at all.
-bool try_draw(Random& random, Draw& result) {
+bool try_draw(Random& random, bool space_frame, Draw& result) {
   result = {};
   result.pretension = pretensions[static_cast<std::size_t>(choice(random, std::size(pretensions)))];
   const bool tight = result.pretension > 0;
   const bool hinges_give = result.pretension < -told_as_resting || choice(random, 4) != 0;
-  Bare bare = random_bare(hinges_give, random);
+  Bare bare =
+      space_frame ? random_space_frame(hinges_give, random) : random_bare(hinges_give, random);
   result.family = bare.family;
   result.sways = bare.sways;
   result.structure.springs = bare.springs;
@@ -103,7 +105,7 @@ bool try_draw(Random& random, Draw& result) {
     const Attached cable = attach(bare, list[i].corner, list[i].at, stiffness, stretch);
     result.structure.cables.push_back(cable.cable);
     const bool as_chain = bare.horizontals == 1 && choice(random, 2) == 0;
-    cables += as_chain ? cable_chain(bare, cable, i + 1) : cable_spring(bare, cable, i + 1);
+    cables += as_chain ? cable_chain(cable, i + 1) : cable_spring(cable, i + 1);
   }
   constexpr double least_load = 0.02;
   const std::vector<double> loads = loads_of(result.structure);
@@ -116,9 +118,9 @@ bool try_draw(Random& random, Draw& result) {
 
 }  // namespace
 
-Draw draw(Random& random) {
+Draw draw(Random& random, bool space_frame) {
   Draw result;
-  while (!try_draw(random, result)) {
+  while (!try_draw(random, space_frame, result)) {
   }
   return result;
 }

@@ -18,7 +18,7 @@ struct Sway {
 };
 
 struct Draw {
-  std::string family{};   ///< "column", "column in space", "frame"
+  std::string family{};   ///< "column", "column in space", "frame", "frame in space"
   double pretension = 0;  ///< of the length of the cables; negative: slack
   std::string text{};     ///< the case file
   Structure structure{};
@@ -30,6 +30,7 @@ struct Draw {
 inline constexpr double told_as_resting = 1e-10;
 
 /// One of the families, with 1 to 6 cables that are stretched, slack or just at rest.
-Draw draw(Random& random);
+/// @param space_frame  a frame in space; otherwise one of the other families
+Draw draw(Random& random, bool space_frame);
 
 }  // namespace springfold::guyed

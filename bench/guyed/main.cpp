@@ -2,6 +2,7 @@
 // load grows, run as case files and judged against closed forms of the linearised cones.
 //
 //     guyed [N] [seed] [--check] [--threads n] [--named file] [--draw i] [--verbose] [--case file]
+//           [--space-frames]
 //
 // Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what is drawn and what is judged. With --check the exit
 // code is 1 if anything is wrong, or more than one draw in a hundred is unresolved.
@@ -29,7 +30,7 @@ struct Settings {
   unsigned long long seed = 1;
   unsigned threads = 1;
   long draw = -1;  ///< only this one
-  bool verbose = false, check = false;
+  bool verbose = false, check = false, space_frames = false;
   std::string file{};   ///< where the case of the draw is kept
   std::string named{};  ///< draws of this file instead
 };
@@ -37,6 +38,7 @@ struct Settings {
 struct DrawName {
   unsigned long long seed = 1;
   long number = 0;
+  bool space_frame = false;
 };
 
 struct Judged {
@@ -66,7 +68,7 @@ void print_truth(const Draw& draw) {
   }
 }
 
-/// Lines "seed draw   # what it showed". @throws std::runtime_error with the line that cannot be read
+/// Lines "seed draw   # what it showed"; "frame in space" before the #: a draw of --space-frames. @throws std::runtime_error with the line that cannot be read
 std::vector<DrawName> read_names(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read");
@@ -77,8 +79,13 @@ std::vector<DrawName> read_names(const std::string& path) {
     std::istringstream words(line.substr(0, line.find('#')));
     DrawName name;
     if (!(words >> std::ws) || words.eof()) continue;
-    if (!(words >> name.seed >> name.number) || name.number < 0 || !(words >> std::ws).eof())
-      throw std::runtime_error(path + ":" + std::to_string(count) + ": need seed and draw");
+    std::string family;
+    const bool numbers = static_cast<bool>(words >> name.seed >> name.number) && name.number >= 0;
+    std::getline(words >> std::ws, family);
+    name.space_frame = family.starts_with("frame in space");
+    if (!numbers || (!family.empty() && !name.space_frame))
+      throw std::runtime_error(path + ":" + std::to_string(count) +
+                               ": need seed and draw, perhaps \"frame in space\"");
     names.push_back(name);
   }
   return names;
@@ -86,16 +93,17 @@ std::vector<DrawName> read_names(const std::string& path) {
 
 std::vector<DrawName> draws_of(const Settings& settings) {
   if (!settings.named.empty()) return read_names(settings.named);
-  if (settings.draw >= 0) return {{settings.seed, settings.draw}};
+  if (settings.draw >= 0) return {{settings.seed, settings.draw, settings.space_frames}};
   std::vector<DrawName> names;
-  for (long i = 0; i < settings.count; ++i) names.push_back({settings.seed, i});
+  for (long i = 0; i < settings.count; ++i)
+    names.push_back({settings.seed, i, settings.space_frames});
   return names;
 }
 
 Judged run(const Settings& settings, const DrawName& name) {
   const long number = name.number;
   Random random(name.seed * 1000003ull + static_cast<unsigned long long>(number));
-  const Draw drawn = draw(random);
+  const Draw drawn = draw(random, name.space_frame);
   const auto file = settings.file.empty()
                         ? std::filesystem::temp_directory_path() /
                               ("guyed-" + std::to_string(::getpid()) + "-" +
@@ -191,6 +199,7 @@ int main(int argc, char** argv) {
   app.add_option("--named", settings.named, "a file of lines: seed, draw; instead of N and seed");
   app.add_option("--draw", settings.draw, "only this draw");
   app.add_option("--case", settings.file, "with --draw: keep the case in this file");
+  app.add_flag("--space-frames", settings.space_frames, "frames in space, nothing else");
   app.add_flag("--verbose", settings.verbose, "all that was expected and found");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   CLI11_PARSE(app, argc, argv);
