@@ -138,9 +138,9 @@ TEST_F(Interruption, WhileRowsAreFilledKeepsTheStudyBefore) {
 }
 
 TEST_F(Interruption, OfACheckThatSolvesForLong) {
-  put_text(scratch.path() / "case.toml", large_mechanism(250));
+  put_text(scratch.path() / "case.toml", large_mechanism(400));
   Child child{scratch.path(), {"check", "case.toml"}};
-  child.wait_until_used(2);
+  child.wait_until_used(1);
   child.send(SIGINT);
   EXPECT_EQ(child.wait(allowed), 130);
 }

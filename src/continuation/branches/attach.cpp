@@ -96,6 +96,9 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
   // Rounding blurs the place of a multiple point, and beside a degenerate one lambda is flat to
   // rounding; nothing else can be as near.
   const auto is_junction_itself = [&](const Hit& hit) {
+    if (are_in_different_pieces(walker, junction, hit.point) ||
+        !lies_on(walker, junction, hit.switches))
+      return false;
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
     const double distance = length_of(walker, between(walker, junction, hit.point));
     const bool level = std::abs(hit.point.lambda - junction.lambda) <= 1e-12 * scale;

@@ -91,22 +91,6 @@ bool is_junction(const Hit& hit) {
          hit.kind == HitKind::branching_kink;
 }
 
-/// Do two points lie on different sides of a surface, clear of it? Then they are two, however near: beside springs that
-/// are nearly at rest branch points of several pieces crowd together.
-bool are_in_different_pieces(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
-  if (a.piece == b.piece || a.piece.size() != b.piece.size()) return false;
-  Vector ga, gb;
-  if (!walker.problem.switches(a.x, a.lambda, ga) || !walker.problem.switches(b.x, b.lambda, gb))
-    return false;
-  for (std::size_t j = 0; j < a.piece.size(); ++j) {
-    const auto k = static_cast<Index>(j);
-    if (a.piece[j] != b.piece[j] &&
-        std::max(std::abs(ga[k]), std::abs(gb[k])) > walker.options.simultaneous)
-      return true;
-  }
-  return false;
-}
-
 /// The nearest junction that is the same point. Points that a curve has passed right before are others: between two
 /// passages of one point lies a whole loop.
 int Tracer::junction_at(const Hit& hit) {

@@ -154,7 +154,7 @@ std::vector<Index> active_switches(const Walker& walker, const Vector& x, double
 }
 
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
-                 double full_rank) {
+                 double full_rank, const Direction* along) {
   assert(active.size() <= most_active);
   Surfaces surfaces{.active = active};
   if (!active.empty() &&
@@ -169,7 +169,13 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
-    const PieceWays ways = regular_ways(walker, ray, full_rank, active.empty());
+    const bool arrives = along && ray.piece == at.piece;
+    PieceWays ways =
+        arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, active.empty());
+    if (along && active.size() == 1 &&
+        ways.conditioning > 0)  // the point lies on the surface to rounding
+      for (PieceWay& way : ways.list)
+        way.accuracy = std::min(way.accuracy, exact_tangent / ways.conditioning);
     if (ways.singular) singular.push_back(pattern);
     add(ways);
   }
@@ -192,7 +198,7 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, active.empty() ? 1e-12 : 1e-9);
+  return rays_around(walker, at, active, active.empty() ? 1e-12 : regular_at_kinks);
 }
 
 }  // namespace springfold::continuation

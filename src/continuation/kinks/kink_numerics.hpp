@@ -1,6 +1,7 @@
 // The tolerances with which points on switching surfaces are judged. Private to the engine.
 #pragma once
 
+#include "continuation/points/numerics.hpp"
 #include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
@@ -8,6 +9,9 @@ namespace springfold::continuation {
 /// Special points are located to 1e-10 of their size; matrices there are singular to this, and rates
 /// of switches zero to this, with two orders to spare.
 inline constexpr double located_rank = 1e-8;
+
+/// Ratio of singular values from which a piece is regular at a kink on a curve, which is corrected to rounding.
+inline constexpr double regular_at_kinks = 1e-9;
 
 /// So near to a singular point corrected points may be off by the root of their rounding.
 inline constexpr double perhaps_singular = 1e-4;
@@ -25,6 +29,9 @@ inline constexpr double no_length = 1e-14;
 
 /// Error of the tangent of a piece that is regular at a located point.
 inline constexpr double regular_tangent = 1e-9;
+
+/// The same, times the piece's conditioning, where the point is exact to rounding.
+inline constexpr double exact_tangent = 1000 * rounding_unit;
 
 /// Rates of switches below this along a unit tangent run along the surface.
 inline constexpr double along_surface = 1e-8;

@@ -70,10 +70,6 @@ std::optional<Direction> equilibrated_tangent(const Walker& walker, const CurveP
   return unit(own->columns.cwiseProduct(qr.last_column), walker.weights);
 }
 
-PieceWays both_ways(const Direction& tangent) {
-  return {.list = {{tangent, {}, regular_tangent}, {opposite(tangent), {}, regular_tangent}}};
-}
-
 /// The kernel of the piece's extended Jacobian: the singular vectors of all values below
 /// `located_rank`, where these stand apart from the others.
 struct Kernel {
@@ -133,6 +129,10 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
 
 }  // namespace
 
+PieceWays both_ways(const Direction& tangent) {
+  return {.list = {{tangent, {}, regular_tangent}, {opposite(tangent), {}, regular_tangent}}};
+}
+
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
 PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank,
                        bool polished) {
@@ -156,7 +156,9 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   }
   const auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "the metric gives the tangent no length"};
-  return both_ways(*d);
+  PieceWays ways = both_ways(*d);
+  ways.conditioning = qr.pivots[n - 1] / size;
+  return ways;
 }
 
 bool before_next_surface(const Walker& walker, const CurvePoint& at, const Surfaces& surfaces,

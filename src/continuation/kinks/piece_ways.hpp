@@ -22,7 +22,11 @@ struct PieceWays {
   bool singular =
       false;          ///< the extended Jacobian of the piece has no full rank here: list is empty
   std::string why{};  ///< set: not all of them could be found
+  double conditioning = 0;  ///< of a regular piece: least ratio of pivots; 0: not known
 };
+
+/// A curve along its tangent, and back.
+PieceWays both_ways(const Direction& tangent);
 
 /// The two directions of the curve of a piece that is regular here.
 /// @param full_rank  smallest ratio of pivots that counts as full rank

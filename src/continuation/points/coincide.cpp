@@ -110,4 +110,29 @@ bool passes_through(ProblemView problem, const Curve& curve, const CurvePoint& p
   return false;
 }
 
+bool are_in_different_pieces(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
+  if (a.piece == b.piece || a.piece.size() != b.piece.size()) return false;
+  Vector ga, gb;
+  if (!walker.problem.switches(a.x, a.lambda, ga) || !walker.problem.switches(b.x, b.lambda, gb))
+    return false;
+  for (std::size_t j = 0; j < a.piece.size(); ++j) {
+    const auto k = static_cast<Index>(j);
+    if (a.piece[j] != b.piece[j] &&
+        std::max(std::abs(ga[k]), std::abs(gb[k])) > walker.options.simultaneous)
+      return true;
+  }
+  return false;
+}
+
+/// Located points may be so many times farther from a surface than switches that act together.
+constexpr double on_surface = 10;
+
+bool lies_on(const Walker& walker, const CurvePoint& point, const std::vector<Index>& switches) {
+  Vector g;
+  if (switches.empty() || !walker.problem.switches(point.x, point.lambda, g)) return true;
+  return std::all_of(switches.begin(), switches.end(), [&](Index j) {
+    return std::abs(g[j]) <= on_surface * walker.options.simultaneous;
+  });
+}
+
 }  // namespace springfold::continuation

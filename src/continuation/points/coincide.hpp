@@ -25,6 +25,13 @@ double cosine(const Walker& walker, const Direction& a, const Direction& b);
 /// Same place to 1e-7, same piece, tangents along one line.
 bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
 
+/// Do two points lie on different sides of a surface, clear of it? Then they are two, however near: beside springs that
+/// are nearly at rest special points of several pieces crowd together.
+bool are_in_different_pieces(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
+
+/// Does a located special point lie on the surfaces of these switches?
+bool lies_on(const Walker& walker, const CurvePoint& point, const std::vector<Index>& switches);
+
 /// The point `target` of the branch, if the step from -> to passes it. Given with the tangent and the arc length of this passage.
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to);

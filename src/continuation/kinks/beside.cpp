@@ -1,0 +1,36 @@
+#include "continuation/kinks/beside.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/kinks/level.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/locate.hpp"
+#include "continuation/points/numerics.hpp"
+
+namespace springfold::continuation {
+
+constexpr double turns_here = 1e-7;  // lambda's rate at a kink that is taken for zero
+
+bool told_from_zero(const CurvePoint& p) { return std::abs(p.tangent.dlambda) > 1e-11; }
+
+Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
+  if (is_level(walker, at, direction, room)) return {at, 0};
+  if (std::abs(at.tangent.dlambda) > turns_here) return {at, sense_of(at)};
+  for (const double distance : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
+    if (point && told_from_zero(*point)) return {*point, sense_of(*point), true};
+  }
+  return {at, 0};
+}
+
+Beside before_singular(const Walker& walker, const CurvePoint& at, double room) {
+  for (const double distance : {1e-6, 1e-5, told_apart}) {
+    const auto point = point_at(walker, at, -std::min(distance, 0.5 * room));
+    if (point && cosine(walker, point->tangent, at.tangent) > same_way)
+      return {*point, sense_of(*point), true};
+  }
+  return {at, 0};
+}
+
+}  // namespace springfold::continuation
