@@ -8,11 +8,15 @@
 #                 diagram and has the n-th colour, its dashes tell its stability
 #   curve_colors  one per curve: the colour of the value of its run, or 'by_hue'
 #   has_mixed     1: the block mixed holds stretches where lines of different stability lie on each other
-#   first_parts   those of them that stand for the others of their kind in the key
+#   first_parts   those of them that stand for the others of their kind in the key: kinds that are seen
+#   mixed_in_key  1: of that block something is seen
+#   quantities    number of quantities over the same x, with quantity_name[n]; the n-th has the n-th colour. Of one: 0
 #   x_log, y_log  1: logarithmic
-#   insets        number of enlarged parts; inset_x_low, inset_left, ... are lists of as many numbers
+#   insets        number of enlarged parts; inset_x_low, inset_left, ... are lists of as many numbers, the rooms
+#                 for numbers in parts of the inset; inset_x_ticks_1, inset_y_ticks_1, ... are lists of ticks
 #   has_bar       1: palette_text, bar_title, bar_low, bar_high say what the colours of curves mean
 #   point_codes   "start LP SA ...": codes that occur; block point_<code> holds x y
+#   key_codes     those of them that are seen
 # Labels and their leader lines are set already: they hang on points of the axes.
 
 part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
@@ -44,7 +48,7 @@ set title figure_title @figure_title_mode font title_font textcolor rgb ink offs
 set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
 set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
-key_rows = (words(first_parts) + words(point_codes) + has_mixed + 2) / 3
+key_rows = (words(first_parts) + words(key_codes) + mixed_in_key + quantities + 2) / 3
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
@@ -82,13 +86,15 @@ if (figure_format eq 'tikz') {
 set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
 if (insets > 0) { set multiplot }
 plot for [k = 1:has_mixed] mixed_block with lines linestyle 7 \
-         title 'with a less stable one on it', \
+         title (mixed_in_key ? 'with a less stable one on it' : ''), \
      for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
          linecolor rgb part_color(part) notitle, \
      for [part in curve_parts] 1/0 with lines linestyle part_style(part) \
          linecolor rgb key_color(part) title (is_first(part) ? part_kind(part) : ''), \
+     for [n = 1:quantities] 1/0 with lines linewidth 3.2 linecolor rgb \
+         word(branch_colors, (n - 1) % words(branch_colors) + 1) title quantity_name[n], \
      for [code in point_codes] '$point_'.code with points linestyle point_style(code) \
-         title point_name(code), \
+         title (strstrt(' '.key_codes.' ', ' '.code.' ') > 0 ? point_name(code) : ''), \
      for [k = 1:has_bar] bar_block using 1:2:(bar_value) with dots palette notitle
 do for [k = 1:insets] {
   unset title
@@ -98,7 +104,9 @@ do for [k = 1:insets] {
   unset label
   unset arrow
   unset colorbox
-  set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb 'white' \
+  # White beneath the numbers too.
+  set object 1 rectangle from graph -real(word(inset_left_room, k)), \
+      graph -real(word(inset_bottom_room, k)) to graph 1, graph 1 noclip behind fillcolor rgb 'white' \
       fillstyle solid noborder
   set lmargin at screen real(word(inset_left, k))
   set rmargin at screen real(word(inset_right, k))
@@ -107,11 +115,12 @@ do for [k = 1:insets] {
   set xrange [real(word(inset_x_low, k)):real(word(inset_x_high, k))]
   set yrange [real(word(inset_y_low, k)):real(word(inset_y_high, k))]
   set border 15
-  inset_x_step = (real(word(inset_x_high, k)) - real(word(inset_x_low, k))) / 3
-  set xtics inset_x_step font key_font
-  inset_y_step = (real(word(inset_y_high, k)) - real(word(inset_y_low, k))) / 3
-  set ytics inset_y_step font key_font
-  set format '%.3g'
+  inset_x_ticks = value(sprintf('inset_x_ticks_%d', k))
+  inset_y_ticks = value(sprintf('inset_y_ticks_%d', k))
+  set xtics (word(inset_x_ticks, 1) real(word(inset_x_ticks, 1))) font key_font
+  set ytics (word(inset_y_ticks, 1) real(word(inset_y_ticks, 1))) font key_font
+  do for [tick in inset_x_ticks] { set xtics add (tick real(tick)) }
+  do for [tick in inset_y_ticks] { set ytics add (tick real(tick)) }
   plot for [j = 1:has_mixed] mixed_block with lines linestyle 7, \
        for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
            linecolor rgb part_color(part), \
@@ -120,7 +129,6 @@ do for [k = 1:insets] {
   set border 3
   set xtics autofreq font base_font
   set ytics autofreq font base_font
-  set format '%g'
 }
 if (insets > 0) { unset multiplot }
 unset output

@@ -86,16 +86,18 @@ class Legend {
   }
 
   void add_springs() {
-    const auto has = [](bool acts) {
-      return [acts](const Scene& scene) {
-        return std::any_of(scene.springs.begin(), scene.springs.end(),
-                           [&](const SpringPart& spring) { return spring.acts == acts; });
-      };
+    const auto has_idle = [](const Scene& scene) {
+      return std::any_of(scene.springs.begin(), scene.springs.end(),
+                         [](const SpringPart& spring) { return !spring.acts; });
     };
-    const bool is_coloured = sheet_.colouring == Colouring::energy;
-    if (any(has(true)) && !is_coloured)
-      entries_.push_back({"spring", {spring_colour, "", 1.8, {}}});
-    if (any(has(false)))
+    const auto has_own_colour = [this](const Scene& scene) {
+      return std::any_of(scene.springs.begin(), scene.springs.end(), [&](const SpringPart& spring) {
+        return spring.acts && !has_colour_of_value(spring, sheet_.colouring) &&
+               !has_colour_of_stability(scene, spring, sheet_.colouring);
+      });
+    };
+    if (any(has_own_colour)) entries_.push_back({"spring", {spring_colour, "", 1.8, {}}});
+    if (any(has_idle))
       entries_.push_back({"spring that does not act here", {passive_colour, "", 1.2, {3, 2}}});
   }
 

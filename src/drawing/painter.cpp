@@ -121,9 +121,9 @@ class Painter {
     std::string title = "spring " + spring.name;
     title += spring.is_one_sided ? (spring.acts ? ", acts" : ", does not act") : "";
     if (std::isfinite(spring.force)) title += ", force " + rounded(spring.force);
-    const bool is_coloured = sheet_.colouring == Colouring::energy ||
-                             (sheet_.colouring == Colouring::force && spring.is_line);
-    if (is_coloured && spring.acts) {
+    if (has_colour_of_stability(scene_, spring, sheet_.colouring))
+      ink.stroke = stability_colour(panel_);
+    if (has_colour_of_value(spring, sheet_.colouring)) {
       const double value = sheet_.colouring == Colouring::energy ? spring.energy : spring.force;
       if (std::isfinite(value)) ink.stroke = ramp_colour(share(value));
       ink.width = 2.4;
@@ -318,6 +318,15 @@ std::string stability_colour(const Panel& panel) {
   if (!panel.unstable_dead) return ink_colour;
   if (*panel.unstable_dead == 0) return stable_colour;
   return panel.unstable_driven ? driven_colour : unstable_colour;
+}
+
+bool has_colour_of_stability(const Scene& scene, const SpringPart& spring, Colouring colouring) {
+  return colouring == Colouring::stability && scene.links.empty() && spring.is_line && spring.acts;
+}
+
+bool has_colour_of_value(const SpringPart& spring, Colouring colouring) {
+  return spring.acts &&
+         (colouring == Colouring::energy || (colouring == Colouring::force && spring.is_line));
 }
 
 std::vector<PointId> places_of(const Scene& scene) {

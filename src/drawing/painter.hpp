@@ -23,6 +23,12 @@ std::string ramp_colour(double t);
 /// Of the links, by stability.
 std::string stability_colour(const Panel& panel);
 
+/// Springs between two points have the colour of stability where there is no link that could: bars between nodes.
+bool has_colour_of_stability(const Scene& scene, const SpringPart& spring, Colouring colouring);
+
+/// Is it drawn in the colour of its force or energy?
+bool has_colour_of_value(const SpringPart& spring, Colouring colouring);
+
 /// What all panels share.
 struct Sheet {
   View view{};

@@ -1,6 +1,9 @@
 #include "canvas.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "round_ticks.hpp"
 
 namespace springfold::io {
 namespace {
@@ -46,13 +49,25 @@ PlotPoint from_pixels(const Figure& figure, const Canvas& canvas, const PlotPoin
           value_between(v, figure.low.second, figure.high.second, figure.look.y_log)};
 }
 
-std::pair<PlotPoint, PlotPoint> frame_of(const PlotInset& inset, const Canvas& canvas) {
-  constexpr double part = 0.34, gap = 0.04, left_gap = 0.09, bottom_gap = 0.1;  // of the frame
+InsetPlace place_of_inset(const PlotInset& inset, const PlotLook& look, const Canvas& canvas) {
+  constexpr double part = 0.34, gap = 0.04;  // of the frame
+  constexpr double letter = 0.6;             // width of a digit [text heights]
+  constexpr std::size_t most_ticks = 4;
+  InsetPlace place{.x_ticks = round_ticks(inset.x, look.x_log, most_ticks),
+                   .y_ticks = round_ticks(inset.y, look.y_log, most_ticks)};
+  std::size_t longest = 0;
+  for (const std::string& tick : place.y_ticks) longest = std::max(longest, tick.size());
+  place.left_room = canvas.text_height * (1.2 + letter * static_cast<double>(longest));
+  place.bottom_room = 1.9 * canvas.text_height;
   const double wide = canvas.right - canvas.left, high = canvas.top - canvas.bottom;
   const bool right = inset.corner.ends_with("right"), top = inset.corner.starts_with("top");
-  const double x = right ? canvas.right - (gap + part) * wide : canvas.left + left_gap * wide;
-  const double y = top ? canvas.top - (gap + part) * high : canvas.bottom + bottom_gap * high;
-  return {{x, y}, {x + part * wide, y + part * high}};
+  const double x =
+      right ? canvas.right - (gap + part) * wide : canvas.left + gap / 2 * wide + place.left_room;
+  const double y =
+      top ? canvas.top - (gap + part) * high : canvas.bottom + gap / 2 * high + place.bottom_room;
+  place.low = {x, y};
+  place.high = {x + part * wide, y + part * high};
+  return place;
 }
 
 }  // namespace springfold::io

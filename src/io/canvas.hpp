@@ -23,7 +23,12 @@ PlotPoint in_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint&
 /// The inverse: the point of the axes that is seen there.
 PlotPoint from_pixels(const Figure& figure, const Canvas& canvas, const PlotPoint& pixel);
 
-/// An inset's frame in the picture: lower left and upper right corner [pixel].
-std::pair<PlotPoint, PlotPoint> frame_of(const PlotInset& inset, const Canvas& canvas);
+/// Where an inset lies in the picture, and its ticks.
+struct InsetPlace {
+  PlotPoint low{}, high{};                        ///< lower left and upper right corner [pixel]
+  double left_room = 0, bottom_room = 0;          ///< of the numbers beside it [pixel]
+  std::vector<std::string> x_ticks{}, y_ticks{};  ///< round values, as round_ticks
+};
+InsetPlace place_of_inset(const PlotInset& inset, const PlotLook& look, const Canvas& canvas);
 
 }  // namespace springfold::io

@@ -74,19 +74,21 @@ void add_mark(Figure& figure, FigureMark mark) {
 }
 
 /// A curve over arc length bends between its rows as it does at them; rows of commands and targets are
-/// what they are. Adds the points in between, and the stability of the steps that they make.
-void bend(const StudyResult& result, const Branch& branch, std::vector<PlotPoint>& points,
-          std::vector<Stability>& steps) {
-  if (!column_of(result, "s")) return;
+/// what they are: straight in the values, which logarithmic axes bend. Adds the points in between, and the
+/// stability of the steps that they make.
+void bend(const StudyResult& result, const Branch& branch, bool is_smooth, const PlotLook& look,
+          std::vector<PlotPoint>& points, std::vector<Stability>& steps) {
   std::vector<LineRow> rows;
   int piece = 0;
   for (std::size_t row = 0; row < points.size(); ++row) {
-    if (row > 0 && branch.samples[row].piece != branch.samples[row - 1].piece) ++piece;
+    if (row > 0 && (!is_smooth || branch.samples[row].piece != branch.samples[row - 1].piece))
+      ++piece;
     rows.push_back({points[row], value_at(result, branch, row, "s"), piece});
   }
   for (const analysis::Event& event : branch.events)
     if (event.row < rows.size()) rows[event.row].is_special = true;
-  const std::vector<Polyline> between = points_between(rows);
+  const std::vector<Polyline> between =
+      points_between(rows, scales_of(rows, look.x_log, look.y_log));
   std::vector<PlotPoint> all;
   std::vector<Stability> all_steps;
   for (std::size_t row = 0; row < points.size(); ++row) {
@@ -99,13 +101,22 @@ void bend(const StudyResult& result, const Branch& branch, std::vector<PlotPoint
   steps = std::move(all_steps);
 }
 
+/// The least of the values that are positive; 0 before there is one.
+void lower(double value, double& least) {
+  if (value > 0 && (least == 0 || value < least)) least = value;
+}
+
 void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, const Branch& branch,
                 const FigureText& label, int hue) {
   std::vector<PlotPoint> points;
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     points.push_back(axes.point(result, branch, row));
   std::vector<Stability> steps = stability_of_steps(result, branch);
-  if (axes.is_traced && axes.spec.look.smooth) bend(result, branch, points, steps);
+  const PlotLook& look = axes.spec.look;
+  const bool is_smooth = axes.is_traced && look.smooth && column_of(result, "s");
+  for (const PlotPoint& at : points) lower(at.first, figure.least.first);
+  for (const PlotPoint& at : points) lower(at.second, figure.least.second);
+  if (is_smooth || look.x_log || look.y_log) bend(result, branch, is_smooth, look, points, steps);
   figure.curves.push_back({label, parts_of(points, steps), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
@@ -222,6 +233,7 @@ void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
     axes.y = quantity;
     ++axes.hue;
     const std::string name = name_of(quantity, result);
+    if (figure.quantities.size() < quantities.size()) figure.quantities.push_back(name);
     add_run(figure, axes, result, {label.text.empty() ? name : label.text + ": " + name});
   }
 }

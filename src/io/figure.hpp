@@ -61,8 +61,10 @@ struct Figure {
   std::vector<FigureMark> marks{};
   std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
   PlotLook look{};
-  bool tells_stability =
-      true;  ///< false: its lines are not equilibria, and the key has none of them
+  std::vector<std::string> quantities{};  ///< several over one x: the n-th has the n-th colour
+  PlotPoint least{};  ///< what lies below it on a logarithmic axis does not widen that
+  /// False: its lines are no equilibria, and the key has none of them.
+  bool tells_stability = true;
   std::optional<ColourBar> bar{};  ///< none: the curves' labels say enough
 };
 

@@ -13,9 +13,10 @@ struct AxisRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool is_log = false;
+  double least = 0;  ///< of a logarithmic axis
 
   void include(double value) {
-    if (is_log && !(value > 0)) return;
+    if (is_log && !(value > 0 && value >= least)) return;
     low = std::min(low, value), high = std::max(high, value);
   }
 
@@ -46,7 +47,8 @@ void equalise(const Canvas& canvas, AxisRange& x, AxisRange& y) {
 
 bool fit_axes(Figure& figure, bool polar) {
   const PlotLook& look = figure.look;
-  AxisRange x{.is_log = look.x_log}, y{.is_log = look.y_log};
+  AxisRange x{.is_log = look.x_log, .least = figure.least.first};
+  AxisRange y{.is_log = look.y_log, .least = figure.least.second};
   const auto include = [&](const PlotPoint& at) {
     const bool out_of_x =
         look.x_range && (at.first < look.x_range->first || at.first > look.x_range->second);

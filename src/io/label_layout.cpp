@@ -17,7 +17,6 @@ namespace {
 
 constexpr double curve_spacing = 4;   // between the points that stand for a curve [pixel]
 constexpr double mark_radius = 8;     // half size of a marker [pixel]
-constexpr double inset_room = 1.5;    // round an inset, for its numbers [text heights]
 constexpr double leader_needed = 26;  // longest gap between point and text without a line [pixel]
 
 struct Box {
@@ -92,10 +91,11 @@ Scene scene_of(const Figure& figure, const Canvas& canvas) {
   for (const auto& mark : figure.marks)
     scene.marks.push_back({in_pixels(figure, canvas, mark.at), mark_radius, mark_radius});
   for (const PlotInset& inset : figure.look.insets) {
-    const auto [low, high] = frame_of(inset, canvas);
-    scene.labels.push_back({{(low.first + high.first) / 2, (low.second + high.second) / 2},
-                            (high.first - low.first) / 2 + inset_room * canvas.text_height,
-                            (high.second - low.second) / 2 + inset_room * canvas.text_height});
+    const InsetPlace place = place_of_inset(inset, figure.look, canvas);
+    const double left = place.low.first - place.left_room, right = place.high.first;
+    const double bottom = place.low.second - place.bottom_room, top = place.high.second;
+    scene.labels.push_back(
+        {{(left + right) / 2, (bottom + top) / 2}, (right - left) / 2, (top - bottom) / 2});
   }
   scene.zero = in_pixels(figure, canvas, {0, 0});
   scene.frame = {{(canvas.left + canvas.right) / 2, (canvas.bottom + canvas.top) / 2},

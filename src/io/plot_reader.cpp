@@ -96,6 +96,16 @@ std::vector<NamedPlace> read_ordinates(const TableReader& table, const std::stri
   return ordinates;
 }
 
+void check_polar(const TableReader& table, const PlotSpec& spec, Reading& reading) {
+  for (const auto& [key, is_log] :
+       {std::pair{"x_log", spec.look.x_log}, {"y_log", spec.look.y_log}})
+    if (spec.polar && is_log)
+      reading.problems.add(
+          table.find(key)->place, table.key_of(key),
+          "got true, need false beside polar = true: both axes show distances from "
+          "the origin, which a logarithmic axis does not have");
+}
+
 /// A figure of special points over a parameter: what its studies vary, and what has no meaning there.
 void check_parameter_plot(const TableReader& table, const PlotDraft& draft,
                           const std::vector<StudyDraft>& studies, Reading& reading) {
@@ -201,6 +211,7 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     draft.x_factor = table.number("x_factor", {}, draft.numbers, 1);
     draft.y_factor = table.number("y_factor", {}, draft.numbers, 1);
     draft.look = read_look(table, spec.look, draft.numbers, reading);
+    check_polar(table, spec, reading);
     spec.markup = read_markup(table, item, reading);
     const Node* curves = table.require("curves", "a list such as [{ study = \"...\" }]");
     for (const Item& curve : table.tables("curves", curves_example(curves, studies)))

@@ -46,18 +46,32 @@ class Curve {
     return is_finite(a.at) && is_finite(b.at) && a.piece == b.piece && b.s - a.s > near_;
   }
 
-  Polyline between(std::size_t i) const {
+  Polyline between(std::size_t i, const AxisScales& scales) const {
     const LineRow &a = rows_[i], &b = rows_[i + 1];
     const double h = b.s - a.s;
     const PlotPoint p = slope(i, true), q = slope(i, false);
     const double angle = turn(p, q) + turn(difference(b.at, a.at, h), p);
     const int count = std::clamp(static_cast<int>(angle / smallest_turn), 0, most_inner_points);
-    Polyline points;
-    for (int k = 1; k <= count; ++k) {
-      const double t = static_cast<double>(k) / (count + 1), u = 1 - t;
+    const auto cubic = [&](double t) {
+      const double u = 1 - t;
       const PlotPoint ends = mix(a.at, u * u * (1 + 2 * t), b.at, t * t * (3 - 2 * t));
-      points.push_back(mix(ends, 1, mix(p, h * u * u * t, q, -h * u * t * t), 1));
+      return mix(ends, 1, mix(p, h * u * u * t, q, -h * u * t * t), 1);
+    };
+    Polyline points;
+    for (int k = 0; k <= count; ++k) {
+      const double from = static_cast<double>(k) / (count + 1);
+      if (k > 0) points.push_back(cubic(from));
+      add_points_between(cubic, from, static_cast<double>(k + 1) / (count + 1), scales, points);
     }
+    return points;
+  }
+
+  /// The points of a step that is straight in the values: none where the axes show it straight.
+  Polyline straight(std::size_t i, const AxisScales& scales) const {
+    const PlotPoint &a = rows_[i].at, &b = rows_[i + 1].at;
+    Polyline points;
+    if (is_finite(a) && is_finite(b))
+      add_points_between([&](double t) { return mix(a, 1 - t, b, t); }, 0, 1, scales, points);
     return points;
   }
 
@@ -123,11 +137,32 @@ class Curve {
 
 }  // namespace
 
-std::vector<Polyline> points_between(const std::vector<LineRow>& rows) {
+AxisScales scales_of(const std::vector<LineRow>& rows, bool x_log, bool y_log) {
+  AxisScales scales{.x_log = x_log, .y_log = y_log};
+  const auto measure = [&rows](bool is_log, auto value_of, double& size, double& least) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const LineRow& row : rows) {
+      const double value = value_of(row);
+      if (!std::isfinite(value) || (is_log && !(value > 0))) continue;
+      low = std::min(low, value), high = std::max(high, value);
+    }
+    if (!(low < high)) return;
+    size = is_log ? std::log10(high / low) : high - low;
+    constexpr double further = 1e-3;  // curves leave the frame, which ends a little below the least
+    if (is_log) least = further * low;
+  };
+  measure(
+      x_log, [](const LineRow& row) { return row.at.first; }, scales.width, scales.least.first);
+  measure(
+      y_log, [](const LineRow& row) { return row.at.second; }, scales.height, scales.least.second);
+  return scales;
+}
+
+std::vector<Polyline> points_between(const std::vector<LineRow>& rows, const AxisScales& scales) {
   std::vector<Polyline> all;
   const Curve curve{rows};
   for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    all.push_back(curve.is_curved(i) ? curve.between(i) : Polyline{});
+    all.push_back(curve.is_curved(i) ? curve.between(i, scales) : curve.straight(i, scales));
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "figure.hpp"
+#include "log_line.hpp"
 
 namespace springfold::io {
 
@@ -20,7 +21,12 @@ struct LineRow {
 /// slopes at both rows are those of the parabola through the row and its neighbours of the same piece,
 /// over s (Bessel's tangents; C. de Boor, A Practical Guide to Splines, chapter IV). Its error is of
 /// third order in the step. Steps without a curve of their own (s does not grow, another piece, points
-/// that are not finite) have none: they are straight.
-std::vector<Polyline> points_between(const std::vector<LineRow>& rows);
+/// that are not finite) have none: they are straight. On logarithmic axes curves and straight steps have as
+/// many points as add_points_between gives them: straight is what is straight in the values.
+std::vector<Polyline> points_between(const std::vector<LineRow>& rows,
+                                     const AxisScales& scales = {});
+
+/// How the axes show these rows.
+AxisScales scales_of(const std::vector<LineRow>& rows, bool x_log, bool y_log);
 
 }  // namespace springfold::io

@@ -128,5 +128,32 @@ TEST(View, FromAboveIsThePlan) {
   EXPECT_NEAR(view.up.y(), 1, 1e-15);
 }
 
+/// A bar from the base to a node, and no chain.
+Panel bar(int unstable) {
+  model::Mechanism mechanism;
+  mechanism.bodies.push_back(
+      {.name = "node", .task_space = model::TaskSpace::xy, .pose = Vector::Ones(2)});
+  mechanism.line_springs.push_back({.name = "rod", .to = {.body = 1}, .stiffness = 1, .free = 1});
+  const statics::System system = statics::prepare(mechanism);
+  return {.scene = scene_of(system, guess_posture(system)), .unstable_dead = unstable};
+}
+
+TEST(Bars, HaveTheColourOfStabilityWhereThereIsNoLink) {
+  for (const auto& [unstable, colour] : {std::pair{0, "#0072b2"}, {1, "#d55e00"}}) {
+    const std::string svg = svg_text(illustrate({bar(unstable)}, {}));
+    const auto title = svg.find("<title>spring rod");
+    ASSERT_NE(title, std::string::npos);
+    const auto begin = svg.rfind("<polyline", title);
+    EXPECT_THAT(svg.substr(begin, title - begin), HasSubstr(std::string{"stroke=\""} + colour));
+    EXPECT_THAT(svg, Not(HasSubstr(">spring<"))) << "nothing is drawn in the colour of springs";
+  }
+}
+
+TEST(Bars, HaveTheColourOfSpringsWhereColoursSayNothing) {
+  const std::string svg = svg_text(illustrate({bar(0)}, {.colouring = Colouring::none}));
+  EXPECT_THAT(svg, HasSubstr(">spring<"));
+  EXPECT_THAT(svg, HasSubstr("#007a5e"));
+}
+
 }  // namespace
 }  // namespace springfold::drawing

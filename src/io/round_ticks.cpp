@@ -1,0 +1,58 @@
+#include "round_ticks.hpp"
+
+#include <cmath>
+
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+constexpr double tick_rounding = 1e-9;  // of a step: a tick at the very end of the range counts
+constexpr int tick_digits = 12;
+
+/// Multiples of the step in the range.
+std::vector<double> multiples(const PlotRange& range, double step) {
+  const double first = std::ceil(range.first / step - tick_rounding);
+  const double last = std::floor(range.second / step + tick_rounding);
+  std::vector<double> values;
+  for (double n = first; n <= last; ++n) values.push_back(n * step);
+  return values;
+}
+
+/// How many there would be; of very fine steps no list is made.
+double tick_count(const PlotRange& range, double step) {
+  return std::floor(range.second / step + tick_rounding) -
+         std::ceil(range.first / step - tick_rounding) + 1;
+}
+
+std::vector<double> even_ticks(const PlotRange& range, std::size_t most) {
+  double power = std::pow(10, std::floor(std::log10(range.second - range.first)) - 1);
+  for (;; power *= 10)
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (tick_count(range, factor * power) <= static_cast<double>(most))
+        return multiples(range, factor * power);
+}
+
+/// Powers of ten, not more than `most` of them.
+std::vector<double> decades(const PlotRange& range, std::size_t most) {
+  const PlotRange exponents{std::log10(range.first), std::log10(range.second)};
+  std::vector<double> values;
+  double step = 1;
+  while (tick_count(exponents, step) > static_cast<double>(most)) ++step;
+  for (const double exponent : multiples(exponents, step)) values.push_back(std::pow(10, exponent));
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::string> round_ticks(const PlotRange& range, bool is_log, std::size_t most) {
+  std::vector<double> values;
+  if (is_log) values = decades(range, most);
+  if (values.size() < 2) values = even_ticks(range, most);
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(rounded(value, tick_digits));
+  if (texts.size() < 2) texts = {shortest(range.first), shortest(range.second)};
+  return texts;
+}
+
+}  // namespace springfold::io
