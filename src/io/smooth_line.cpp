@@ -46,33 +46,21 @@ class Curve {
     return is_finite(a.at) && is_finite(b.at) && a.piece == b.piece && b.s - a.s > near_;
   }
 
-  Polyline between(std::size_t i, const AxisScales& scales) const {
+  /// So many pieces of step i that none of them turns by much.
+  int pieces_of(std::size_t i) const {
     const LineRow &a = rows_[i], &b = rows_[i + 1];
-    const double h = b.s - a.s;
     const PlotPoint p = slope(i, true), q = slope(i, false);
-    const double angle = turn(p, q) + turn(difference(b.at, a.at, h), p);
-    const int count = std::clamp(static_cast<int>(angle / smallest_turn), 0, most_inner_points);
-    const auto cubic = [&](double t) {
-      const double u = 1 - t;
-      const PlotPoint ends = mix(a.at, u * u * (1 + 2 * t), b.at, t * t * (3 - 2 * t));
-      return mix(ends, 1, mix(p, h * u * u * t, q, -h * u * t * t), 1);
-    };
-    Polyline points;
-    for (int k = 0; k <= count; ++k) {
-      const double from = static_cast<double>(k) / (count + 1);
-      if (k > 0) points.push_back(cubic(from));
-      add_points_between(cubic, from, static_cast<double>(k + 1) / (count + 1), scales, points);
-    }
-    return points;
+    const double angle = turn(p, q) + turn(difference(b.at, a.at, b.s - a.s), p);
+    return 1 + std::clamp(static_cast<int>(angle / smallest_turn), 0, most_inner_points);
   }
 
-  /// The points of a step that is straight in the values: none where the axes show it straight.
-  Polyline straight(std::size_t i, const AxisScales& scales) const {
-    const PlotPoint &a = rows_[i].at, &b = rows_[i + 1].at;
-    Polyline points;
-    if (is_finite(a) && is_finite(b))
-      add_points_between([&](double t) { return mix(a, 1 - t, b, t); }, 0, 1, scales, points);
-    return points;
+  /// Point of step i, t from 0 to 1. @pre is_curved(i)
+  PlotPoint point(std::size_t i, double t) const {
+    const LineRow &a = rows_[i], &b = rows_[i + 1];
+    const double h = b.s - a.s, u = 1 - t;
+    const PlotPoint p = slope(i, true), q = slope(i, false);
+    const PlotPoint ends = mix(a.at, u * u * (1 + 2 * t), b.at, t * t * (3 - 2 * t));
+    return mix(ends, 1, mix(p, h * u * u * t, q, -h * u * t * t), 1);
   }
 
  private:
@@ -135,6 +123,34 @@ class Curve {
   double near_ = 0, width_ = 1, height_ = 1;
 };
 
+/// The rows as logarithmic axes show them; not finite where there is no place.
+std::vector<LineRow> decades_of(std::vector<LineRow> rows, const AxisScales& scales) {
+  const auto decade = [](double value) { return value > 0 ? std::log10(value) : std::nan(""); };
+  for (LineRow& row : rows) {
+    if (scales.x_log) row.at.first = decade(row.at.first);
+    if (scales.y_log) row.at.second = decade(row.at.second);
+  }
+  return rows;
+}
+
+PlotPoint from_decades(PlotPoint at, const AxisScales& scales) {
+  if (scales.x_log) at.first = std::pow(10, at.first);
+  if (scales.y_log) at.second = std::pow(10, at.second);
+  return at;
+}
+
+/// Is the curve smooth in decades here? Near zero it is smooth in the values, and its logarithm is not.
+bool is_gentle(const std::vector<LineRow>& rows, std::size_t step, const AxisScales& scales) {
+  constexpr double most = 0.5;  // decades from row to row
+  const std::size_t first = step > 0 ? step - 1 : 0, last = std::min(step + 1, rows.size() - 2);
+  for (std::size_t i = first; i <= last; ++i) {
+    const PlotPoint &a = rows[i].at, &b = rows[i + 1].at;
+    if (scales.x_log && !(std::abs(b.first - a.first) < most)) return false;
+    if (scales.y_log && !(std::abs(b.second - a.second) < most)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 AxisScales scales_of(const std::vector<LineRow>& rows, bool x_log, bool y_log) {
@@ -160,9 +176,26 @@ AxisScales scales_of(const std::vector<LineRow>& rows, bool x_log, bool y_log) {
 
 std::vector<Polyline> points_between(const std::vector<LineRow>& rows, const AxisScales& scales) {
   std::vector<Polyline> all;
-  const Curve curve{rows};
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    all.push_back(curve.is_curved(i) ? curve.between(i, scales) : curve.straight(i, scales));
+  const std::vector<LineRow> in_decades = decades_of(rows, scales);
+  const Curve plain{rows}, shown{in_decades};
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    const bool in_logs = scales.any_log() && is_gentle(in_decades, i, scales) && shown.is_curved(i);
+    const Curve& curve = in_logs ? shown : plain;
+    const bool is_curved = curve.is_curved(i);
+    const LineRow &a = rows[i], &b = rows[i + 1];
+    const auto at = [&](double t) {
+      if (!is_curved) return mix(a.at, 1 - t, b.at, t);
+      return in_logs ? from_decades(curve.point(i, t), scales) : curve.point(i, t);
+    };
+    Polyline points;
+    const int pieces = is_curved ? curve.pieces_of(i) : 1;
+    for (int k = 0; k < pieces && is_finite(a.at) && is_finite(b.at); ++k) {
+      const double from = static_cast<double>(k) / pieces;
+      if (k > 0) points.push_back(at(from));
+      add_points_between(at, from, static_cast<double>(k + 1) / pieces, scales, points);
+    }
+    all.push_back(std::move(points));
+  }
   return all;
 }
 

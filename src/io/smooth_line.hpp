@@ -22,7 +22,8 @@ struct LineRow {
 /// over s (Bessel's tangents; C. de Boor, A Practical Guide to Splines, chapter IV). Its error is of
 /// third order in the step. Steps without a curve of their own (s does not grow, another piece, points
 /// that are not finite) have none: they are straight. On logarithmic axes curves and straight steps have as
-/// many points as add_points_between gives them: straight is what is straight in the values.
+/// many points as add_points_between gives them: straight is what is straight in the values. Where values change
+/// little from row to row, less than by a factor of three, the cubic is one of their logarithms.
 std::vector<Polyline> points_between(const std::vector<LineRow>& rows,
                                      const AxisScales& scales = {});
 

@@ -72,6 +72,18 @@ TEST(LogAxes, ShowTheCubicBetweenTheRows) {
   EXPECT_LT(worst_gap(line, [](double x) { return x * x; }), pixel);
 }
 
+TEST(LogAxes, KeepAPowerLawWhatItIs) {
+  // y = 3 x^-2, x growing by a factor of 1.5 from row to row: on these axes a straight line.
+  std::vector<LineRow> rows;
+  for (int i = 0; i <= 12; ++i) {
+    const double x = std::pow(1.5, i);
+    rows.push_back({{x, 3 / (x * x)}, 0.5 * i});
+  }
+  const Polyline line = drawn_line(rows, true, true);
+  EXPECT_LT(worst_gap(line, [](double x) { return 3 / (x * x); }), 1e-12);
+  for (std::size_t i = 1; i < line.size(); ++i) EXPECT_GT(line[i].first, line[i - 1].first);
+}
+
 TEST(LogAxes, SeeThatAnSIsNotItsChord) {
   // Not half a decade long; its middle lies on the straight line between its ends.
   const auto curve = [](double t) {
