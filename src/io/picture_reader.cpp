@@ -1,4 +1,6 @@
 // [[picture]] tables.
+#include <cmath>
+
 #include "compared_quantity.hpp"
 #include "plot_look_reader.hpp"
 #include "plot_reader.hpp"
@@ -65,21 +67,31 @@ void read_posture(const Item& at, const PictureKeys& shared, const std::vector<S
   draft.spec.postures.push_back(posture);
 }
 
-/// A number, or a list of them, as they stand. They are checked with the studies.
-std::vector<Item> run_items(const TableReader& table) {
+/// A number, or a list of them: those that can be numbers of runs, others are reported. Which of them a study
+/// has is not looked at.
+std::vector<Item> run_items(const TableReader& table, Reading& reading) {
+  constexpr double most = 1e6;
   const Node* node = table.find("run");
   if (!node) return {};
-  if (node->kind != Node::Kind::array) return {{node, table.key_of("run")}};
-  return table.list("run", "the number of a run, or a list of them");
-}
-
-/// @param runs  checked elsewhere; numbers that cannot be runs are left out
-void set_runs(const std::vector<Item>& runs, PictureSpec& spec) {
-  constexpr double most = 1e6;
-  if (!runs.empty()) spec.runs.clear();
-  for (const Item& run : runs)
-    if (const double number = run.node->number; number >= 1 && number <= most)
-      spec.runs.push_back(static_cast<int>(number));
+  const std::string key = table.key_of("run");
+  const std::vector<Item> items = node->kind == Node::Kind::array
+                                      ? table.list("run", "a list of numbers of runs")
+                                      : std::vector<Item>{{node, key}};
+  if (items.empty())
+    reading.problems.add(node->place, key,
+                         "got an empty list, need the number of a run, or several");
+  std::vector<Item> usable;
+  for (const Item& item : items) {
+    const double number = item.node->number;
+    if (item.node->kind == Node::Kind::number && number >= 1 && number <= most &&
+        number == std::floor(number))
+      usable.push_back(item);
+    else
+      reading.problems.add(
+          item.node->place, item.key,
+          "got " + described(*item.node) + ", need the number of a run: 1, 2, ...");
+  }
+  return usable;
 }
 
 PictureDraft read_picture(const Item& item, const std::vector<StudyDraft>& studies,
@@ -97,9 +109,11 @@ PictureDraft read_picture(const Item& item, const std::vector<StudyDraft>& studi
   if (table.has("view")) spec.view = view_words[table.choice("view", view_words, 0)];
   spec.colour = colour_words[table.choice("colour", colour_words, 0)];
   spec.formats = read_formats(table, {"svg", "png"}, spec.formats, reading);
-  const PictureKeys shared{
-      usual_study(table, studies), {table.find("study"), table.key_of("study")}, run_items(table)};
-  set_runs(shared.runs, spec);
+  const PictureKeys shared{usual_study(table, studies),
+                           {table.find("study"), table.key_of("study")},
+                           run_items(table, reading)};
+  if (!shared.runs.empty()) spec.runs.clear();
+  for (const Item& run : shared.runs) spec.runs.push_back(static_cast<int>(run.node->number));
   if (shared.study_at.node && !shared.study.empty())
     study_number(shared.study, shared.study_at, studies, reading);
   const Node* at = table.require("at", "a posture such as \"press/LP1\", or a list of them");

@@ -248,6 +248,11 @@ TEST_F(PictureMessages, WantRunsThatThereAre) {
       ElementsAre(HasSubstr("picture[1].run: got 2, need the number of a run of \"push\"")));
   EXPECT_THAT(of("name = \"a\"\nat = \"push/EP1\"\nrun = [1, -1e300]"),
               ElementsAre(HasSubstr("picture[1].run[2]: got -1e+300")));
+  EXPECT_THAT(
+      of("name = \"a\"\nat = 3\nrun = \"x\""),
+      ElementsAre(HasSubstr("picture[1].at: got 3"), HasSubstr("picture[1].run: got \"x\"")));
+  EXPECT_THAT(of("name = \"a\"\nat = \"push/EP1\"\nrun = []"),
+              ElementsAre(HasSubstr("picture[1].run: got an empty list")));
 }
 
 TEST_F(PictureMessages, RefuseTheNameOfAFigure) {
