@@ -333,7 +333,11 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
         runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first});
       }
     }
-    is_wanted = is_wanted || is_over_parameter(spec);
+    if (is_over_parameter(spec))
+      is_wanted =
+          std::any_of(spec.curves.begin(), spec.curves.end(), [&](const PlotCurves& curves) {
+            return !shown_runs(the_case, spec.markup, curves, results).empty();
+          });
     if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, figure);
     say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))
