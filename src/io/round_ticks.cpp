@@ -50,6 +50,7 @@ std::vector<std::string> round_ticks(const PlotRange& range, bool is_log, std::s
   if (is_log) values = decades(range, most);
   if (values.size() < 2) values = even_ticks(range, most);
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(rounded(value, tick_digits));
   if (texts.size() < 2) texts = {shortest(range.first), shortest(range.second)};
   return texts;

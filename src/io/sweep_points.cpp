@@ -68,6 +68,11 @@ SweepPoints points_of_study(const Case& the_case, const std::string& study,
   return sweep;
 }
 
+std::string pair_of(std::string first, const char* between, const std::string& second) {
+  first += between;
+  return first += second;
+}
+
 /// Quantities that any run has, of these.
 std::vector<std::string> point_columns(const SweepPoints& sweep) {
   std::vector<std::string> columns;
@@ -109,6 +114,7 @@ std::vector<std::string> sweep_points_files(const Case& the_case,
   UniqueNames names;
   for (const SweepTable& sweep : the_case.sweeps) names.make(safe_file_name(sweep.study));
   std::vector<std::string> files;
+  files.reserve(sweeps.size());
   for (const SweepPoints& sweep : sweeps)
     files.push_back("sweeps/" + names.make(safe_file_name(sweep.study) + "-points") + ".csv");
   return files;
@@ -119,7 +125,7 @@ std::string sweep_points_csv(const SweepPoints& sweep) {
   std::string csv = "run";
   for (const std::string& name : sweep.parameters) csv += "," + csv_text(parameter_prefix + name);
   for (const std::string& label : sweep.labels)
-    for (const std::string& column : columns) csv += "," + csv_text(label + "." + column);
+    for (const std::string& column : columns) csv += "," + csv_text(pair_of(label, ".", column));
   csv += ",status\n";
   for (const SweepPoints::Run& run : sweep.runs) {
     csv += std::to_string(run.planned->run);
@@ -146,7 +152,8 @@ std::string sweep_points_lines(const SweepPoints& sweep, const std::string& file
   if (columns.empty()) return text;
   const std::string quantity = columns.back() == "deflection" ? columns.front() : columns.back();
   std::vector<std::vector<std::string>> rows{sweep.parameters};
-  for (const std::string& label : sweep.labels) rows.front().push_back(label + " " + quantity);
+  for (const std::string& label : sweep.labels)
+    rows.front().push_back(pair_of(label, " ", quantity));
   for (const SweepPoints::Run& run : sweep.runs) {
     auto& row = rows.emplace_back();
     for (const std::string& name : sweep.parameters)

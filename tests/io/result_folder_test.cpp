@@ -77,7 +77,8 @@ TEST(Leftovers, OfKilledRunsAreRemovedAndNothingElse) {
   const ScratchFolder scratch;
   for (const char* file :
        {".summary.json.part123", "branches/.push-1.csv.part9", "plots/.part77/a.png",
-        "plots/.a.gp.part5", ".springfold-aB3xYz", "branches/.springfold-000000"})
+        "plots/.a.gp.part5", "graphs/.a.gv.part6", "sweeps/.a.csv.part7", ".springfold-aB3xYz",
+        "branches/.springfold-000000"})
     put_text(scratch.path() / file, "half");
   const std::vector<std::string> kept{"summary.json",        ".checkpoint-map-1", "a.part12",
                                       ".springfold-notes",   ".partly",           ".part",

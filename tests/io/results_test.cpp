@@ -130,6 +130,15 @@ TEST(WriteResults, RemovesTablesOfEquilibriaOfTheEarlierSet) {
   EXPECT_FALSE(fs::exists(table));
 }
 
+TEST(WriteResults, RemovesGraphsOfTheEarlierSet) {
+  const ScratchFolder scratch;
+  put_text(scratch.path() / "graphs/push.gv", "digraph {}");
+  put_text(scratch.path() / "manifest.json",
+           R"({"program": "springfold", "files": [{"path": "graphs/push.gv"}]})");
+  write_results(scratch.path(), sample::two_runs(), sample::two_results());
+  EXPECT_FALSE(fs::exists(scratch.path() / "graphs/push.gv"));
+}
+
 TEST(WriteResults, RemovesNothingOutsideItsFolderWhateverTheOldManifestSays) {
   const ScratchFolder scratch;
   put_text(scratch.path() / "outside.txt", "keep");
