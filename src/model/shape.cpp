@@ -73,10 +73,6 @@ ShapeEnergy energy_of(const Gas& gas, double volume) {
           gas.nRT / (gas.initial * gas.initial) * n * std::pow(r, -n - 1)};
 }
 
-ShapeEnergy energy_of(const CompiledSpring& law, std::size_t segment, double alpha) {
-  return {law.energy(segment, alpha), law.torque(segment, alpha), law.stiffness(segment, alpha)};
-}
-
 std::vector<std::string> problems_in(const Shape& shape) {
   std::vector<std::string> problems;
   const auto [least, most] = points_of(shape.kind);

@@ -56,28 +56,37 @@ double factor_of(const PointShape& shape, const Vector& factors) {
   return factors.size() == 0 ? 1 : factors[shape.load];
 }
 
-ShapeEnergy energy_in(const PointShape& shape, std::size_t segment, double alpha,
+/// Derivatives by alpha. The energy itself is left out: that of a formula is a quadrature.
+struct AlphaSlopes {
+  double slope = 0, curvature = 0;
+};
+
+AlphaSlopes slopes_in(const PointShape& shape, std::size_t segment, double alpha,
                       const Vector& factors) {
-  if (shape.is_pressure()) {
-    const double p = factor_of(shape, factors) * shape.pressure;
-    return {-p * alpha, -p, 0};
-  }
-  return shape.gas ? energy_of(*shape.gas, alpha) : energy_of(shape.law, segment, alpha);
+  if (shape.is_pressure()) return {-factor_of(shape, factors) * shape.pressure, 0};
+  if (!shape.gas) return {shape.law.torque(segment, alpha), shape.law.stiffness(segment, alpha)};
+  const ShapeEnergy gas = energy_of(*shape.gas, alpha);
+  return {gas.slope, gas.curvature};
+}
+
+double energy_in(const PointShape& shape, double alpha, const Vector& factors) {
+  if (shape.is_pressure()) return -factor_of(shape, factors) * shape.pressure * alpha;
+  return shape.gas ? energy_of(*shape.gas, alpha).energy
+                   : shape.law.energy(shape.law.segment_at(alpha), alpha);
 }
 
 /// One shape's part, from what evaluate() has left in `work`.
 class Term {
  public:
-  Term(const System& system, const PointShape& shape, const Workspace& work,
-       const ShapeEnergy& energy)
-      : system_{system}, shape_{shape}, work_{work}, energy_{energy} {}
+  Term(const System& system, const PointShape& shape, const Workspace& work, const AlphaSlopes& at)
+      : system_{system}, shape_{shape}, work_{work}, at_{at} {}
 
   void add(Vector& residual, Matrix* A, Matrix* dR_drho) const {
     Index row = 0;
     for (std::size_t a = 0; a < shape_.points.size(); ++a) {
       const PointSlice& slice = system_.points[shape_.points[a]];
       for (const Index z : slice.z) {
-        if (z >= 0) residual[z] += energy_.slope * work_.shape.slopes[row];
+        if (z >= 0) residual[z] += at_.slope * work_.shape.slopes[row];
         ++row;
       }
     }
@@ -104,15 +113,15 @@ class Term {
     const PointSlice& rows = system_.points[shape_.points[a]];
     const PointSlice& columns = system_.points[shape_.points[b]];
     const auto i = 3 * static_cast<Index>(a), j = 3 * static_cast<Index>(b);
-    const Mat3<double> H = energy_.slope * work_.shape.at.hessian.block<3, 3>(i, j);
-    const Vec3<double> g = energy_.slope * work_.shape.at.gradient.segment<3>(i);
+    const Mat3<double> H = at_.slope * work_.shape.at.hessian.block<3, 3>(i, j);
+    const Vec3<double> g = at_.slope * work_.shape.at.gradient.segment<3>(i);
     const Vector& q = work_.shape.slopes;
     for (Index r = 0; r < std::ssize(rows.z); ++r) {
       if (rows.z[static_cast<std::size_t>(r)] < 0) continue;
       const Vec3<double> across = H.transpose() * motion(a).dp.col(r);
       for (Index c = 0; c < std::ssize(columns.z); ++c) {
         double value =
-            energy_.curvature * q[first + r] * q[column + c] + across.dot(motion(b).dp.col(c));
+            at_.curvature * q[first + r] * q[column + c] + across.dot(motion(b).dp.col(c));
         if (a == b) value += g.dot(second_displacement(motion(a), r, c));
         add_derivative(rows, r, columns, c, value, A, dR_drho);
       }
@@ -122,7 +131,7 @@ class Term {
   const System& system_;
   const PointShape& shape_;
   const Workspace& work_;
-  ShapeEnergy energy_;
+  AlphaSlopes at_;
 };
 
 double turn_between(const System& system, const PointShape& shape, const Vector& z,
@@ -155,9 +164,9 @@ void add_shape_terms(const System& system, const Piece& piece, const Vector& z,
                      Matrix* dR_drho) {
   for (const PointShape& shape : system.shapes) {
     evaluate(system, shape, z, inputs.rho, work);
-    const ShapeEnergy energy =
-        energy_in(shape, segment_of(shape, piece), work.shape.at.value, inputs.loads);
-    Term{system, shape, work, energy}.add(residual, A, dR_drho);
+    const AlphaSlopes slopes =
+        slopes_in(shape, segment_of(shape, piece), work.shape.at.value, inputs.loads);
+    Term{system, shape, work, slopes}.add(residual, A, dR_drho);
   }
 }
 
@@ -166,8 +175,7 @@ void add_pressure_rate(const System& system, const Vector& z, const Vector& rho,
   for (const PointShape& shape : system.shapes) {
     if (!shape.is_pressure() || rates[shape.load] == 0) continue;
     evaluate(system, shape, z, rho, work);
-    Term{system, shape, work, {0, -rates[shape.load] * shape.pressure, 0}}.add(rate, nullptr,
-                                                                               nullptr);
+    Term{system, shape, work, {-rates[shape.load] * shape.pressure, 0}}.add(rate, nullptr, nullptr);
   }
 }
 
@@ -175,15 +183,14 @@ ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs) {
   const PointShape& s = system.shapes[shape];
   const double alpha = value_of(system, s, z, inputs.rho);
-  return {alpha, energy_in(s, s.law.segment_at(alpha), alpha, inputs.loads).slope};
+  return {alpha, slopes_in(s, s.law.segment_at(alpha), alpha, inputs.loads).slope};
 }
 
 double shape_energy(const System& system, const Vector& z, const Vector& rho) {
   double energy = 0;
   for (const PointShape& shape : system.shapes) {
     if (shape.is_pressure()) continue;
-    const double alpha = value_of(system, shape, z, rho);
-    energy += energy_in(shape, shape.law.segment_at(alpha), alpha, {}).energy;
+    energy += energy_in(shape, value_of(system, shape, z, rho), {});
   }
   return energy;
 }
@@ -192,7 +199,7 @@ double pressure_potential(const System& system, const Vector& z, const Inputs& i
   double potential = 0;
   for (const PointShape& shape : system.shapes)
     if (shape.is_pressure())
-      potential += energy_in(shape, 0, value_of(system, shape, z, inputs.rho), inputs.loads).energy;
+      potential += energy_in(shape, value_of(system, shape, z, inputs.rho), inputs.loads);
   return potential;
 }
 

@@ -30,12 +30,11 @@ struct ShapeValue {
   MatrixOf<S> hessian{};   ///< 3m x 3m
 };
 
-/// Energy of a shape's spring and its derivatives by alpha. Not finite where a gas has no volume.
+/// Energy of a gas and its derivatives by alpha. Not finite where it has no volume.
 struct ShapeEnergy {
   double energy = 0, slope = 0, curvature = 0;
 };
 ShapeEnergy energy_of(const Gas& gas, double volume);
-ShapeEnergy energy_of(const CompiledSpring& law, std::size_t segment, double alpha);
 
 /// What problems_in(mechanism) says of a shape, but for its anchors; each without a place.
 std::vector<std::string> problems_in(const Shape& shape);
