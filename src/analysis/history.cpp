@@ -146,6 +146,19 @@ std::vector<model::Load> kept_loads(const Earlier& earlier, const model::Mechani
   return kept;
 }
 
+/// The forces by which the earlier study held what is released, as constant loads on the bodies.
+std::vector<model::Load> holding_forces(const std::vector<Released>& released, const State& state) {
+  std::vector<model::Load> forces;
+  for (const Released& one : released) {
+    const auto on_chain = state.find(one.chain + ".F" + "xyz"[one.coordinate]);
+    if (on_chain == state.end() || on_chain->second == 0) continue;
+    model::Load force{.on = {.body = one.body}, .kind = model::LoadKind::force};
+    force.vector[one.coordinate] = -on_chain->second;
+    forces.push_back(force);
+  }
+  return forces;
+}
+
 /// Angles of shapes count the turns of their bodies from where the case draws these: drawn elsewhere,
 /// they are near another angle.
 void put_turned_state(const State& state, const std::vector<std::string>& held,
@@ -229,7 +242,13 @@ Continued continued(const model::Mechanism& mechanism, const Study& study,
     later.study = std::move(variant.study);
   }
   later.study.start.attempts = 1;  // nothing but that state is meant
-  const auto kept = kept_loads(earlier, first.mechanism, first.study, state);
+  auto kept = kept_loads(earlier, first.mechanism, first.study, state);
+  if (earlier.keeps_loads)
+    for (model::Load& force : holding_forces(history.released, state)) {
+      if (!force.vector.allFinite())
+        later.problem = "the force that held what is released is not known there";
+      kept.push_back(std::move(force));
+    }
   apply(state, history.held, kept, later.mechanism);
   if (later.family) later.family = in_state(*later.family, state, history.held, kept);
   return later;

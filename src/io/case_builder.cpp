@@ -8,6 +8,7 @@
 #include "case_hints.hpp"
 #include "compared_quantity.hpp"
 #include "figure.hpp"
+#include "hold_draft.hpp"
 #include "jump_access.hpp"
 #include "memory_limits.hpp"
 #include "numbered_place.hpp"
@@ -42,9 +43,12 @@ void add_model_problem(const std::string& text, const MechanismDraft& draft,
   }
   const auto add_bar = [&](bool line, std::size_t i, std::size_t length) {
     const std::vector<const BarDraft*> bars = bars_of(draft, line);
-    if (i < bars.size())
-      problems.add(bars[i]->place, bars[i]->key, rest_of(view.substr(length)), when);
-    return i < bars.size();
+    if (i >= bars.size()) return false;
+    std::string what = rest_of(view.substr(length));
+    for (const auto& [of, end] : {std::pair{"of[1]: ", "from: "}, {"of[2]: ", "to: "}})
+      if (what.starts_with(of)) what.replace(0, std::string_view{of}.size(), end);
+    problems.add(bars[i]->place, bars[i]->key, what, when);
+    return true;
   };
   if (spring && add_bar(true, spring->number - 1 - draft.springs.size(), spring->length)) return;
   const auto shape = numbered(view, "shape");
@@ -138,7 +142,7 @@ class Builder {
     planned.plan =
         build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);
     add_holds(study.history, planned.mechanism);
-    for (const HoldDraft& hold : study.history.holds) planned.history.held.push_back(hold.chain);
+    planned.history = history_of(study.history, draft_->mechanism);
     if (study.history.study) planned.history.earlier = earlier_of(i, run, parameters);
     for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
       planned.parameters[draft_->parameters[p].name] = parameters.values[p];
@@ -248,6 +252,9 @@ class Builder {
       const bool has_better_place = text.find(": no quantity ") != std::string::npos;
       if (!has_better_place) add_study_problem(text, study, planned.run, problems_);
     }
+    if (const std::string text = held_drive(study.history, draft_->mechanism, planned);
+        !text.empty())
+      add_study_problem(text, study, planned.run, problems_);
     return problems_.size() == before;
   }
 

@@ -1,4 +1,5 @@
 #include "case_draft.hpp"
+#include "hold_draft.hpp"
 
 namespace springfold::io {
 

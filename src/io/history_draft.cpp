@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "springfold/analysis/history.hpp"
+#include "hold_draft.hpp"
 #include "study_draft.hpp"
 
 namespace springfold::io {
@@ -21,45 +21,6 @@ bool is_label(const std::string& text) {
          std::all_of(text.begin() + static_cast<std::ptrdiff_t>(code), text.end(), digit);
 }
 
-std::vector<std::string> coordinates_of(const MechanismDraft& mechanism) {
-  std::vector<std::string> names;
-  for (const BodyDraft& body : mechanism.bodies)
-    for (std::size_t i = 0; i < body.pose.size() && i < 3; ++i)
-      if (body.task_space == model::TaskSpace::xy || body.task_space == model::TaskSpace::xyz)
-        names.push_back(body.name + "." + "xyz"[i]);
-  return names;
-}
-
-/// "foot.x" into a list of holds or releases; reports others.
-void read_hold(const Item& item, const MechanismDraft& mechanism, std::vector<HoldDraft>& holds,
-               Reading& reading) {
-  const std::string& text = item.node->text;
-  const std::vector<std::string> known = coordinates_of(mechanism);
-  if (std::find(known.begin(), known.end(), text) == known.end())
-    return reading.problems.add(item.node->place, item.key,
-                                "got " + described(*item.node) +
-                                    ", need a coordinate of a node, or of a body with task space "
-                                    "\"xy\" or \"xyz\", such as \"foot.x\"" +
-                                    suggestion(text, known));
-  const std::string name = text.substr(0, text.size() - 2);
-  const auto body = std::find_if(mechanism.bodies.begin(), mechanism.bodies.end(),
-                                 [&name](const BodyDraft& b) { return b.name == name; });
-  const auto coordinate = static_cast<std::size_t>(text.back() - 'x');
-  const Index number = body - mechanism.bodies.begin() + 1;
-  auto hold = std::find_if(holds.begin(), holds.end(),
-                           [number](const HoldDraft& h) { return h.body == number; });
-  if (hold == holds.end())
-    hold =
-        holds.insert(hold, {number, std::vector<bool>(body->pose.size(), false), name + ".hold"});
-  const bool fixed = std::find(body->fixed.begin(), body->fixed.end(),
-                               text.substr(text.size() - 1)) != body->fixed.end();
-  if (fixed || hold->held[coordinate])
-    reading.problems.add(item.node->place, item.key,
-                         "got " + described(*item.node) + ", which is " +
-                             (fixed ? "fixed already" : "named twice") + ", need others");
-  hold->held[coordinate] = true;
-}
-
 bool has_states(const StudyDraft& study) {
   return study.kind == StudyKind::force_deflection || study.kind == StudyKind::equilibrium ||
          study.kind == StudyKind::equilibria;
@@ -75,35 +36,18 @@ std::string counted_from_start(const MechanismDraft& mechanism) {
   return {};
 }
 
-/// Takes over what the study before holds. @pre that one is done
-void inherit_holds(const std::vector<HoldDraft>& before, HistoryDraft& history) {
-  std::vector<HoldDraft> holds = before;
-  const auto of = [&holds](Index body) {
-    return std::find_if(holds.begin(), holds.end(),
-                        [body](const HoldDraft& hold) { return hold.body == body; });
-  };
-  for (const HoldDraft& own : history.holds) {
-    const auto hold = of(own.body);
-    if (hold == holds.end())
-      holds.push_back(own);
-    else
-      for (std::size_t i = 0; i < own.held.size(); ++i)
-        hold->held[i] = hold->held[i] || own.held[i];
-  }
-  history.holds = std::move(holds);
-}
-
 /// Holds of all studies, the earlier ones first. @pre no circles
-void inherit_all(std::vector<StudyDraft>& studies) {
+void inherit_all(const MechanismDraft& mechanism, std::vector<StudyDraft>& studies,
+                 Problems& problems) {
   std::vector<bool> done(studies.size(), false);
   for (std::size_t i = 0; i < studies.size(); ++i) {
     std::vector<std::size_t> way{i};
     while (!done[way.back()] && studies[way.back()].history.study)
       way.push_back(*studies[way.back()].history.study);
     for (auto at = way.rbegin(); at != way.rend(); ++at) {
-      HistoryDraft& history = studies[*at].history;
-      if (!done[*at] && history.study)
-        inherit_holds(studies[*history.study].history.holds, history);
+      StudyDraft& study = studies[*at];
+      if (!done[*at] && study.history.study)
+        inherit_holds(mechanism, studies[*study.history.study].history.holds, study, problems);
       done[*at] = true;
     }
   }
@@ -137,7 +81,7 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
 }  // namespace
 
 const std::vector<std::string>& history_keys() {
-  static const std::vector<std::string> keys{"from", "at", "loads", "hold"};
+  static const std::vector<std::string> keys{"from", "at", "loads", "hold", "release"};
   return keys;
 }
 
@@ -147,7 +91,7 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
   const auto from = start.has("from") ? start.required_text("from", "the name of another study")
                                       : std::optional<std::string>{};
   if (!start.has("from")) {
-    for (const char* key : {"at", "loads", "hold"})
+    for (const char* key : {"at", "loads", "hold", "release"})
       if (const Node* node = start.find(key))
         reading.problems.add(node->place, start.key_of(key),
                              "goes with from, need from = \"...\", the name of an earlier study");
@@ -168,6 +112,8 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
   history.keeps_loads = start.choice("loads", {"kept", "own"}, 0) == 0;
   for (const Item& item : start.list("hold", "a list of coordinates such as [\"foot.x\"]"))
     read_hold(item, mechanism, history.holds, reading);
+  for (const Item& item : start.list("release", "a list of coordinates such as [\"foot.x\"]"))
+    read_release(item, mechanism, history, reading);
   return history;
 }
 
@@ -189,12 +135,7 @@ void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>&
   const std::size_t before = problems.size();
   for (const StudyDraft& study : studies)
     if (study.history.study) check_history(mechanism, studies, study, problems);
-  if (problems.size() == before) inherit_all(studies);
-}
-
-void add_holds(const HistoryDraft& history, model::Mechanism& mechanism) {
-  for (const HoldDraft& hold : history.holds)
-    analysis::hold(hold.body, hold.held, "hold", mechanism);
+  if (problems.size() == before) inherit_all(mechanism, studies, problems);
 }
 
 }  // namespace springfold::io

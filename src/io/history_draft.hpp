@@ -14,15 +14,24 @@ namespace springfold::io {
 /// A point body some of whose coordinates are held in a study.
 struct HoldDraft {
   Index body = 1;
-  std::vector<bool> held{};  ///< per coordinate
-  std::string chain{};       ///< name of the chain that holds it
+  std::vector<bool> held{};          ///< per coordinate
+  std::string chain{};               ///< name of the chain that holds it
+  std::vector<std::string> since{};  ///< per coordinate: the study that held it first, once known
+};
+
+/// A coordinate of a point body that a study no longer holds.
+struct ReleaseDraft {
+  NamedPlace at{};  ///< "foot.x"
+  Index body = 1;
+  std::size_t coordinate = 0;
 };
 
 struct HistoryDraft {
   NamedPlace from{};  ///< name of the earlier study; empty: none
   std::string at = "end";
   bool keeps_loads = true;
-  std::vector<HoldDraft> holds{};
+  std::vector<HoldDraft> holds{};  ///< of the study itself, then with those that it takes over
+  std::vector<ReleaseDraft> releases{};
   std::optional<std::size_t> study{};  ///< its position among the studies, once they are all read
 };
 
@@ -36,11 +45,9 @@ HistoryDraft read_history(const TableReader& start, const MechanismDraft& mechan
                           Reading& reading);
 
 /// Finds the earlier studies by their names, and reports what cannot be a history: unknown names,
-/// circles, kinds without states, different numbers of runs, springs counted from a start.
+/// circles, kinds without states, different numbers of runs, springs counted from a start, releases of
+/// what is not held.
 void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>& studies,
                        Problems& problems);
-
-/// Adds the chains that hold bodies.
-void add_holds(const HistoryDraft& history, model::Mechanism& mechanism);
 
 }  // namespace springfold::io

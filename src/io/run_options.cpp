@@ -92,6 +92,14 @@ std::string body_name(const model::Mechanism& mechanism, Index body) {
   return exists ? mechanism.bodies[static_cast<std::size_t>(body - 1)].name : "";
 }
 
+/// "foot.x", ...: what the run no longer holds.
+std::vector<std::string> released_names(const PlannedRun& planned) {
+  std::vector<std::string> names;
+  for (const analysis::Released& one : planned.history.released)
+    names.push_back(body_name(planned.mechanism, one.body) + "." + "xyz"[one.coordinate]);
+  return names;
+}
+
 }  // namespace
 
 std::vector<NamedOption> options_of(const PlannedRun& planned) {
@@ -105,6 +113,7 @@ std::vector<NamedOption> options_of(const PlannedRun& planned) {
     used.push_back({"start.at", earlier->at});
     used.push_back({"start.loads", earlier->keeps_loads ? "kept" : "own"});
     used.push_back({"start.hold", planned.history.held});
+    used.push_back({"start.release", released_names(planned)});
   }
   return used;
 }

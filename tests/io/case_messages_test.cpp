@@ -24,9 +24,10 @@ TEST_F(CaseMessages, NameUnknownKeysWithTheNearestKnownOne) {
               ElementsAre("case.toml:12:1: body[1].psoe: unknown key, did you mean \"pose\"?"));
   EXPECT_THAT(after("title =", "titel ="),
               ElementsAre("case.toml:1:1: titel: unknown key, did you mean \"title\"?"));
-  EXPECT_THAT(after("attempts = 3", "colour = 3"),
-              ElementsAre("case.toml:33:70: study[1].start.colour: unknown key; known here: pose, "
-                          "solve, solver, attempts, seed, maximum_move, from, at, loads, hold"));
+  EXPECT_THAT(
+      after("attempts = 3", "colour = 3"),
+      ElementsAre("case.toml:33:70: study[1].start.colour: unknown key; known here: pose, "
+                  "solve, solver, attempts, seed, maximum_move, from, at, loads, hold, release"));
 }
 
 TEST_F(CaseMessages, TakeAMisspeltKeyForTheMissingOne) {

@@ -127,6 +127,64 @@ TEST_F(HistoryMessages, LaterStudiesHoldWhatThoseBeforeThemHold) {
   EXPECT_THAT(held("from = \"first\""), IsEmpty());
 }
 
+TEST_F(HistoryMessages, LaterStudiesReleaseWhatThoseBeforeThemHold) {
+  const auto held = [this](const std::string& start) {
+    return load(steps + third + "start = { " + start + " }\n").runs.at(5).history;
+  };
+  EXPECT_THAT(held("from = \"second\", release = [\"foot.x\"]").held, IsEmpty());
+  const auto other = held("from = \"second\", release = [\"foot.x\"], hold = [\"top.x\"]");
+  EXPECT_THAT(other.held, ElementsAre("top.hold"));
+  ASSERT_EQ(other.released.size(), 1U);
+  EXPECT_EQ(other.released[0].body, 1);
+  EXPECT_EQ(other.released[0].coordinate, 0);
+  EXPECT_EQ(other.released[0].chain, "foot.hold");
+}
+
+TEST_F(HistoryMessages, RefuseToReleaseWhatIsNotHeld) {
+  const auto told = [this](const std::string& start) {
+    return messages(steps + third + "start = { " + start + " }\n");
+  };
+  EXPECT_THAT(told("from = \"second\", release = [\"top.y\"]"),
+              ElementsAre("case.toml:44:39: study[3].start.release[1]: got \"top.y\", which study "
+                          "\"second\" does not hold, need \"foot.x\""));
+  EXPECT_THAT(told("from = \"first\", release = [\"foot.x\"]"),
+              ElementsAre(HasSubstr("got \"foot.x\", which study \"first\" does not hold, need no "
+                                    "release: it holds nothing")));
+  EXPECT_THAT(told("from = \"second\", hold = [\"foot.x\"], release = [\"foot.x\"]"),
+              ElementsAre(HasSubstr("study[3].start.release[1]: got \"foot.x\", which is held by "
+                                    "this study too, need hold or release")));
+  EXPECT_THAT(told("from = \"second\", release = [\"foot.x\", \"foot.x\"]"),
+              ElementsAre(HasSubstr("study[3].start.release[2]: got \"foot.x\", which is named "
+                                    "twice, need others")));
+  EXPECT_THAT(told("from = \"second\", release = [\"food.x\"]"),
+              ElementsAre(HasSubstr("study[3].start.release[1]: got \"food.x\", need a coordinate "
+                                    "of a node")));
+  EXPECT_THAT(told("release = [\"foot.x\"]"),
+              ElementsAre(HasSubstr("study[3].start.release: goes with from")));
+}
+
+TEST_F(HistoryMessages, RefuseToDriveWhatIsHeld) {
+  const auto told = [this](const std::string& control, const std::string& direction) {
+    return messages(replaced(steps + third, "kind = \"equilibrium\"",
+                             "control = \"" + control + "\"\ndirection = " + direction +
+                                 "\nstart = { from = \"second\", hold = [\"top.x\"] }"));
+  };
+  EXPECT_THAT(told("mixed", "[1, 1]"),
+              testing::Contains(
+                  "case.toml:43:13: study[3].direction: drives top.x, which study "
+                  "\"third\" holds: need another direction, or no hold (study \"third\", run 1)"));
+  EXPECT_THAT(told("load", "[1, 0]"),
+              testing::Contains(HasSubstr("study[3].direction: pushes only on top.x")));
+  EXPECT_THAT(told("load", "[1, 1]"), IsEmpty());
+  EXPECT_THAT(told("mixed", "[0, 1]"), IsEmpty());
+  EXPECT_THAT(messages(replaced(steps + third, "body = \"top\"\nkind = \"equilibrium\"",
+                                "body = \"foot\"\ncontrol = \"mixed\"\ndirection = [1, "
+                                "0]\nstart = { from = \"second\" }")),
+              testing::Contains(
+                  HasSubstr("study[3].direction: drives foot.x, which study \"second\" holds: need "
+                            "another direction, or start.release = [\"foot.x\"]")));
+}
+
 TEST_F(HistoryMessages, RefuseKindsWithoutSingleStates) {
   EXPECT_THAT(
       after("name = \"second\"\nbody = \"top\"\ncontrol = \"load\"",

@@ -246,7 +246,7 @@ TEST_F(NodeMessages, NameTheRightBarWhereOthersHaveLaws) {
               ElementsAre("case.toml:18:1: bar[2]: to: at: a body that is a point has no other "
                           "points, need none (study \"a\")"));
   EXPECT_THAT(messages(replaced(mixed, "stiffness = 2", "to_at = [1, 0]\nstiffness = 2")),
-              ElementsAre("case.toml:13:1: bar[1]: of[2]: at: a body that is a point has no other "
+              ElementsAre("case.toml:13:1: bar[1]: to: at: a body that is a point has no other "
                           "points, need none (study \"a\")"));
   EXPECT_THAT(messages(replaced(mixed, "from = \"pin\"\nto = \"top\"",
                                 "from = \"pin\"\nto = \"base\"\nto_at = [3, 3]")),

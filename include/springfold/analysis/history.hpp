@@ -14,11 +14,20 @@ namespace springfold::analysis {
 
 struct Earlier;
 
+/// A coordinate of a point body that the earlier study held still and the later one does not.
+struct Released {
+  Index body = 1;
+  Index coordinate = 0;
+  std::string chain{};  ///< which held it in the earlier study
+};
+
 /// Where a study starts from, if not from its own start.
 struct History {
   std::shared_ptr<const Earlier> earlier{};  ///< null: it starts on its own
   /// Names of chains of the mechanism that hold a point body where the study starts.
   std::vector<std::string> held{};
+  std::vector<Released>
+      released{};  ///< with loads that are kept, the forces that held them are too
 };
 
 /// The study whose state another one starts from.
