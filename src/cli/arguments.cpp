@@ -31,6 +31,8 @@ constexpr const char* examples =
     "      the mechanism moved along the curve, beside it\n"
     "  springfold plot results/orthoglide-planar\n"
     "      the figures of an earlier run drawn again, nothing is run\n"
+    "  springfold import miura.fold --output miura.toml\n"
+    "      a case of bars and folds made of a mesh\n"
     "  springfold verify cases\n"
     "      all cases of a folder against their expected values, one table\n"
     "\n"
@@ -139,6 +141,15 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
   add_run_and_colours(animate, arguments);
 }
 
+void add_import(CLI::App& import, Arguments& arguments) {
+  import.add_option("MESH", arguments.mesh, "Mesh: Wavefront .obj, or .fold of origami")
+      ->required();
+  import
+      .add_option("--output", arguments.new_case,
+                  "Case file to be written; it must not exist (standard output when not given)")
+      ->type_name("FILE");
+}
+
 /// The first word, if it is no command: with the nearest one, or with all of them.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> commands;
@@ -227,6 +238,10 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   const auto json = verify->add_flag("--json", arguments.prints_json, "Print JSON, not a table");
   verify->add_flag("--csv", arguments.prints_csv, "Print CSV, not a table")->excludes(json);
 
+  CLI::App* import = app.add_subcommand(
+      "import", "Make a case file of a mesh: bars along its edges, folds between faces");
+  add_import(*import, arguments);
+
   ParsedArguments parsed;
   try {
     app.parse(argc, argv);
@@ -249,6 +264,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
                       : draw->parsed()    ? Command::draw
                       : animate->parsed() ? Command::animate
                       : plot->parsed()    ? Command::plot
+                      : import->parsed()  ? Command::import
                                           : Command::check;
   parsed.arguments = std::move(arguments);
   return parsed;

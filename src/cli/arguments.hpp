@@ -9,7 +9,7 @@
 
 namespace springfold::cli {
 
-enum class Command { run, check, verify, draw, animate, plot };
+enum class Command { run, check, verify, draw, animate, plot, import };
 
 struct Arguments {
   Command command = Command::run;
@@ -35,13 +35,15 @@ struct Arguments {
   std::string film_jump{};                              ///< animate: --jump
   int frames = 60;                                      ///< animate: --frames
   bool prints_json = false;
-  std::filesystem::path results{};             ///< plot: folder of a run
-  bool draws_changed = false;                  ///< plot: --changed
-  bool is_quiet = false;                       ///< run: --quiet
-  bool is_verbose = false;                     ///< run: --verbose
-  bool prints_csv = false;                     ///< verify only
-  std::vector<std::filesystem::path> cases{};  ///< verify: case files and folders of them
-  int jobs = 0;                                ///< verify: runs at a time; 0: one per processor
+  std::filesystem::path results{};                  ///< plot: folder of a run
+  bool draws_changed = false;                       ///< plot: --changed
+  bool is_quiet = false;                            ///< run: --quiet
+  bool is_verbose = false;                          ///< run: --verbose
+  bool prints_csv = false;                          ///< verify only
+  std::filesystem::path mesh{};                     ///< import: the mesh
+  std::optional<std::filesystem::path> new_case{};  ///< import: --output
+  std::vector<std::filesystem::path> cases{};       ///< verify: case files and folders of them
+  int jobs = 0;  ///< verify: runs at a time; 0: one per processor
 };
 
 /// Either arguments, or text that is all there is to say (--help, --version), or what is wrong.

@@ -11,6 +11,7 @@
 #include "check_command.hpp"
 #include "draw_command.hpp"
 #include "exit_code.hpp"
+#include "import_command.hpp"
 #include "in_time.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
@@ -84,6 +85,8 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
       return run_whole(animate_command, *parsed.arguments, session);
     case Command::plot:
       return plot_command(*parsed.arguments, session);
+    case Command::import:
+      return run_whole(import_command, *parsed.arguments, session);
     case Command::run:
       break;
   }

@@ -130,5 +130,22 @@ start = { from = "press", at = "start" }
     EXPECT_THAT(good.out, HasSubstr(line));
 }
 
+TEST_F(Check, AcceptsTheCaseThatImportMakes) {
+  const std::filesystem::path mesh = scratch.path() / "tent.obj";
+  put_text(mesh, "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  const Outcome made = run({"springfold", "import", mesh.string(), "--output", file().string()});
+  EXPECT_EQ(made.code, all_done);
+  EXPECT_THAT(made.out, IsEmpty());
+  EXPECT_THAT(made.err, HasSubstr("4 nodes, 5 bars, 1 fold"));
+  const Outcome good = run({"springfold", "check", file().string()});
+  EXPECT_EQ(good.code, all_done) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("starts    1 of 1 found"));
+  const Outcome again = run({"springfold", "import", mesh.string(), "--output", file().string()});
+  EXPECT_EQ(again.code, input_output);
+  EXPECT_THAT(again.err, HasSubstr("it is there already"));
+  EXPECT_THAT(run({"springfold", "import", mesh.string()}).out, HasSubstr("[[bar]]"));
+  EXPECT_EQ(run({"springfold", "import", "nothing.obj"}).code, wrong_case_file);
+}
+
 }  // namespace
 }  // namespace springfold::cli

@@ -1,0 +1,235 @@
+// Meshes of other programs as cases.
+#include "springfold/io/import_mesh.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "case_files.hpp"
+#include "springfold/analysis/run.hpp"
+
+namespace springfold::io {
+namespace {
+
+using model::Mechanism;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+const std::string square_obj = R"(# a square of paper
+mtllib paper.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+f 1/1/1 2//1 3
+f -4 -2 -1
+)";
+
+const std::string square_fold = R"({
+  "file_spec": 1.1,
+  "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
+  "edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],
+  "edges_assignment": ["B", "B", "B", "B", "V"],
+  "faces_vertices": [[0, 1, 2], [0, 2, 3]],
+  "faceOrders": []
+}
+)";
+
+/// A Miura unit of four rhombi, side 1, acute angle 60 deg, folded.
+std::string miura(double turn = 0) {
+  const double g = pi / 3, t = 40 * pi / 180, c = std::cos(t) * std::tan(g);
+  const double H = std::sin(t) * std::sin(g), S = c / std::hypot(1, c), V = 1 / std::hypot(1, c);
+  const double L = std::sqrt(1 - H * H);
+  std::string text = "{ \"vertices_coords\": [";
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double x = i * S, y = j * L + (i == 1 ? V : 0), z = j == 1 ? H : 0;
+      text += (i + j > 0 ? ", [" : "[") + std::to_string(x * std::cos(turn) - z * std::sin(turn)) +
+              ", " + std::to_string(y) + ", " +
+              std::to_string(x * std::sin(turn) + z * std::cos(turn)) + "]";
+    }
+  return text + "], \"faces_vertices\": [[0, 3, 4, 1], [1, 4, 5, 2], [3, 6, 7, 4], [4, 7, 8, 5]] }";
+}
+
+class ImportedMesh : public CaseFiles {
+ protected:
+  ImportedCase import(const std::string& name, const std::string& text) const {
+    return import_mesh(write(name, text));
+  }
+  Mechanism mechanism_of(const std::string& name, const std::string& text) const {
+    return load(import(name, text).text).runs.front().mechanism;
+  }
+  std::vector<std::string> problems(const std::string& name, const std::string& text) const {
+    try {
+      import(name, text);
+    } catch (const CaseError& error) {
+      std::vector<std::string> list = error.messages();
+      for (std::string& message : list) message.erase(0, folder_.string().size() + 1);
+      return list;
+    }
+    return {};
+  }
+};
+
+double rest_of_fold(const Mechanism& mechanism, const std::string& name) {
+  for (const model::ShapeSpring& spring : mechanism.shape_springs)
+    if (spring.name == name) return std::get<model::LinearSpring>(spring.law).free;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+TEST_F(ImportedMesh, OfASquareWithADiagonalHasFiveBarsAndOneFlatFold) {
+  for (const Mechanism& mechanism :
+       {mechanism_of("square.obj", square_obj), mechanism_of("square.fold", square_fold)}) {
+    EXPECT_EQ(mechanism.line_springs.size(), 5U);
+    double sum = 0;
+    for (const model::LineSpring& bar : mechanism.line_springs) sum += bar.free;
+    EXPECT_DOUBLE_EQ(sum, 4 + std::sqrt(2.0));
+    ASSERT_EQ(mechanism.shape_springs.size(), 1U);
+    const auto& law = std::get<model::LinearSpring>(mechanism.shape_springs[0].law);
+    EXPECT_DOUBLE_EQ(law.free, pi);
+    EXPECT_DOUBLE_EQ(law.stiffness, std::sqrt(2.0));
+  }
+}
+
+TEST_F(ImportedMesh, SaysWhatWasMadeAndWhatWasLeftOut) {
+  EXPECT_THAT(import("square.obj", square_obj).report,
+              ElementsAre("4 vertices, 5 edges, 2 faces: 4 nodes, 5 bars, 1 fold",
+                          "held so that the whole cannot move, each motion once: v1, v3, v2; put "
+                          "supports where they belong",
+                          "stiffnesses are placeholders: put in your own, and loads",
+                          "left out, having no meaning here: mtllib"));
+  EXPECT_THAT(import("square.fold", square_fold).report,
+              Contains("left out, having no meaning here: faceOrders"));
+  EXPECT_THAT(import("square.fold", replaced(square_fold, "\"V\"", "\"C\"")).report,
+              Contains("1 edge between two faces is a cut or border and has no fold"));
+  EXPECT_THAT(
+      import("fan.obj", square_obj + "v 0 0 1\nv 9 9 9\nf 1 3 5\n").report,
+      testing::IsSupersetOf(
+          {"left out: the fold over the edge from v1 to v3, which more than two faces share",
+           "left out: 1 vertex without an edge"}));
+}
+
+// At a flat-foldable vertex of sector angles 60 and 120 deg: tan(minor/2) = cos 60 deg tan(major/2).
+TEST_F(ImportedMesh, OfAMiuraUnitHasItsFoldAnglesAtRest) {
+  const Mechanism mechanism = mechanism_of("miura.fold", miura());
+  EXPECT_EQ(mechanism.line_springs.size(), 16U);
+  EXPECT_EQ(mechanism.shape_springs.size(), 8U);
+  const auto folded = [&](const std::string& name) { return pi - rest_of_fold(mechanism, name); };
+  EXPECT_NEAR(folded("fold-v1-v4"), folded("fold-v4-v7"), 1e-5);  // six digits in the file
+  EXPECT_NEAR(folded("fold-v3-v4"), -folded("fold-v4-v5"), 1e-5);
+  EXPECT_NEAR(std::tan(std::abs(folded("fold-v3-v4")) / 2),
+              std::cos(pi / 3) * std::tan(std::abs(folded("fold-v1-v4")) / 2), 1e-5);
+  EXPECT_NEAR(folded("fold-v1-v3"), 0, 1e-5);  // a cut of a flat face
+}
+
+TEST_F(ImportedMesh, RestsAsDrawnAndCannotMoveAsAWhole) {
+  std::vector<std::string> texts{import("square.obj", square_obj).text};
+  for (const double turn : {0.0, 0.7, pi / 2})
+    texts.push_back(import("miura.fold", miura(turn)).text);
+  texts.push_back(import("bars.fold", R"({ "vertices_coords": [[0, 0], [1, 0], [0, 1]],
+    "edges_vertices": [[0, 1], [1, 2], [2, 0]] })")
+                      .text);
+  for (const std::string& text : texts) {
+    const Case read = load(text);
+    const auto result = analysis::run_study(read.runs[0].mechanism, read.runs[0].plan);
+    ASSERT_TRUE(result.start.found) << text;
+    EXPECT_LT(result.start.moved, 1e-12) << text;
+    EXPECT_EQ(result.start.zero_modes, 0) << text;
+  }
+}
+
+TEST_F(ImportedMesh, OfTwoCoordinatesWithoutFacesLiesInThePlane) {
+  const Mechanism mechanism = mechanism_of("bars.fold", R"({ "vertices_coords": [[0, 0], [1, 0],
+    [0, 1]], "edges_vertices": [[0, 1], [1, 2], [2, 0]] })");
+  EXPECT_EQ(mechanism.bodies.front().task_space, model::TaskSpace::xy);
+}
+
+TEST_F(ImportedMesh, CutsQuadrilateralsAlongTheirShorterDiagonal) {
+  const Mechanism mechanism =
+      mechanism_of("kite.obj", "v 0 0 0\nv 1 -1 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4\n");
+  ASSERT_EQ(mechanism.line_springs.size(), 5U);
+  EXPECT_EQ(mechanism.line_springs.back().name, "v2-v4");
+  EXPECT_EQ(mechanism.line_springs.back().free, 2);
+}
+
+// Seen from above the square's faces run counter-clockwise: a valley closes above, below pi.
+TEST_F(ImportedMesh, TellsValleysFromMountains) {
+  const auto angle = [&](const std::string& height) {
+    return rest_of_fold(
+        mechanism_of("square.obj", replaced(square_obj, "v 0 1 0", "v 0 1 " + height)),
+        "fold-v1-v3");
+  };
+  EXPECT_LT(angle("0.5"), pi);
+  EXPECT_NEAR(angle("0.5") + angle("-0.5"), 2 * pi, 1e-12);
+}
+
+TEST_F(ImportedMesh, TakesTheFileNameAsTextAndNothingElse) {
+  const std::string name = "a\"]\n[x] \\ \x7f";
+  EXPECT_EQ(load(import(name + ".obj", square_obj).text).title, name);
+}
+
+TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInObjFiles) {
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 7 4")),
+              ElementsAre("a.obj:8:5: f: got \"7\", need the number of a vertex that stands before "
+                          "it, 1 to 4, or -1 for the last one"));
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 one 0")),
+              ElementsAre("a.obj:6:5: v: got \"one\", need a finite number"));
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 1")),
+              ElementsAre("a.obj:6:1: v: got \"v\", need three coordinates behind it"));
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 3")),
+              ElementsAre("a.obj:8:1: f: got \"f\", need at least 3 vertices behind it"));
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 3 3")),
+              ElementsAre("a.obj:8:1: f: a corner stands twice, need different ones"));
+  EXPECT_THAT(problems("a.obj", square_obj + "v 2 2 0\nf 1 3 5\n"),
+              ElementsAre("a.obj:10:1: f: the corners v1, v3, v5 lie on one line, need triangles "
+                          "with an area"));
+  EXPECT_THAT(problems("a.obj", "v 0 0 0\n"),
+              ElementsAre("a.obj: there are no edges and no faces, need some"));
+  EXPECT_THAT(problems("a.stl", square_obj),
+              ElementsAre("a.stl: got a file that ends in \".stl\", need \".obj\" or \".fold\""));
+}
+
+TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInFoldFiles) {
+  EXPECT_THAT(
+      problems("a.fold", replaced(square_fold, "[1, 2]", "[1, 9]")),
+      Contains("a.fold:4:34: edges_vertices[2]: got 9, need the number of a vertex, 0 to 3"));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "[1, 0]", "[1, \"0\"]")),
+              ElementsAre("a.fold:3:35: vertices_coords[2]: got \"0\", need a number"));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "\"V\"", "\"X\"")),
+              ElementsAre(HasSubstr("a.fold:5:44: edges_assignment[5]: got \"X\", need \"M\", ")));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, ", \"V\"", "")),
+              ElementsAre("a.fold:5:23: edges_assignment: got a list of 4, need one for each of "
+                          "the 5 edges of edges_vertices"));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, ", [0, 2]]", "]")),
+              Contains(HasSubstr("a.fold:5:23: edges_assignment: got a list of 5, need one for "
+                                 "each of the 4 edges")));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "[3, 0]", "[1, 0]")),
+              ElementsAre("a.fold:4:46: edges_vertices[4]: the edge from v1 to v0 stands twice, "
+                          "need it once"));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "[0, 2, 3]]", "[0, 1, 3]]")),
+              ElementsAre(HasSubstr("a.fold:6:33: faces_vertices[2]: its side from v1 to v3 is no "
+                                    "edge of edges_vertices, need one")));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "1.1,", "1.1")),
+              ElementsAre(HasSubstr("a.fold:3:19: no JSON: syntax error")));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "\"faceOrders\"", "\"file_spec\"")),
+              ElementsAre("a.fold:7:3: file_spec: stands twice, need it once"));
+  EXPECT_THAT(problems("a.fold", std::string(100, '[')),
+              ElementsAre("a.fold:1:33: nested more than 32 deep, need less"));
+  EXPECT_THAT(problems("a.fold", "[1]"),
+              ElementsAre("a.fold:1:1: got a list of 1, need an object with vertices_coords"));
+}
+
+TEST_F(ImportedMesh, IsWrittenOnlyWhereNothingIs) {
+  const std::filesystem::path file = write("there.toml", "mine");
+  EXPECT_THROW(write_new_case(file, "new"), std::runtime_error);
+  write_new_case(folder_ / "new.toml", "new");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "new.toml"));
+}
+
+}  // namespace
+}  // namespace springfold::io
