@@ -101,6 +101,8 @@ class JsonNodes {
 
   bool parse_error(std::size_t, const std::string&, const std::exception& error) {
     std::string what = error.what();
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    if (const auto start = what.find("] "); start != std::string::npos) what.erase(0, start + 2);
     if (const auto start = what.find(": "); start != std::string::npos) what.erase(0, start + 2);
     return refuse(cursor_.here(file_), "", "no JSON: " + what);
   }

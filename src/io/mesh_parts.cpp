@@ -111,8 +111,12 @@ class PartsMaker {
     const auto found = neighbours_.find(edge);
     if (found == neighbours_.end() || found->second.size() < 2) return;
     std::vector<Neighbour> sides = found->second;
-    if (sides.size() > 2 || sides[0].tip == sides[1].tip) {
+    if (sides.size() > 2) {
       crowded_.push_back(edge);
+      return;
+    }
+    if (sides[0].tip == sides[1].tip) {
+      closed_.push_back(edge);
       return;
     }
     if (crease == Crease::cut || crease == Crease::border) {

@@ -114,6 +114,15 @@ TEST_F(ImportedMesh, SaysWhatWasMadeAndWhatWasLeftOut) {
            "left out: 1 vertex without an edge"}));
 }
 
+TEST_F(ImportedMesh, HasNoFoldsBetweenFacesThatLieOnEachOther) {
+  const ImportedCase twice = import("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n");
+  EXPECT_THAT(twice.report, Contains("left out: the fold over the edge from v1 to v2 and 2 more, "
+                                     "whose faces lie on each other"));
+  EXPECT_THAT(import("shut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 2 0\nf 1 2 3\nf 2 1 4\n").report,
+              Contains("left out: the fold over the edge from v1 to v2, whose faces lie on each "
+                       "other"));
+}
+
 // At a flat-foldable vertex of sector angles 60 and 120 deg: tan(minor/2) = cos 60 deg tan(major/2).
 TEST_F(ImportedMesh, OfAMiuraUnitHasItsFoldAnglesAtRest) {
   const Mechanism mechanism = mechanism_of("miura.fold", miura());
@@ -216,6 +225,8 @@ TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInFoldFiles) {
                                     "edge of edges_vertices, need one")));
   EXPECT_THAT(problems("a.fold", replaced(square_fold, "1.1,", "1.1")),
               ElementsAre(HasSubstr("a.fold:3:19: no JSON: syntax error")));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "1.1,", "1e999,")),
+              ElementsAre("a.fold:2:21: no JSON: number overflow parsing '1e999'"));
   EXPECT_THAT(problems("a.fold", replaced(square_fold, "\"faceOrders\"", "\"file_spec\"")),
               ElementsAre("a.fold:7:3: file_spec: stands twice, need it once"));
   EXPECT_THAT(problems("a.fold", std::string(100, '[')),
