@@ -34,6 +34,7 @@ posture_of() {
     "hencky-column, clamped-2") echo press/EP4 ;;
     "hencky-column, pinned-2") echo press/EP3 ;;
     lee-frame*) echo press/LP2 ;;
+    miura-unit) echo pull/EP2 ;;
     "nodes-and-bars, laws") echo cubic/LP1 ;;
     nodes-and-bars | "short-files, platform") echo press/LP1 ;;
     preload-then-push) echo push/LP1 ;;

@@ -136,6 +136,20 @@ TEST_F(ImportedMesh, OfAMiuraUnitHasItsFoldAnglesAtRest) {
   EXPECT_NEAR(folded("fold-v1-v3"), 0, 1e-5);  // a cut of a flat face
 }
 
+TEST_F(ImportedMesh, IsWhatTheCaseOfTheLibraryBeganWith) {
+  const std::string folder = SPRINGFOLD_SOURCE_DIR "/cases/miura-unit/";
+  const Mechanism made = load(import_mesh(folder + "unit.fold").text).runs[0].mechanism;
+  const Mechanism used = load_case(folder + "case.toml", {}).runs[0].mechanism;
+  ASSERT_EQ(made.line_springs.size(), used.line_springs.size());
+  for (std::size_t i = 0; i < used.line_springs.size(); ++i) {
+    EXPECT_EQ(made.line_springs[i].name, used.line_springs[i].name);
+    EXPECT_EQ(made.line_springs[i].free, used.line_springs[i].free);
+  }
+  ASSERT_EQ(made.shape_springs.size(), used.shape_springs.size());
+  for (const model::ShapeSpring& spring : used.shape_springs)
+    EXPECT_EQ(rest_of_fold(made, spring.name), rest_of_fold(used, spring.name));
+}
+
 TEST_F(ImportedMesh, RestsAsDrawnAndCannotMoveAsAWhole) {
   std::vector<std::string> texts{import("square.obj", square_obj).text};
   for (const double turn : {0.0, 0.7, pi / 2})
