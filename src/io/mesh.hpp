@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "problems.hpp"
+#include "springfold/core/types.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::io {
