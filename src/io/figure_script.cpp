@@ -172,8 +172,8 @@ void send_insets(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
     const PlotInset& inset = figure.look.insets[i];
     const InsetPlace place = place_of_inset(inset, figure.look, canvas);
     const auto& [low, high] = std::tie(place.low, place.high);
-    add_word(x_low, shortest(inset.x.first)), add_word(x_high, shortest(inset.x.second));
-    add_word(y_low, shortest(inset.y.first)), add_word(y_high, shortest(inset.y.second));
+    add_word(x_low, decimal(inset.x.first)), add_word(x_high, decimal(inset.x.second));
+    add_word(y_low, decimal(inset.y.first)), add_word(y_high, decimal(inset.y.second));
     add_word(left, rounded(low.first / canvas.width, 6));
     add_word(right, rounded(high.first / canvas.width, 6));
     add_word(bottom, rounded(low.second / canvas.height, 6));

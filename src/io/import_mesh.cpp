@@ -13,10 +13,10 @@
 namespace springfold::io {
 namespace {
 
-/// A text in TOML: the escapes of JSON are among those of TOML.
+/// A text in TOML: the escapes of JSON are among those of TOML, but for surrogates, so that other characters stay.
 std::string toml_text(const std::string& text) {
   std::string quoted =
-      nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (std::size_t at = 0; (at = quoted.find('\x7f', at)) != std::string::npos;)
     quoted.replace(at, 1, "\\u007f");
   return quoted;

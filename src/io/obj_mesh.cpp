@@ -39,6 +39,8 @@ class ObjReader {
   }
 
   Mesh read(std::string_view bytes) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
     while (!bytes.empty()) {
       const std::size_t end = bytes.find('\n');
       ++line_;

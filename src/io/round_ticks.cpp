@@ -1,6 +1,8 @@
 #include "round_ticks.hpp"
 
+#include <charconv>
 #include <cmath>
+#include <string>
 
 #include "text.hpp"
 
@@ -43,6 +45,12 @@ std::vector<double> decades(const PlotRange& range, std::size_t most) {
   return values;
 }
 
+std::string tick_text(double value) {
+  const std::string text = rounded(value, tick_digits);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return decimal(value);
+}
+
 }  // namespace
 
 std::vector<std::string> round_ticks(const PlotRange& range, bool is_log, std::size_t most) {
@@ -51,8 +59,8 @@ std::vector<std::string> round_ticks(const PlotRange& range, bool is_log, std::s
   if (values.size() < 2) values = even_ticks(range, most);
   std::vector<std::string> texts;
   texts.reserve(values.size());
-  for (const double value : values) texts.push_back(rounded(value, tick_digits));
-  if (texts.size() < 2) texts = {shortest(range.first), shortest(range.second)};
+  for (const double value : values) texts.push_back(tick_text(value));
+  if (texts.size() < 2) texts = {decimal(range.first), decimal(range.second)};
   return texts;
 }
 

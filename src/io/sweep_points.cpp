@@ -8,6 +8,7 @@
 #include "fitted_table.hpp"
 #include "nothing.hpp"
 #include "result_access.hpp"
+#include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
 #include "sweep_tables.hpp"
 #include "text.hpp"
@@ -57,14 +58,16 @@ SweepPoints points_of_study(const Case& the_case, const std::string& study,
     if (result == nullptr || result->row) continue;
     sweep.parameters = planned.varied;
     sweep.runs.push_back({.planned = &planned, .result = result});
-    add_labels(*result, sweep.labels);
+    if (start_problem(result->start, &planned).empty()) add_labels(*result, sweep.labels);
   }
   std::sort(sweep.labels.begin(), sweep.labels.end(),
             [](const auto& a, const auto& b) { return label_rank(a) < label_rank(b); });
   for (const std::string& label : sweep.labels) sweep.codes.push_back(label.substr(0, 2));
   for (SweepPoints::Run& run : sweep.runs)
     for (const std::string& label : sweep.labels)
-      run.places.push_back(row_with(*run.result, label));
+      run.places.push_back(start_problem(run.result->start, run.planned).empty()
+                               ? row_with(*run.result, label)
+                               : std::nullopt);
   return sweep;
 }
 

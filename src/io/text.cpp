@@ -30,6 +30,17 @@ std::string padded(std::string_view cell, std::size_t width, Align align) {
 
 }  // namespace
 
+std::string decimal(double value) {
+  std::array<char, 400> buffer{};  // the largest double has 309 digits, the least one 324 zeros
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  if (error != std::errc{}) return shortest(value);
+  std::string text(buffer.data(), end);
+  constexpr double large_integer = 9007199254740992.0;  // 2^53
+  if (std::abs(value) >= large_integer) text += ".0";
+  return text;
+}
+
 std::string shortest(double value) {
   if (std::isnan(value)) return "nan";  // to_chars would print the sign of a NaN
   std::array<char, 32> text{};

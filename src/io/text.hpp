@@ -10,6 +10,10 @@ namespace springfold::io {
 /// Shortest decimal form that reads back to the same double; "nan", "inf", "-inf".
 std::string shortest(double value);
 
+/// The shortest form without an exponent, of finite values: gnuplot takes no exponents in texts,
+/// and whole numbers only as far as they fit into 64 bits: larger ones end with ".0".
+std::string decimal(double value);
+
 /// At most `digits` significant digits, trailing zeros left out, no "-0"; "nan", "inf",
 /// "-inf".
 std::string rounded(double value, int digits);

@@ -196,6 +196,19 @@ TEST_F(ImportedMesh, TakesTheFileNameAsTextAndNothingElse) {
   EXPECT_EQ(load(import(name + ".obj", square_obj).text).title, name);
 }
 
+TEST_F(ImportedMesh, KeepsCharactersBeyondTheBasicPlaneInItsTitle) {
+  const std::string name = "\xf0\x9f\x98\x80";
+  EXPECT_EQ(load(import(name + ".obj", square_obj).text).title, name);
+}
+
+TEST_F(ImportedMesh, IsTheSameWithAByteOrderMark) {
+  EXPECT_EQ(import("marked.obj", "\xef\xbb\xbf" + square_obj).report,
+            import("square.obj", square_obj).report);
+  EXPECT_EQ(mechanism_of("marked.obj", "\xef\xbb\xbfv 9 9 9\nv 0 0 0\nv 1 0 0\nf 1 2 3\n")
+                .line_springs.size(),
+            3U);
+}
+
 TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInObjFiles) {
   EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 7 4")),
               ElementsAre("a.obj:8:5: f: got \"7\", need the number of a vertex that stands before "

@@ -234,6 +234,19 @@ TEST_F(KeyOfAFigure, IsDrawnByGnuplotWithInsetsOnAnyAxes) {
   for (const char* text : {">force<", ">point.x<", ">0.5015<"}) EXPECT_THAT(svg, HasSubstr(text));
 }
 
+TEST_F(KeyOfAFigure, IsDrawnByGnuplotWithInsetsOfLargeAndSmallNumbers) {
+  if (!find_executable("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
+  Case the_case = sample::two_runs();
+  PlotSpec spec{.name = "a", .curves = {{.study = "push from Q2"}}};
+  spec.look.formats = {"svg"};
+  spec.look.insets = {{.x = {0, 4e5}, .y = {-1e-5, 1e-5}, .corner = "top left"},
+                      {.x = {1e-7, 1e22}, .y = {0, 1e6}, .corner = "bottom right"}};
+  the_case.plots = {spec};
+  const auto outcome = draw_plots(scratch.path(), the_case, sample::two_results());
+  EXPECT_THAT(outcome.warnings, IsEmpty());
+  EXPECT_THAT(text_in(scratch.path() / "plots/a.svg"), HasSubstr(">0.00001<"));
+}
+
 class PolarPlot : public CaseFiles {};
 
 TEST_F(PolarPlot, HasNoLogarithmicAxes) {

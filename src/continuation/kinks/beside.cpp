@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/level.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
@@ -25,7 +26,9 @@ Beside beside(const Walker& walker, const CurvePoint& at, int direction, double 
 }
 
 Beside before_singular(const Walker& walker, const CurvePoint& at, double room) {
+  const bool flat = std::abs(at.tangent.dlambda) <= perhaps_singular;  // a fold lies there too
   for (const double distance : {1e-6, 1e-5, told_apart}) {
+    if (flat && distance < told_apart) continue;
     const auto point = point_at(walker, at, -std::min(distance, 0.5 * room));
     if (point && cosine(walker, point->tangent, at.tangent) > same_way)
       return {*point, sense_of(*point), true};

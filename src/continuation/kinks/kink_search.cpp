@@ -200,7 +200,6 @@ std::optional<double> departure(const SwitchOnStep& f, double slack) {
 }
 
 constexpr double steep = 1e-4;
-
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where
 /// it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
@@ -273,7 +272,8 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   if (!(off <= perhaps_singular)) return;
   point.x = place->x;
   point.lambda = place->lambda;
-  point.s = std::max(from.s, point.s + metric_product(walker.weights, moved, point.tangent));
+  const Direction way{place->x - from.x, place->lambda - from.lambda};
+  point.s = from.s + std::max(0.0, metric_product(walker.weights, way, from.tangent));
   point.negative.reset();
   if (auto tangent = arriving_tangent(walker, from, point.s - from.s))
     point.tangent = std::move(*tangent);

@@ -100,6 +100,11 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     if (zero.touches || !(zero.at > begin)) continue;
     auto point = point_between(walker, from, to, zero.at);
     if (!point) point = interpolated_point(walker, from, to, zero.at);
+    // The end is zero itself, and a branch point, next to which there are no points and tangents are rough: see below.
+    if (!point && h - zero.at <= resolution) {
+      values.back() = 0;
+      continue;
+    }
     if (!point) return false;
     at_end = at_end || zero.at == h;
     add(std::move(*point), zero.before, zero.after);
