@@ -11,7 +11,7 @@
 #   first_parts   those of them that stand for the others of their kind in the key: kinds that are seen
 #   mixed_in_key  1: of that block something is seen
 #   quantities    number of quantities over the same x, with quantity_name[n]; the n-th has the n-th colour. Of one: 0
-#   x_log, y_log  1: logarithmic
+#   x_log, y_log  1: logarithmic; x_ticks, y_ticks: lists of ticks where powers of ten are too few, otherwise empty
 #   insets        number of enlarged parts; inset_x_low, inset_left, ... are lists of as many numbers, the rooms
 #                 for numbers in parts of the inset; inset_x_ticks_1, inset_y_ticks_1, ... are lists of ticks
 #   has_bar       1: palette_text, bar_title, bar_low, bar_high say what the colours of curves mean
@@ -37,6 +37,12 @@ set bmargin at screen frame_bottom
 set tmargin at screen frame_top
 if (x_log) { set logscale x } else { unset logscale x }
 if (y_log) { set logscale y } else { unset logscale y }
+set xtics autofreq
+set ytics autofreq
+if (words(x_ticks) > 0) { set xtics (word(x_ticks, 1) real(word(x_ticks, 1))) }
+if (words(y_ticks) > 0) { set ytics (word(y_ticks, 1) real(word(y_ticks, 1))) }
+do for [tick in x_ticks] { set xtics add (tick real(tick)) }
+do for [tick in y_ticks] { set ytics add (tick real(tick)) }
 set xrange [x_low:x_high]
 set yrange [y_low:y_high]
 unset xzeroaxis

@@ -12,6 +12,7 @@
 #include "jump_arrows.hpp"
 #include "label_layout.hpp"
 #include "overlaps.hpp"
+#include "round_ticks.hpp"
 #include "seen_parts.hpp"
 #include "text.hpp"
 
@@ -219,6 +220,14 @@ void send_bar(Gnuplot& gnuplot, const Figure& figure, bool is_tex) {
           << " " << shortest(figure.low.second) << " " << shortest(low) << "\ne\n";
 }
 
+/// Ticks of a logarithmic axis that has hardly a power of ten; otherwise gnuplot's own are good.
+std::string ticks_of(bool is_log, const PlotRange& range) {
+  constexpr double few = 20;  // times the least value: two powers of ten may be missed
+  constexpr std::size_t most = 6;
+  return is_log && range.second < few * range.first ? joined_words(round_ticks(range, true, most))
+                                                    : "";
+}
+
 void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, bool is_tex) {
   gnuplot << assignment("figure_name", figure.name)
           << gnuplot_assignment("figure_title", text_for(figure.title, is_tex))
@@ -228,6 +237,10 @@ void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, b
           << assignment("y_low", figure.low.second) << assignment("y_high", figure.high.second)
           << "x_log = " << (figure.look.x_log ? 1 : 0)
           << "\ny_log = " << (figure.look.y_log ? 1 : 0) << "\n"
+          << assignment("x_ticks",
+                        ticks_of(figure.look.x_log, {figure.low.first, figure.high.first}))
+          << assignment("y_ticks",
+                        ticks_of(figure.look.y_log, {figure.low.second, figure.high.second}))
           << assignment("figure_width", canvas.width) << assignment("figure_height", canvas.height)
           << assignment("figure_font", figure.look.font)
           << assignment("figure_font_size", figure.look.font_size)

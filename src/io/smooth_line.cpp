@@ -139,14 +139,16 @@ PlotPoint from_decades(PlotPoint at, const AxisScales& scales) {
   return at;
 }
 
-/// Is the curve smooth in decades here? Near zero it is smooth in the values, and its logarithm is not.
+/// Is the curve smooth in decades here, as power laws are on two logarithmic axes? Near zero it is smooth in the values, and
+/// its logarithm is not; over one logarithmic axis what is straight in the values would become wavy.
 bool is_gentle(const std::vector<LineRow>& rows, std::size_t step, const AxisScales& scales) {
   constexpr double most = 0.5;  // decades from row to row
+  if (!scales.x_log || !scales.y_log) return false;
   const std::size_t first = step > 0 ? step - 1 : 0, last = std::min(step + 1, rows.size() - 2);
   for (std::size_t i = first; i <= last; ++i) {
     const PlotPoint &a = rows[i].at, &b = rows[i + 1].at;
-    if (scales.x_log && !(std::abs(b.first - a.first) < most)) return false;
-    if (scales.y_log && !(std::abs(b.second - a.second) < most)) return false;
+    if (!(std::abs(b.first - a.first) < most) || !(std::abs(b.second - a.second) < most))
+      return false;
   }
   return true;
 }
@@ -179,7 +181,7 @@ std::vector<Polyline> points_between(const std::vector<LineRow>& rows, const Axi
   const std::vector<LineRow> in_decades = decades_of(rows, scales);
   const Curve plain{rows}, shown{in_decades};
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    const bool in_logs = scales.any_log() && is_gentle(in_decades, i, scales) && shown.is_curved(i);
+    const bool in_logs = is_gentle(in_decades, i, scales) && shown.is_curved(i);
     const Curve& curve = in_logs ? shown : plain;
     const bool is_curved = curve.is_curved(i);
     const LineRow &a = rows[i], &b = rows[i + 1];

@@ -72,6 +72,14 @@ TEST(LogAxes, ShowTheCubicBetweenTheRows) {
   EXPECT_LT(worst_gap(line, [](double x) { return x * x; }), pixel);
 }
 
+TEST(LogAxes, KeepWhatIsStraightInTheValuesOverOneOfThem) {
+  std::vector<LineRow> rows;
+  for (int i = 0; i <= 20; ++i) rows.push_back({{0.05 * i, 0.5 * i}, 0.05 * i});
+  for (const bool x_log : {true, false})
+    for (const PlotPoint& at : drawn_line(rows, x_log, !x_log))
+      EXPECT_NEAR(at.second, 10 * at.first, 1e-12);
+}
+
 TEST(LogAxes, KeepAPowerLawWhatItIs) {
   // y = 3 x^-2, x growing by a factor of 1.5 from row to row: on these axes a straight line.
   std::vector<LineRow> rows;
@@ -232,6 +240,15 @@ TEST_F(KeyOfAFigure, IsDrawnByGnuplotWithInsetsOnAnyAxes) {
   EXPECT_THAT(outcome.missing, IsEmpty());
   const std::string svg = text_in(scratch.path() / "plots/a.svg");
   for (const char* text : {">force<", ">point.x<", ">0.5015<"}) EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST_F(KeyOfAFigure, HasNumbersOnLogarithmicAxesWithinADecade) {
+  PlotSpec spec;
+  spec.look.x_log = true;
+  spec.look.x_range = {0.02, 0.09};
+  EXPECT_THAT(script(spec), HasSubstr("x_ticks = '0.02 0.04 0.06 0.08'"));
+  spec.look.x_range = {0.001, 0.9};
+  EXPECT_THAT(script(spec), HasSubstr("x_ticks = ''")) << "powers of ten";
 }
 
 TEST_F(KeyOfAFigure, IsDrawnByGnuplotWithInsetsOfLargeAndSmallNumbers) {
