@@ -126,8 +126,8 @@ class MechanismView {
     parts.springs.forEach((spring, i) => {
       const k = 2 * (row * parts.springs.length + i);
       const acts = numbers.springs[k] > 0, force = numbers.springs[k + 1];
-      // Bars between nodes: there is no link that could show stability.
-      const shows = spring.line && parts.links.length === 0;
+      // Bars between nodes, perhaps on rollers: there is no link that could show stability.
+      const shows = spring.line && parts.links.every((link) => link.rail);
       const colour = !shows ? "spring" : stability === "unknown" ? "ink" : stability;
       /** @type {Object<string, string | number>} */
       const ink = acts ? {stroke: `var(--${colour})`, "stroke-width": 1.8} : {stroke: "var(--grey)", "stroke-dasharray": "3 2"};

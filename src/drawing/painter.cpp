@@ -321,7 +321,9 @@ std::string stability_colour(const Panel& panel) {
 }
 
 bool has_colour_of_stability(const Scene& scene, const SpringPart& spring, Colouring colouring) {
-  return colouring == Colouring::stability && scene.links.empty() && spring.is_line && spring.acts;
+  const bool no_member = std::all_of(scene.links.begin(), scene.links.end(),
+                                     [](const LinkPart& link) { return link.is_rail; });
+  return colouring == Colouring::stability && no_member && spring.is_line && spring.acts;
 }
 
 bool has_colour_of_value(const SpringPart& spring, Colouring colouring) {

@@ -128,9 +128,15 @@ TEST(View, FromAboveIsThePlan) {
   EXPECT_NEAR(view.up.y(), 1, 1e-15);
 }
 
-/// A bar from the base to a node, and no chain.
-Panel bar(int unstable) {
+/// A bar from the base to a node, and no chain but perhaps the guide of the node.
+Panel bar(int unstable, bool is_guided = false) {
   model::Mechanism mechanism;
+  if (is_guided)
+    mechanism.chains.push_back({.name = "node.guide",
+                                .from_attachment = {.p = model::Vec3<double>{0, 1, 0}},
+                                .elements = {model::Joint{.kind = model::JointKind::prismatic,
+                                                          .axis = model::Vec3<double>::UnitX(),
+                                                          .initial = 1}}});
   mechanism.bodies.push_back(
       {.name = "node", .task_space = model::TaskSpace::xy, .pose = Vector::Ones(2)});
   mechanism.line_springs.push_back({.name = "rod", .to = {.body = 1}, .stiffness = 1, .free = 1});
@@ -147,6 +153,13 @@ TEST(Bars, HaveTheColourOfStabilityWhereThereIsNoLink) {
     EXPECT_THAT(svg.substr(begin, title - begin), HasSubstr(std::string{"stroke=\""} + colour));
     EXPECT_THAT(svg, Not(HasSubstr(">spring<"))) << "nothing is drawn in the colour of springs";
   }
+}
+
+TEST(Bars, HaveTheColourOfStabilityBetweenNodesOnRollersToo) {
+  const std::string svg = svg_text(illustrate({bar(0, true)}, {}));
+  const auto title = svg.find("<title>spring rod");
+  const auto begin = svg.rfind("<polyline", title);
+  EXPECT_THAT(svg.substr(begin, title - begin), HasSubstr("stroke=\"#0072b2"));
 }
 
 TEST(Bars, HaveTheColourOfSpringsWhereColoursSayNothing) {
