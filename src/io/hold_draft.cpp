@@ -149,21 +149,25 @@ std::string held_drive(const HistoryDraft& history, const MechanismDraft& mechan
   if (hold == history.holds.end() || study.kind != StudyKind::force_deflection) return {};
   std::string held, since;
   bool also_free = false;
+  const bool drives_all = study.control == analysis::ControlMode::pose;
   for (Index i = 0; i < study.direction.size(); ++i) {
     const auto coordinate = static_cast<std::size_t>(i);
-    if (study.direction[i] == 0) continue;
+    if (study.direction[i] == 0 && !drives_all) continue;
     also_free = also_free || !hold->held[coordinate];
     if (!hold->held[coordinate] || !held.empty()) continue;
     held = body_of(mechanism, hold->body).name + "." + "xyz"[coordinate];
     since = hold->since[coordinate];
   }
   if (held.empty()) return {};
+  if (drives_all)
+    return "control: \"pose\" drives all of the body, and study \"" + since + "\" holds " + held +
+           ": need \"mixed\", which drives along the direction alone, " +
+           (since == study.name ? "or no hold" : "or start.release = [\"" + held + "\"]");
   const std::string which = held + ", which study \"" + since + "\" holds: need ";
   const std::string help = since == study.name
                                ? "another direction, or no hold"
                                : "another direction, or start.release = [\"" + held + "\"]";
-  if (study.control == analysis::ControlMode::pose || study.control == analysis::ControlMode::mixed)
-    return "direction: drives " + which + help;
+  if (study.control == analysis::ControlMode::mixed) return "direction: drives " + which + help;
   const bool others = std::any_of(planned.mechanism.loads.begin(), planned.mechanism.loads.end(),
                                   [](const model::Load& load) { return load.with_lambda; });
   if (study.control == analysis::ControlMode::load && !also_free && !others)

@@ -173,6 +173,10 @@ TEST_F(HistoryMessages, RefuseToDriveWhatIsHeld) {
               testing::Contains(
                   "case.toml:43:13: study[3].direction: drives top.x, which study "
                   "\"third\" holds: need another direction, or no hold (study \"third\", run 1)"));
+  EXPECT_THAT(told("pose", "[0, 1]"),
+              testing::Contains(HasSubstr(
+                  "study[3].control: \"pose\" drives all of the body, and study \"third\" "
+                  "holds top.x: need \"mixed\", which drives along the direction alone")));
   EXPECT_THAT(told("load", "[1, 0]"),
               testing::Contains(HasSubstr("study[3].direction: pushes only on top.x")));
   EXPECT_THAT(told("load", "[1, 1]"), IsEmpty());
