@@ -39,8 +39,8 @@ struct Mesh {
   std::vector<std::string> left_out{};  ///< what the file has besides: its own words
 };
 
-/// More make a case that is larger than a case may be.
-inline constexpr std::size_t most_vertices = 50'000;
+/// Of a triangle mesh with more of them bars and folds want more than the 2 GB that a case may need.
+inline constexpr std::size_t most_vertices = 1'800;
 
 /// Each reports everything that is wrong, with its place. The result is of use only without problems.
 Mesh read_obj(std::string_view bytes, const std::string& file, Problems& problems);

@@ -201,6 +201,14 @@ TEST_F(ImportedMesh, KeepsCharactersBeyondTheBasicPlaneInItsTitle) {
   EXPECT_EQ(load(import(name + ".obj", square_obj).text).title, name);
 }
 
+TEST_F(ImportedMesh, IsRefusedWhereItsCaseWouldBeTooLarge) {
+  std::string text;
+  for (int i = 0; i <= 1800; ++i) text += "v " + std::to_string(i) + " 0 0\n";
+  EXPECT_THAT(
+      problems("large.obj", text + "f 1 2 3\n"),
+      Contains(testing::HasSubstr("large.obj:1801:1: v: got \"v\", need at most 1800 vertices")));
+}
+
 TEST_F(ImportedMesh, IsTheSameWithAByteOrderMark) {
   EXPECT_EQ(import("marked.obj", "\xef\xbb\xbf" + square_obj).report,
             import("square.obj", square_obj).report);
