@@ -169,6 +169,7 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   event.rates_after = evaluator.rates(quantities, next->point, &next->turns);
   event.stiffness_after = evaluator.platform_stiffness(next->point);
   event.compliance_after = evaluator.rigid_compliance(next->point);
+  if (hit.kind == HitKind::unresolved) return event;  // its name says why; perhaps nothing switches
   event.detail = switching_detail(problem.system(entry.point.lambda), hit, entry.point.piece,
                                   next->point.piece);
   if (turns_back(event, quantities)) {
