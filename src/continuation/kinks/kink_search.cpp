@@ -8,7 +8,8 @@
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
-#include "continuation/points/chebyshev.hpp"
+#include "continuation/points/coincide.hpp"
+#include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 
@@ -200,6 +201,7 @@ std::optional<double> departure(const SwitchOnStep& f, double slack) {
 }
 
 constexpr double steep = 1e-4;
+
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where
 /// it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
@@ -233,22 +235,9 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
 /// two directions and do not say which is that of this curve.
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
   constexpr double nearest = 0.9;  // of the way: nearer points may belong to the other branch
-  const Index n = from.x.size();
-  const auto unknowns = [&](double t) -> std::optional<Vector> {
-    const auto point = point_at(walker, from, t);
-    if (!point) return std::nullopt;
-    Vector u(n + 1);
-    u << point->x, point->lambda;
-    return u;
-  };
-  const auto curve = interpolate(unknowns, 0, nearest * ds);
-  if (!curve) return std::nullopt;
-  const Vector rate = curve->slope(ds);
-  Direction tangent{rate.head(n), rate[n]};
-  const double length = std::sqrt(metric_product(walker.weights, tangent, tangent));
-  tangent.dx /= length;
-  tangent.dlambda /= length;
-  return tangent;
+  const auto curve =
+      interpolated_curve([&](double t) { return point_at(walker, from, t); }, 0, nearest * ds);
+  return curve ? std::optional<Direction>(unit_direction(walker, curve->slope(ds))) : std::nullopt;
 }
 
 /// Where a branch point of the piece lies on the surface, corrected points beside it are uncertain, and so is the

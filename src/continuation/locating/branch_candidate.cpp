@@ -7,6 +7,7 @@
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/sigma_touch.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/interpolated.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -149,10 +150,7 @@ std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint
   const auto c = quadratic_direction(*e, e->N.transpose() * along.cwiseProduct(e->root), 0.05);
   if (!c) return std::nullopt;
   const Vector d = (e->N * *c).cwiseQuotient(e->root);
-  Direction tangent{d.head(n), d[n]};
-  const double length = length_of(arc.walker(), tangent);
-  tangent.dx /= length;
-  tangent.dlambda /= length;
+  const Direction tangent = unit_direction(arc.walker(), d);
   if (metric_product(arc.walker().weights, tangent, point.tangent) < 0.99) return std::nullopt;
   point.tangent = tangent;
   return tangent.dlambda;
@@ -172,15 +170,8 @@ bool branch_turns(const WatchedStep& arc, Index m, Candidate& found) {
 
 std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
   const auto [a, b] = window_around(t, length, arc.low(), arc.high());
-  return interpolate(
-      [&](double ds) -> std::optional<Vector> {
-        const auto& p = arc.point(ds);
-        if (!p) return std::nullopt;
-        Vector u(p->x.size() + 1);
-        u << p->x, p->lambda;
-        return u;
-      },
-      a, b);
+  return interpolated_curve(
+      [&](double ds) -> const std::optional<CurvePoint>& { return arc.point(ds); }, a, b);
 }
 
 std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
@@ -190,11 +181,7 @@ std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity&
   const Index n = arc.from().x.size();
   result.point.x = place.u.head(n);
   result.point.lambda = place.u[n];
-  Direction& tangent = result.point.tangent;
-  tangent = {place.along.head(n), place.along[n]};
-  const double length = length_of(arc.walker(), tangent);
-  tangent.dx /= length;
-  tangent.dlambda /= length;
+  result.point.tangent = unit_direction(arc.walker(), place.along);
   result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;

@@ -7,8 +7,8 @@
 
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
-#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
@@ -23,25 +23,14 @@ struct Found {
 std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePoint& from,
                                              const CurvePoint& to, double ds) {
   const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
-  const Index n = from.x.size();
-  const auto curve = interpolate(
-      [&](double t) -> std::optional<Vector> {
-        const auto p = point_between(walker, from, to, t);
-        if (!p) return std::nullopt;
-        Vector u(n + 1);
-        u << p->x, p->lambda;
-        return u;
-      },
-      a, b);
+  const auto curve =
+      interpolated_curve([&](double t) { return point_between(walker, from, to, t); }, a, b);
   if (!curve) return std::nullopt;
-  const Vector u = (*curve)(ds), rate = curve->slope(ds);
+  const Vector u = (*curve)(ds);
   CurvePoint point = from;
-  point.x = u.head(n);
-  point.lambda = u[n];
-  point.tangent = {rate.head(n), rate[n]};
-  const double length = length_of(walker, point.tangent);
-  point.tangent.dx /= length;
-  point.tangent.dlambda /= length;
+  point.x = u.head(from.x.size());
+  point.lambda = u[from.x.size()];
+  point.tangent = unit_direction(walker, curve->slope(ds));
   point.negative.reset();
   point.s = from.s + ds;
   return point;

@@ -39,11 +39,12 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
     const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
-  // A kink lies on the curve of the piece behind it as well as its surfaces were placed: that is no growth.
-  const double at_end = size_at(1), at_begin = size_at(0), scale = std::max(1.0, from.x.norm());
+  const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
   for (int k = 1; k < parts; ++k) {
     const double t = static_cast<double>(k) / parts;
-    if (size_at(t) > residual_limit(t) * at_end + at_begin + noise * scale)
+    // A kink lies on the curve of the piece behind it as well as its surfaces were placed: that is no growth.
+    const double size = size_at(t), most = residual_limit(t) * at_end + noise * scale;
+    if (size > most && size > most + size_at(0))
       return "residual does not grow evenly along the predictor: another branch may be near";
   }
   return {};

@@ -64,6 +64,15 @@ double length_of(const Walker& walker, const Direction& d) {
   return std::sqrt(metric_product(walker.weights, d, d));
 }
 
+Direction unit_direction(const Walker& walker, const Vector& u) {
+  const Index n = u.size() - 1;
+  Direction d{u.head(n), u[n]};
+  const double length = length_of(walker, d);
+  d.dx /= length;
+  d.dlambda /= length;
+  return d;
+}
+
 double cosine(const Walker& walker, const Direction& a, const Direction& b) {
   const double lengths = length_of(walker, a) * length_of(walker, b);
   return lengths > 0 ? metric_product(walker.weights, a, b) / lengths : 0;

@@ -14,6 +14,9 @@ Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b
 
 double length_of(const Walker& walker, const Direction& d);
 
+/// The direction (dx, dlambda) with length one.
+Direction unit_direction(const Walker& walker, const Vector& u);
+
 inline Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
 
 /// Directions with a larger cosine are ways of one curve; the ways out of one point are further apart.
