@@ -76,23 +76,6 @@ TEST_F(Draw, NamesTheLabelsThereAreForOneThatIsNot) {
   EXPECT_THAT(picture(), IsEmpty());
 }
 
-/// A bar of length 1 that is to reach a point 5 away.
-std::string too_short() {
-  return R"(
-[[body]]
-name = "tool"
-task_space = "xy"
-pose = [5, 0]
-[[chain]]
-name = "arm"
-elements = [ { joint = "revolute", axis = "z", name = "hinge" }, { rigid = [1, 0] } ]
-[[study]]
-name = "hold"
-kind = "equilibrium"
-start = { solve = "wrench", attempts = 2 }
-)";
-}
-
 TEST_F(Draw, ShowsTheGuessWhereThereIsNoEquilibriumAndSaysSo) {
   EXPECT_EQ(run({"draw"}, too_short()), no_start_point);
   EXPECT_THAT(err, HasSubstr("no first equilibrium"));

@@ -35,4 +35,21 @@ kind = "equilibrium"
 )" + last;
 }
 
+/// A bar of length 1 that is to reach a point 5 away.
+inline std::string too_short() {
+  return R"(
+[[body]]
+name = "tool"
+task_space = "xy"
+pose = [5, 0]
+[[chain]]
+name = "arm"
+elements = [ { joint = "revolute", axis = "z", name = "hinge" }, { rigid = [1, 0] } ]
+[[study]]
+name = "hold"
+kind = "equilibrium"
+start = { solve = "wrench", attempts = 2 }
+)";
+}
+
 }  // namespace springfold::cli

@@ -134,22 +134,7 @@ TEST_F(CasePictures, ShowTextsOfTheCaseAsText) {
 }
 
 TEST_F(CasePictures, OfTheGuessAreDrawnWhereNothingCouldBeSolved) {
-  const auto outcome = draw(R"(
-[[body]]
-name = "tool"
-task_space = "xy"
-pose = [5, 0]
-[[chain]]
-name = "arm"
-elements = [ { joint = "revolute", axis = "z", name = "hinge" }, { rigid = [1, 0] } ]
-[[study]]
-name = "hold"
-kind = "equilibrium"
-start = { solve = "wrench", attempts = 2 }
-[[picture]]
-name = "wanted"
-at = "guess"
-)");
+  const auto outcome = draw(cli::too_short() + "[[picture]]\nname = \"wanted\"\nat = \"guess\"\n");
   EXPECT_THAT(about_pictures(outcome.warnings), IsEmpty());
   EXPECT_THAT(drawn("wanted.svg"), HasSubstr("does not close"));
 }
