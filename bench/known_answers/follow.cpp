@@ -108,6 +108,13 @@ void print(const Embedded& problem, const Draw& draw, const Followed& followed, 
     for (std::size_t i = first; i < curve.log.size(); ++i)
       std::printf("  log s %.8g step %.3g: %s\n", curve.log[i].s, curve.log[i].step,
                   curve.log[i].reason.c_str());
+    if (!whole_log) continue;
+    for (const CurvePoint& p : curve.points) {
+      const Vector z = problem.base_point(p.x);
+      std::printf("  point s %.8g lambda %.12g negative %td %s z", p.s, p.lambda,
+                  p.negative.value_or(-1), draw.on_curve(z, p.lambda) ? "on" : "OFF");
+      print_z(z);
+    }
   }
 }
 

@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
   app.add_option("--steps", settings.steps, "factor of the default step limits")
       ->check(CLI::PositiveNumber);
   app.add_flag("--wide", settings.wide, "stiffness ratios of 1e-2 to 1e2, and two families more");
-  app.add_flag("--verbose", settings.verbose, "with --draw: the whole step log");
+  app.add_flag("--verbose", settings.verbose, "with --draw: the whole step log and all points");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   app.add_option("--named", settings.named, "file of draws that are followed and judged too");
   app.add_option("--failures", settings.failures, "file for the draws that fail, if any does");
