@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/points/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/core/inertia.hpp"
@@ -20,6 +21,9 @@ constexpr double noise_step = 1e-8;
 
 /// The same where the residual itself is no more than rounding.
 constexpr double blurred_step = 1e-6;
+
+/// Residuals that are reduced to this share of the ones before are not yet at their least.
+constexpr double still_falls = 0.1;
 
 /// Are these residuals no more than a few times the rounding errors that the terms of F have?
 bool is_rounding(double residual, const Linearisation& at, const Vector& x, double lambda,
@@ -180,9 +184,27 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
     const auto rounded = [&] {
       return is_rounding(result.residual_norm, place->at, result.x, result.lambda, memory.sizes);
     };
+    // Where the matrix is nearly singular, a residual of rounding's size may leave much to correct. It is rounding only when
+    // it gets no smaller.
+    const auto at_its_least = [&] {
+      return !(before > 0) || left_over() <= exact_model * scale ||
+             result.residual_norm > still_falls * before;
+    };
     const bool refined = !result.corrections.empty() &&
                          (result.residual_norm == 0 ||
-                          (before > 0 && left_over() <= refined_step * scale) || rounded());
+                          (before > 0 && left_over() <= refined_step * scale) ||
+                          (rounded() && at_its_least()));
+    // The last correction was one of rounding only: it led nowhere.
+    if (!result.corrections.empty() && small &&
+        result.corrections.back() > exact_model * scale &&
+        result.residual_norm > still_falls * before &&
+        is_rounding(before, place->at, result.x, result.lambda, memory.sizes)) {
+      result.x -= step.head(n);
+      result.lambda -= step[n];
+      result.residual_norm = before;
+      result.corrections.pop_back();
+      return ends(NewtonStatus::converged);
+    }
     before = result.residual_norm;
     if (small && refined) return ends(NewtonStatus::converged);
     const bool settled =
