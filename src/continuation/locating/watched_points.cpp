@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
+#include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
@@ -95,6 +97,39 @@ std::optional<CurvePoint> WatchedStep::find(double ds) const {
   return aside ? expected : point;
 }
 
+namespace {
+
+double residual_at(const Walker& walker, const CurvePoint& p) {
+  Vector F;
+  const bool inside = walker.problem.residual(p.x, p.lambda, p.piece, F);
+  return inside && F.size() > 0 ? F.lpNorm<Eigen::Infinity>()
+                                : std::numeric_limits<double>::infinity();
+}
+
+/// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated from
+/// farther off satisfies F as well as it does, that one is nearer to the curve.
+CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
+  constexpr double window = 0.2;
+  const double ds = corrected.s - step.from().s;
+  const auto curve = curve_near(step, ds, window * step.length());
+  if (!curve) return corrected;
+  CurvePoint point = corrected;
+  const Vector u = (*curve)(ds);
+  point.x = u.head(corrected.x.size());
+  point.lambda = u[corrected.x.size()];
+  const Walker& walker = step.walker();
+  const auto E = step.matrix(point);
+  if (!E) return corrected;
+  const double rounded = rounding_unit * magnitudes(*E, u).topRows(point.x.size()).maxCoeff();
+  if (residual_at(walker, point) > std::max(residual_at(walker, corrected), rounded))
+    return corrected;
+  Place* const place = place_at(walker.problem, *walker.memory, point.x, point.lambda, point.piece);
+  if (!place || place->factors.negative() != corrected.negative) return corrected;
+  return point;
+}
+
+}  // namespace
+
 std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
                                             const std::vector<Hit>& hits) {
   std::vector<CurvePoint> points;
@@ -109,7 +144,7 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
       const auto& point = step.point(s - from.s);
       if (!point || (walker.problem.symmetric() && !point->negative)) continue;
       if (!is_determined(step, *point)) continue;
-      points.push_back(*point);
+      points.push_back(least_blurred(step, *point));
       break;
     }
   }

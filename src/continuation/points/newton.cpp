@@ -190,21 +190,10 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
       return !(before > 0) || left_over() <= exact_model * scale ||
              result.residual_norm > still_falls * before;
     };
-    const bool refined = !result.corrections.empty() &&
-                         (result.residual_norm == 0 ||
-                          (before > 0 && left_over() <= refined_step * scale) ||
-                          (rounded() && at_its_least()));
-    // The last correction was one of rounding only: it led nowhere.
-    if (!result.corrections.empty() && small &&
-        result.corrections.back() > exact_model * scale &&
-        result.residual_norm > still_falls * before &&
-        is_rounding(before, place->at, result.x, result.lambda, memory.sizes)) {
-      result.x -= step.head(n);
-      result.lambda -= step[n];
-      result.residual_norm = before;
-      result.corrections.pop_back();
-      return ends(NewtonStatus::converged);
-    }
+    const bool refined =
+        !result.corrections.empty() &&
+        (result.residual_norm == 0 || (before > 0 && left_over() <= refined_step * scale) ||
+         (rounded() && at_its_least()));
     before = result.residual_norm;
     if (small && refined) return ends(NewtonStatus::converged);
     const bool settled =
