@@ -7,6 +7,7 @@
 #include "springfold/core/number_text.hpp"
 #include "stability_changes.hpp"
 #include "start_marks.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -121,6 +122,7 @@ class Writer {
     } else if (group.size() == 1 && source.forward.stop != StopReason::closed) {
       source.backward_stop = {"the start, which several curves leave", true};
     }
+    end_at_zero_lengths(t_, source);
     add_stability_changes(t_, source);
     add_between(t_, source);
     const bool has_start = origin < 0 && traced(group[0]).start == 0;

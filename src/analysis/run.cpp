@@ -24,6 +24,7 @@
 #include "start_marks.hpp"
 #include "start_sides.hpp"
 #include "start_trouble.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -59,6 +60,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
                         : follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
+  end_at_zero_lengths(t, source);
   add_stability_changes(t, source);
   add_between(t, source);
   const CurvePoint first = source.forward.points.front();

@@ -167,6 +167,55 @@ law = { law = "one_sided", stiffness = "2.4/1.2", from = 1.2 }
                                    springs.branches[0].samples[row].values));
 }
 
+/// A slider on the line of a bar of free length 0.5, driven towards the bar's other end and past it.
+analysis::StudyResult driven_past_the_end(const std::string& bar) {
+  return run(R"toml([[node]]
+name = "end"
+at = [0, 0]
+fixed = true
+[[node]]
+name = "slider"
+at = [1, 0]
+fixed = ["y"]
+[[bar]]
+name = "bar"
+from = "end"
+to = "slider"
+)toml" + bar +
+             R"toml([[study]]
+name = "drive"
+body = "slider"
+control = "mixed"
+direction = [-1, 0]
+until = { slider.x = [-1, 2] }
+)toml")
+      .results[0];
+}
+
+// N = k (l - 0.5) pushes to the right before the end and to the left behind it: no curve leads from one to the other.
+TEST(Bars, EndACurveThatWouldLeadThemThroughTheLengthZero) {
+  for (const std::string bar :
+       {"law = { law = \"linear\", stiffness = 2 }\nfree = 0.5\n", "stiffness = 2\nfree = 0.5\n"}) {
+    const analysis::StudyResult result = driven_past_the_end(bar);
+    EXPECT_FALSE(analysis::complete(result)) << bar;
+    const analysis::Branch& branch = result.branches.at(0);
+    EXPECT_THAT(branch.forward.reason, testing::HasSubstr("bar would be led through the length 0"));
+    for (std::size_t row = 0; row < branch.samples.size(); ++row) {
+      const double x = value(result, row, "slider.x");
+      EXPECT_GT(x, 0);
+      EXPECT_NEAR(value(result, row, "force"), -2 * (x - 0.5), 1e-12);
+    }
+  }
+}
+
+// N = k l has no direction to lose.
+TEST(Bars, WithoutAFreeLengthAreLedThroughTheLengthZero) {
+  const analysis::StudyResult result = driven_past_the_end("stiffness = 2\nfree = 0\n");
+  EXPECT_TRUE(analysis::complete(result));
+  for (std::size_t row = 0; row < result.branches.at(0).samples.size(); ++row)
+    EXPECT_NEAR(value(result, row, "force"), -2 * value(result, row, "slider.x"), 1e-12);
+}
+
 // As drawn the cable pulls with 0.6 and the tie holds against it.
 TEST(StrutsAndCables, AreDrawnWithTheirPretension) {
   const analysis::StudyResult result = run(bob(R"toml([[bar]]
