@@ -2,15 +2,44 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "branch_rows.hpp"
 #include "springfold/core/number_text.hpp"
 #include "start.hpp"
+#include "strings.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 using continuation::CurvePoint;
+
+/// States that are joined by saddles, lowest saddles first. State 0 stands for all that lies outside: ways lead there, and
+/// none back.
+class Joined {
+ public:
+  explicit Joined(std::size_t states) : group_(states + 1), leads_out_(states + 1, false) {
+    for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = static_cast<int>(i);
+  }
+  void join(int a, int b) {
+    if (b == 0) {
+      leads_out_[of(a)] = true;
+      return;
+    }
+    const bool out = leads_out_[of(a)] || leads_out_[of(b)];
+    const int old = group_[static_cast<std::size_t>(b)], now = group_[static_cast<std::size_t>(a)];
+    std::replace(group_.begin(), group_.end(), old, now);
+    leads_out_[of(a)] = out;
+  }
+  bool are(int a, int b) const { return b == 0 ? bool{leads_out_[of(a)]} : of(a) == of(b); }
+
+ private:
+  std::size_t of(int state) const {
+    return static_cast<std::size_t>(group_[static_cast<std::size_t>(state)]);
+  }
+  std::vector<int> group_;
+  std::vector<bool> leads_out_;  ///< per group
+};
 
 /// Looks at every saddle of one lambda.
 class Barriers {
@@ -27,9 +56,10 @@ class Barriers {
 
   void find(const SnapSettings& settings) {
     StateBook book = stretches_.book_at(frozen_);
-    book.search(search_settings(settings));
+    search_all(book, settings);
     for (std::size_t s = 0; s < book.states().size(); ++s) look_at(book, s);
     find_lowest_ways(found_, first_);
+    find_unjoined(book);
   }
 
  private:
@@ -44,6 +74,26 @@ class Barriers {
     if (numbers_[minimum] == unknown)
       numbers_[minimum] = stretches_.number_of(frozen_, book.states()[minimum].x);
     return numbers_[minimum];
+  }
+
+  /// One pair of states for every part that no way joins with the others.
+  void find_unjoined(const StateBook& book) {
+    Joined joined(found_.states.size());
+    for (std::size_t i = first_; i < found_.barriers.size(); ++i)
+      joined.join(found_.barriers[i].first, found_.barriers[i].second);
+    std::set<int> parts;  // by their first states
+    std::vector<int> states;
+    for (std::size_t s = 0; s < book.states().size(); ++s)
+      if (is_minimum(book.states()[s]) && number_of(book, s) > 0)
+        states.push_back(number_of(book, s));
+    std::sort(states.begin(), states.end());
+    for (const int state : states)
+      if (std::none_of(parts.begin(), parts.end(),
+                       [&](int part) { return joined.are(part, state); }))
+        parts.insert(state);
+    for (const int part : parts)
+      if (part != *parts.begin())
+        found_.unjoined.push_back({t_.lambda_scale * frozen_.lambda(), *parts.begin(), part});
   }
 
   void look_at(StateBook& book, std::size_t s) {
@@ -106,42 +156,19 @@ class Barriers {
   std::vector<int> numbers_{};  ///< of the book's states
 };
 
-/// States that are joined by saddles, lowest saddles first. State 0 stands for all that lies outside: ways lead there, and
-/// none back.
-class Joined {
- public:
-  explicit Joined(std::size_t states) : group_(states + 1), leads_out_(states + 1, false) {
-    for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = static_cast<int>(i);
-  }
-  void join(int a, int b) {
-    if (b == 0) {
-      leads_out_[of(a)] = true;
-      return;
-    }
-    const bool out = leads_out_[of(a)] || leads_out_[of(b)];
-    const int old = group_[static_cast<std::size_t>(b)], now = group_[static_cast<std::size_t>(a)];
-    std::replace(group_.begin(), group_.end(), old, now);
-    leads_out_[of(a)] = out;
-  }
-  bool are(int a, int b) const { return b == 0 ? bool{leads_out_[of(a)]} : of(a) == of(b); }
-
- private:
-  std::size_t of(int state) const {
-    return static_cast<std::size_t>(group_[static_cast<std::size_t>(state)]);
-  }
-  std::vector<int> group_;
-  std::vector<bool> leads_out_;  ///< per group
-};
-
 }  // namespace
 
-StateSearch search_settings(const SnapSettings& settings) {
+void search_all(StateBook& book, const SnapSettings& settings) {
   /// Ten bistable units have 1,024 minima and 5,120 saddles between neighbours; more is a continuum of states.
   constexpr int most_states = 20'000;
-  return {.starts = settings.transitions->starts,
-          .seed = settings.seed,
-          .modes = std::numeric_limits<int>::max(),
-          .maximum = most_states};
+  const StateSearch options{.starts = settings.transitions->starts,
+                            .seed = settings.seed,
+                            .modes = std::numeric_limits<int>::max(),
+                            .drives = true,
+                            .maximum = most_states};
+  book.search(options);
+  join_by_strings(book);
+  book.climb_from_minima(options);  // from those that only strings met
 }
 
 void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,

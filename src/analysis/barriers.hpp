@@ -5,8 +5,9 @@
 
 namespace springfold::analysis {
 
-/// How the states of one lambda are searched for.
-StateSearch search_settings(const SnapSettings& settings);
+/// All states of rest of one lambda that can be found: uphill from all minima, from random states, and along strings
+/// between minima that nothing else joins.
+void search_all(StateBook& book, const SnapSettings& settings);
 
 /// All saddles with one unstable mode that a search finds at a dimensionless lambda, with the stretches whose states
 /// are beside them; for each pair of states the lowest one, and the lowest way over several of them. Doubts go to the

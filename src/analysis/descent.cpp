@@ -67,6 +67,34 @@ bool stays_below(const Landscape& landscape, const Ground& from, const Vector& s
   return true;
 }
 
+/// Takes a step y along the modes no farther than second order describes the energy, which has a scale of its own in
+/// every part of a large mechanism.
+/// @param reach  longest step that is trusted; grows and shrinks
+std::optional<Vector> trusted(const Landscape& landscape, const Ground& at, const Modes& modes,
+                              const Vector& y, double& reach) {
+  constexpr int halvings = 30;
+  constexpr double poor = 0.25, good = 0.05;  // errors, relative to the terms of the energy
+  const double longest = reach_of(landscape, at.x), energy = landscape.energy(at.x);
+  reach = std::min(reach, longest);
+  for (int h = 0; h < halvings; ++h) {
+    const double size = y.norm();
+    const Vector step = size > reach ? Vector(y * (reach / size)) : y;
+    const Vector bent = 0.5 * modes.curvatures.cwiseProduct(step.cwiseAbs2());
+    const Vector straight = modes.slopes.cwiseProduct(step);
+    const auto x = landscape.moved(at, modes.directions * step);
+    const double e = x ? landscape.energy(*x) : std::numeric_limits<double>::quiet_NaN();
+    const double error = std::abs(e - energy - straight.sum() - bent.sum());
+    const double terms = straight.cwiseAbs().sum() + bent.cwiseAbs().sum();
+    const double rounding = 1e-13 * std::max(1.0, std::abs(energy));
+    if (error <= poor * terms + rounding) {
+      if (error <= good * terms) reach = std::min(longest, 2 * std::max(reach, step.norm()));
+      return x;
+    }
+    reach = step.norm() / 2;
+  }
+  return std::nullopt;
+}
+
 class Walk {
  public:
   Walk(const Landscape& landscape, Vector x)
@@ -266,9 +294,10 @@ Descent descend(const Landscape& landscape, Vector x) {
 }
 
 std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along) {
-  constexpr int rounds = 120;
+  constexpr int rounds = 240;
   constexpr double kick = 0.02;
   const Vector from = x;
+  double reach = kick;
   for (int k = 0; k < rounds; ++k) {
     const auto at = landscape.ground(x);
     if (!at || at->hessian.size() == 0 || is_away(landscape, x, from)) return std::nullopt;
@@ -289,11 +318,9 @@ std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector alon
       const double forward = (modes.directions.col(up).dot(at->motions.transpose() * along));
       y[up] = (forward < 0 ? -1 : 1) * std::max(kick, std::abs(y[up]));
     }
-    const double size = y.norm(), longest = reach_of(landscape, x);
-    if (along.size() == 0 && size < nearly_there && modes.curvatures[0] < 0)
+    if (along.size() == 0 && y.norm() < nearly_there && modes.curvatures[0] < 0)
       return rest_near(landscape, x);
-    if (size > longest) y *= longest / size;
-    const auto next = landscape.moved(*at, modes.directions * y);
+    const auto next = trusted(landscape, *at, modes, y, reach);
     if (!next) return std::nullopt;
     x = *next;
   }

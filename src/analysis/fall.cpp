@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drive.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
@@ -18,48 +19,6 @@ constexpr double clear_force = 1e-12;
 constexpr double largest_push = 0.13;
 /// Difference of energies that is above rounding.
 constexpr double clear_energy = 1e-13;
-
-/// The state with amplitude `a` along a direction, all other motions at rest.
-struct Pushed {
-  Vector x{};
-  double force = 0;  ///< of the energy, along the direction
-};
-
-std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, const Vector& along,
-                             double a) {
-  constexpr int rounds = 20;
-  constexpr double arrived = 1e-11, longest = 0.05;
-  Vector x = from;
-  x(landscape.moving()) += a * along;
-  if (!landscape.close(x)) return std::nullopt;
-  for (int k = 0; k < rounds; ++k) {
-    const auto at = landscape.ground(x);
-    if (!at || at->hessian.size() == 0) return std::nullopt;
-    const Vector c = at->motions.transpose() * along;
-    const double norm = c.norm();
-    if (!(norm > 0.1)) return std::nullopt;
-    const double off = a - along.dot((x - from)(landscape.moving()));
-    const Matrix W = kernel_of(c.transpose());
-    Vector step = c * (off / (norm * norm));
-    if (W.cols() > 0) {
-      const SymmetricEigen modes = symmetric_eigen(W.transpose() * at->hessian * W);
-      Vector y = -modes.vectors.transpose() * (W.transpose() * (at->slope + at->hessian * step));
-      const double floor = soft_part * at->hessian.norm();
-      for (Index i = 0; i < y.size(); ++i) y[i] /= std::max(floor, std::abs(modes.values[i]));
-      step += W * (modes.vectors * y);
-    }
-    const double size = step.norm();
-    if (size < arrived) return Pushed{x, -at->slope.dot(c) / norm};
-    if (size > longest) step *= longest / size;
-    const auto next = landscape.moved(*at, step);
-    if (!next) return std::nullopt;
-    x = *next;
-  }
-  const auto at = landscape.ground(x);
-  if (!at) return std::nullopt;
-  const Vector c = at->motions.transpose() * along;
-  return Pushed{x, -at->slope.dot(c) / c.norm()};
-}
 
 /// Directions in which a critical state may be left, as seen from one piece.
 std::vector<Vector> soft_directions(const Landscape& landscape, const Vector& critical,
@@ -111,7 +70,7 @@ Departures departures(const Landscape& landscape, const Vector& critical,
         if (known) continue;
         bool decided = false;
         for (double a = push_size; a < largest_push && !decided; a *= 2) {
-          const auto at = pushed(landscape, critical, along, a);
+          const auto at = pushed(landscape, critical, along, critical, {.amplitude = a});
           if (!at) break;
           decided = std::abs(at->force) > noise;
           if (decided && at->force > 0 && landscape.energy(at->x) < landscape.energy(critical))

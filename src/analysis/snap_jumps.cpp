@@ -22,10 +22,6 @@ namespace {
 using continuation::CurvePoint;
 using Kind = QuantityDefinition::Kind;
 
-/// Between very many states a jump asks only whether there is more than one landing: the search ends with as many
-/// states of rest, and goes on only where they do not answer that.
-constexpr int few_states = 12;
-
 /// States of rest of all traced branches at one lambda.
 class Jumper {
  public:
@@ -57,7 +53,7 @@ class Jumper {
     StateBook book(landscape);
     for (const Departure& way : ways.list) book.ways_down(way.x);
     if (!settings_.transitions) add_traced(frozen, critical, book);
-    search(book, energy, settings_.transitions ? few_states : StateSearch{}.maximum);
+    if (!settings_.transitions) book.search(search_below(energy));
     for (const Departure& way : ways.list) {
       Jump jump;
       jump.label = "J" + std::to_string(findings_.report.jumps.size() + 1);
@@ -69,15 +65,10 @@ class Jumper {
       jump.critical = {
           at,       branch.samples[event.row].piece, scales_.moment() * energy, 0, jump.branch,
           event.row};
-      Fall down = fall(book, way, energy);
+      Fall down = settings_.transitions ? fall_to_few(book, way, energy) : fall(book, way, energy);
       if (down.is_lost)
         doubt(event,
               "a way down ended at no state that is known to be stable: the verdict is open");
-      const bool is_cut = settings_.transitions && std::ssize(book.states()) >= few_states;
-      if (down.verdict == SnapVerdict::unambiguous && is_cut) {
-        search(book, energy, StateSearch{}.maximum);
-        down = fall(book, way, energy);
-      }
       settle(frozen, event, way, down, book, jump);
       write(frozen, state_of(frozen, branch, loss.stable_row), down, book, jump);
       if (settings_.inertia) move_with_masses(frozen, event, way, down, book, jump);
@@ -86,9 +77,22 @@ class Jumper {
   }
 
  private:
-  void search(StateBook& book, double energy, int maximum) const {
-    book.search(
-        {.starts = settings_.starts, .seed = settings_.seed, .maximum = maximum, .bound = energy});
+  StateSearch search_below(double energy) const {
+    return {.starts = settings_.starts, .seed = settings_.seed, .bound = energy};
+  }
+
+  /// A graph of all states asks only whether there is more than one landing: ways up are taken from what is known to be
+  /// in the part that is entered, until there is.
+  Fall fall_to_few(StateBook& book, const Departure& way, double energy) const {
+    if (settings_.starts > 0) book.search(search_below(energy));
+    Fall down = fall(book, way, energy);
+    for (bool grows = true; grows && down.verdict == SnapVerdict::unambiguous;) {
+      grows = false;
+      for (const std::size_t minimum : std::vector<std::size_t>(down.minima))
+        grows |= book.climb_from(minimum, search_below(energy));
+      if (grows) down = fall(book, way, energy);
+    }
+    return down;
   }
 
   std::function<bool()> goes_on() const {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis/random_fraction.hpp"
+#include "drive.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
@@ -26,6 +27,7 @@ std::size_t StateBook::add(const RestState& state) {
         states_[i].index == state.index && landscape_.same(states_[i].x, state.x))
       return i;
   states_.push_back(state);
+  climbed_.push_back(false);
   ways_.emplace_back();
   return states_.size() - 1;
 }
@@ -84,38 +86,83 @@ const WaysDown& StateBook::ways_from(std::size_t saddle) {
 }
 
 void StateBook::climb_from_minima(const StateSearch& options) {
-  for (; climbed_ < states_.size() && std::ssize(states_) < options.maximum; ++climbed_) {
-    const RestState from = states_[climbed_];
-    if (from.index != 0 || !(from.energy < options.bound)) continue;
-    const auto at = landscape_.ground_on(from.x, from.piece);
-    if (!at || at->hessian.size() == 0) continue;
-    const SymmetricEigen modes = symmetric_eigen(at->hessian);
-    for (Index i = 0; i < std::min<Index>(options.modes, at->hessian.rows()); ++i)
-      for (const double sign : {1.0, -1.0}) {
-        const Vector along = sign * (at->motions * modes.vectors.col(i));
-        const auto saddle = climb(landscape_, from.x, along);
-        if (!saddle || saddle->index != 1) continue;
-        const std::size_t number = add(*saddle);
-        if (states_[number].energy < options.bound) ways_from(number);  // adds the minima beside it
-      }
+  for (std::size_t i = 0; i < states_.size() && std::ssize(states_) < options.maximum; ++i)
+    if (states_[i].index == 0) climb_from(i, options);
+}
+
+bool StateBook::climb_from(std::size_t minimum, const StateSearch& options) {
+  if (climbed_[minimum] || !(states_[minimum].energy < options.bound)) return false;
+  climbed_[minimum] = true;
+  const RestState from = states_[minimum];
+  const auto at = landscape_.ground_on(from.x, from.piece);
+  if (!at || at->hessian.size() == 0) return true;
+  const SymmetricEigen modes = symmetric_eigen(at->hessian);
+  for (Index i = 0; i < std::min<Index>(options.modes, at->hessian.rows()); ++i)
+    for (const double sign : {1.0, -1.0}) {
+      const Vector along = sign * (at->motions * modes.vectors.col(i));
+      if (const auto saddle = climb(landscape_, from.x, along)) take(*saddle, options);
+    }
+  if (options.drives) drive_from(from, *at, options);
+  return true;
+}
+
+void StateBook::take(const RestState& saddle, const StateSearch& options) {
+  if (saddle.index != 1) return;
+  const std::size_t number = add(saddle);
+  if (states_[number].energy < options.bound) ways_from(number);  // adds the minima beside it
+}
+
+/// Every coordinate is driven both ways, as far as the box of what is known reaches.
+void StateBook::drive_from(const RestState& from, const Ground& at, const StateSearch& options) {
+  const Box box = box_of_states();
+  const auto& moving = landscape_.moving();
+  std::vector<Vector> taken;  // along the motions
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Vector along = at.motions.row(static_cast<Index>(i)).transpose();
+    constexpr double still = 1e-6, alike = 0.999;
+    const double part = along.norm();
+    if (part < still) continue;
+    along /= part;
+    if (std::any_of(taken.begin(), taken.end(),
+                    [&](const Vector& v) { return std::abs(v.dot(along)) > alike; }))
+      continue;
+    taken.push_back(along);
+    for (const double sign : {1.0, -1.0}) {
+      const double end = sign > 0 ? box.high[moving[i]] : box.low[moving[i]];
+      const double farthest = std::abs(end - from.x[moving[i]]) / part;
+      const Driven driven = drive(landscape_, from, sign * (at.motions * along), farthest);
+      if (driven.saddle)
+        take(*driven.saddle, options);
+      else if (driven.beyond)
+        ways_down(*driven.beyond);
+    }
   }
+}
+
+StateBook::Box StateBook::box_of_states() const {
+  Box box{states_.front().x, states_.front().x};
+  for (const RestState& state : states_) {
+    box.low = box.low.cwiseMin(state.x);
+    box.high = box.high.cwiseMax(state.x);
+  }
+  for (const Index i : landscape_.moving()) {
+    const double least = landscape_.periods()[i] > 0 ? 2 * std::numbers::pi : 1;
+    const double width = std::max(2 * (box.high[i] - box.low[i]), least);
+    const double middle = (box.low[i] + box.high[i]) / 2;
+    box.low[i] = middle - width / 2;
+    box.high[i] = middle + width / 2;
+  }
+  return box;
 }
 
 void StateBook::search_box(const StateSearch& options) {
   if (states_.empty()) return;
-  Vector low = states_.front().x, high = low;
-  for (const RestState& state : states_) {
-    low = low.cwiseMin(state.x);
-    high = high.cwiseMax(state.x);
-  }
+  const Box box = box_of_states();
   std::mt19937_64 random(options.seed);
   for (int s = 0; s < options.starts && std::ssize(states_) < options.maximum; ++s) {
     Vector x = states_.front().x;
-    for (const Index i : landscape_.moving()) {
-      const double least = landscape_.periods()[i] > 0 ? 2 * std::numbers::pi : 1;
-      const double width = std::max(2 * (high[i] - low[i]), least);
-      x[i] = (low[i] + high[i]) / 2 + (random_fraction(random) - 0.5) * width;
-    }
+    for (const Index i : landscape_.moving())
+      x[i] = box.low[i] + random_fraction(random) * (box.high[i] - box.low[i]);
     if (!landscape_.close(x) || !std::isfinite(landscape_.energy(x))) continue;
     if (s % 2 == 0) {
       ways_down(x);

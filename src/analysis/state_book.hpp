@@ -13,6 +13,7 @@ struct StateSearch {
   int starts = 16;         ///< random first states; every second one is led to a saddle
   std::uint64_t seed = 1;  ///< of these
   int modes = 6;           ///< softest modes along which every minimum is left uphill, both ways
+  bool drives = false;     ///< every coordinate of every minimum is driven, both ways
   int maximum = 2000;      ///< the search ends when it has found as many states
   /// Minima as high as this are not left uphill: what is beside them lies higher still.
   double bound = std::numeric_limits<double>::infinity();
@@ -37,19 +38,32 @@ class StateBook {
   WaysDown ways_down(const Vector& x, int depth = 3);
   /// The minima beside a saddle, both ways along its unstable modes.
   const WaysDown& ways_from(std::size_t saddle);
+  /// Looks for saddles and the minima behind them uphill from one minimum.
+  /// @returns false where that was done before
+  bool climb_from(std::size_t minimum, const StateSearch& options);
+  /// From all minima, those that are found on the way too.
+  void climb_from_minima(const StateSearch& options);
   /// Looks for further states from random ones of a box around all known ones, and uphill from every
   /// minimum that was found. A search by samples: nothing is proved about others.
   void search(const StateSearch& options);
 
  private:
-  void climb_from_minima(const StateSearch& options);
+  struct Box {
+    Vector low{}, high{};
+  };
+
+  /// A saddle that was found, with the minima beside it.
+  void take(const RestState& saddle, const StateSearch& options);
+  void drive_from(const RestState& from, const Ground& at, const StateSearch& options);
+  /// Around all known states, twice as wide, and at least a size of the mechanism or a turn.
+  Box box_of_states() const;
   void search_box(const StateSearch& options);
   void leave(const RestState& state, WaysDown& ways, int depth);
 
   const Landscape& landscape_;
   std::vector<RestState> states_{};
   std::vector<std::optional<WaysDown>> ways_{};  ///< per state
-  std::size_t climbed_ = 0;                      ///< states from which uphill ways have been taken
+  std::vector<bool> climbed_{};                  ///< minima from which uphill ways have been taken
 };
 
 /// A state of rest whose motions all have positive stiffness.

@@ -100,6 +100,19 @@ StateBook Stretches::book_at(const Frozen& frozen) const {
   for (std::size_t b = 0; b < result_.branches.size(); ++b)
     if (const auto near = near_on(frozen, b))
       if (const auto state = rest_near(frozen.landscape(), *near)) book.add(*state);
+  if (!book.states().empty()) return book;
+  for (std::size_t b = 0; b < result_.branches.size(); ++b) {
+    const auto& samples = result_.branches[b].samples;
+    const auto distance = [&](const Sample& sample) {
+      return std::abs(sample.values[lambda_] / t_.lambda_scale - frozen.lambda());
+    };
+    const auto nearest = std::min_element(
+        samples.begin(), samples.end(),
+        [&](const Sample& p, const Sample& q) { return distance(p) < distance(q); });
+    if (nearest == samples.end()) continue;
+    Vector x = frozen.reduced(unknowns_in(nearest->values, t_.quantities, size_));
+    if (frozen.landscape().close(x)) book.ways_down(x);
+  }
   return book;
 }
 

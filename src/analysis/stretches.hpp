@@ -38,7 +38,8 @@ class Stretches {
 
   /// The stretch on which a state lies; 0: on none.
   int number_of(const Frozen& frozen, const Vector& x) const;
-  /// The states of all stretches at this lambda.
+  /// The states of all stretches at this lambda; where there are none, those to which the ways down from the stretches'
+  /// nearest states lead.
   StateBook book_at(const Frozen& frozen) const;
 
   /// Does stability, or the curve, end there before the study's range does?

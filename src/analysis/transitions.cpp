@@ -32,14 +32,9 @@ class Explorer {
     }
     stretches_.follow({start.x, start.lambda, start.piece});
     stretches_.write_branches();
+    follow_jumps();
     for (const double lambda : searched()) search(lambda / t_.lambda_scale);
-    for (int done = 0; done < stretches_.count() && goes_on();) {
-      const int from = done;
-      done = stretches_.count();
-      stretches_.write_branches();
-      leave(from + 1, done);
-      found.limit_reached = stretches_.is_full();
-    }
+    found.limit_reached = stretches_.is_full();
     if (found.limit_reached)
       result_.doubts.push_back("as many stable states as allowed were found");
     stretches_.write_branches();
@@ -67,12 +62,28 @@ class Explorer {
     return list;
   }
 
+  /// Until no stretch is new.
+  void follow_jumps() {
+    while (done_ < stretches_.count() && goes_on()) {
+      const int from = done_;
+      done_ = stretches_.count();
+      stretches_.write_branches();
+      leave(from + 1, done_);
+    }
+  }
+
+  /// Until all states of this lambda to which jumps lead are among those that the search began with or found.
   void search(double lambda) {
     const Frozen frozen = stretches_.frozen(lambda);
-    StateBook book = stretches_.book_at(frozen);
-    book.search(search_settings(settings_));
-    for (const RestState& state : book.states())
-      if (is_minimum(state) && goes_on()) stretches_.follow_new(frozen, state);
+    std::size_t known = 0;
+    do {
+      StateBook book = stretches_.book_at(frozen);
+      search_all(book, settings_);
+      for (const RestState& state : book.states())
+        if (is_minimum(state) && goes_on()) stretches_.follow_new(frozen, state);
+      known = stretches_.book_at(frozen).states().size();
+      follow_jumps();
+    } while (stretches_.book_at(frozen).states().size() > known && goes_on());
   }
 
   /// Jumps and handovers from the ends of the stretches from .. to.
@@ -204,6 +215,7 @@ class Explorer {
   SnapReport& report_;
   Stretches stretches_;
   Index size_;
+  int done_ = 0;  ///< stretches whose ends were left
 };
 
 }  // namespace

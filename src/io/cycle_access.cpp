@@ -119,16 +119,9 @@ Json cycle_json(const StudyResult& result) {
 }
 
 std::string cycles_csv(const std::vector<StudyResult>& results) {
-  std::vector<std::string> names;
-  bool is_any = false;
-  for (const auto& result : results) {
-    if (cycle_of(result) == nullptr) continue;
-    is_any = true;
-    for (const auto& quantity : result.quantities)
-      if (std::find(names.begin(), names.end(), quantity.name) == names.end())
-        names.push_back(quantity.name);
-  }
-  if (!is_any) return "";
+  const std::vector<std::string> names =
+      columns_where(results, [](const StudyResult& result) { return cycle_of(result) != nullptr; });
+  if (names.empty()) return "";
   std::string csv = "study,run,label,step,level,jump,to_branch,potential,released,area";
   for (const auto& name : names) csv += "," + csv_text(name);
   csv += "\n";

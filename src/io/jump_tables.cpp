@@ -221,11 +221,8 @@ Json jumps_json(const StudyResult& result) {
 }
 
 std::string jumps_csv(const std::vector<StudyResult>& results) {
-  std::vector<std::string> names;
-  for (const auto& result : results)
-    for (const auto& quantity : result.quantities)
-      if (result.snap && std::find(names.begin(), names.end(), quantity.name) == names.end())
-        names.push_back(quantity.name);
+  const std::vector<std::string> names =
+      columns_where(results, [](const StudyResult& result) { return result.snap != nullptr; });
   std::string csv =
       "study,run,label,jump,from,branch,loading,side,towards,verdict,state,to_branch,potential,"
       "released,time_scale,back,loop,peak_speed,peak_force,peak_moment,duration";

@@ -11,15 +11,7 @@ namespace {
 
 using analysis::StudyResult;
 
-/// Columns of all runs that have motions, each name once.
-std::vector<std::string> columns_of(const std::vector<StudyResult>& results) {
-  std::vector<std::string> names;
-  for (const StudyResult& result : results)
-    for (const auto& quantity : result.quantities)
-      if (result.snap && std::find(names.begin(), names.end(), quantity.name) == names.end())
-        names.push_back(quantity.name);
-  return names;
-}
+bool has_jumps(const StudyResult& result) { return result.snap != nullptr; }
 
 bool has_motions(const StudyResult& result) {
   return result.snap && std::any_of(result.snap->jumps.begin(), result.snap->jumps.end(),
@@ -30,7 +22,7 @@ bool has_motions(const StudyResult& result) {
 
 std::string motions_csv(const std::vector<StudyResult>& results) {
   if (std::none_of(results.begin(), results.end(), has_motions)) return "";
-  const std::vector<std::string> names = columns_of(results);
+  const std::vector<std::string> names = columns_where(results, has_jumps);
   std::string csv = "study,run,label,jump,time,way,potential";
   for (const auto& name : names) csv += "," + csv_text(name);
   csv += "\n";

@@ -123,6 +123,18 @@ std::string heading_of(const analysis::StudyResult& result) {
   return heading;
 }
 
+std::vector<std::string> columns_where(const std::vector<analysis::StudyResult>& results,
+                                       bool (*holds)(const analysis::StudyResult&)) {
+  std::vector<std::string> names;
+  for (const analysis::StudyResult& result : results) {
+    if (!holds(result)) continue;
+    for (const auto& quantity : result.quantities)
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end())
+        names.push_back(quantity.name);
+  }
+  return names;
+}
+
 double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
                     std::string_view name) {
   const auto column = column_of(result, name);

@@ -21,6 +21,10 @@ std::optional<std::size_t> column_of(const analysis::StudyResult& result, std::s
 double value_at(const analysis::StudyResult& result, const analysis::Branch& branch,
                 std::size_t row, std::string_view quantity);
 
+/// Columns of all results of which that holds, each name once, in the order of the results.
+std::vector<std::string> columns_where(const std::vector<analysis::StudyResult>& results,
+                                       bool (*holds)(const analysis::StudyResult&));
+
 /// "saddle.tool.x": a column at the saddle.
 inline const std::string saddle_prefix = "saddle.";
 

@@ -33,6 +33,8 @@ std::string states_csv(const std::vector<analysis::StudyResult>& results);
 /// Likewise all transitions, and all barriers.
 std::string transitions_csv(const std::vector<analysis::StudyResult>& results);
 std::string barriers_csv(const std::vector<analysis::StudyResult>& results);
+/// The lowest saddle beside every state.
+std::string escapes_csv(const std::vector<analysis::StudyResult>& results);
 
 /// File names of the graphs without ending; empty for other studies.
 std::vector<std::string> graph_names(const std::vector<analysis::StudyResult>& results);

@@ -7,6 +7,8 @@
 namespace springfold::io {
 namespace {
 
+using analysis::Barrier;
+using analysis::Escape;
 using analysis::StableState;
 using analysis::StudyResult;
 using analysis::Transition;
@@ -19,6 +21,14 @@ std::string key(const std::string& id, const std::string& of, const std::string&
 
 std::string data(const std::string& id, const std::string& value) {
   return "<data key=\"" + id + "\">" + value + "</data>";
+}
+
+/// At the first lambda at which barriers were looked for; nothing where none was found.
+std::string escape_of(const TransitionReport& report, const StableState& state) {
+  for (const Escape& e : report.escapes)
+    if (report.states[static_cast<std::size_t>(e.state - 1)].label == state.label)
+      return data("escape", csv_number(e.energy));
+  return "";
 }
 
 std::string truth(bool value) { return value ? "true" : "false"; }
@@ -43,18 +53,30 @@ std::string transitions_graphml(const StudyResult& result) {
       "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
       key("low", "node", "double") + key("high", "node", "double") +
       key("reached", "node", "boolean") + key("garden_of_eden", "node", "boolean") +
+      key("escape", "node", "double") + key("kind", "edge", "string") +
       key("loading", "edge", "int") + key("lambda", "edge", "double") +
-      key("released", "edge", "double") + "  <graph edgedefault=\"directed\">\n";
+      key("released", "edge", "double") + key("from_source", "edge", "double") +
+      key("from_target", "edge", "double") + key("lowest_from_source", "edge", "double") +
+      key("lowest_from_target", "edge", "double") + "  <graph edgedefault=\"directed\">\n";
   for (const StableState& s : report->states)
     text += "    <node id=\"" + s.label + "\">" + data("low", csv_number(s.low)) +
             data("high", csv_number(s.high)) + data("reached", truth(s.reached)) +
-            data("garden_of_eden", truth(s.is_garden_of_eden)) + "</node>\n";
+            data("garden_of_eden", truth(s.is_garden_of_eden)) + escape_of(*report, s) +
+            "</node>\n";
   for (const Transition& t : report->transitions)
     if (t.to > 0 && !t.is_alternative)
       text += "    <edge source=\"S" + std::to_string(t.from) + "\" target=\"S" +
-              std::to_string(t.to) + "\">" + data("loading", std::to_string(t.loading)) +
-              data("lambda", csv_number(t.lambda)) + data("released", csv_number(t.released)) +
-              "</edge>\n";
+              std::to_string(t.to) + "\">" + data("kind", t.jump > 0 ? "jump" : "handover") +
+              data("loading", std::to_string(t.loading)) + data("lambda", csv_number(t.lambda)) +
+              data("released", csv_number(t.released)) + "</edge>\n";
+  for (const Barrier& b : report->barriers)
+    if (b.second > 0)
+      text += "    <edge directed=\"false\" source=\"S" + std::to_string(b.first) +
+              "\" target=\"S" + std::to_string(b.second) + "\">" + data("kind", "barrier") +
+              data("lambda", csv_number(b.lambda)) + data("from_source", csv_number(b.from_first)) +
+              data("from_target", csv_number(b.from_second)) +
+              data("lowest_from_source", csv_number(b.lowest_from_first)) +
+              data("lowest_from_target", csv_number(b.lowest_from_second)) + "</edge>\n";
   return text + "  </graph>\n</graphml>\n";
 }
 

@@ -19,6 +19,7 @@ using analysis::StableState;
 using analysis::StudyResult;
 using analysis::Transition;
 using analysis::TransitionReport;
+using analysis::Unjoined;
 
 std::string name_of(int state) { return state > 0 ? "S" + std::to_string(state) : ""; }
 
@@ -111,7 +112,8 @@ std::string heights(double from_first, double from_second, const std::string& en
 
 std::string barrier_line(const Barrier& b, const std::string& energy) {
   std::string text = "barrier at lambda = " + rounded(b.lambda, summary_digits) + ": " +
-                     heights(b.from_first, b.from_second, energy);
+                     heights(b.from_first, b.from_second, energy) +
+                     (b.second > 0 ? " over the saddle between them" : "");
   // Not by rounding alone.
   constexpr double clearly = 1e-9;
   if (b.lowest_from_first < b.from_first * (1 - clearly))
@@ -126,6 +128,12 @@ std::string escape_line(const Escape& e, const std::string& energy) {
                       "escapes at lambda = " + rounded(e.lambda, summary_digits) + " over " +
                           rounded(e.energy, summary_digits) + energy +
                           (e.to > 0 ? " to " + name_of(e.to) : " to no state of the list"));
+}
+
+std::string unjoined_line(const Unjoined& u) {
+  return summary_line(name_of(u.first) + "-" + name_of(u.second),
+                      "NO WAY was found between them at lambda = " +
+                          rounded(u.lambda, summary_digits) + ", nor between those beside them");
 }
 
 }  // namespace
@@ -165,6 +173,8 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
     text += barrier_line(report->barriers[i], energy);
   for (std::size_t i = 0; i < std::min(most_lines, report->escapes.size()); ++i)
     text += escape_line(report->escapes[i], energy);
+  for (std::size_t i = 0; i < std::min(most_lines, report->unjoined.size()); ++i)
+    text += unjoined_line(report->unjoined[i]);
   return text;
 }
 
@@ -172,7 +182,7 @@ Json transitions_json(const StudyResult& result) {
   const TransitionReport* report = report_of(result);
   if (report == nullptr) return nullptr;
   Json states = Json::array(), transitions = Json::array(), barriers = Json::array(),
-       escapes = Json::array();
+       escapes = Json::array(), unjoined = Json::array();
   for (const StableState& s : report->states) states.push_back(json_of(s));
   for (const Transition& t : report->transitions)
     transitions.push_back({{"from", name_of(t.from)},
@@ -189,10 +199,14 @@ Json transitions_json(const StudyResult& result) {
                        {"state", name_of(e.state)},
                        {"to", name_or_null(e.to)},
                        {"energy", e.energy}});
+  for (const Unjoined& u : report->unjoined)
+    unjoined.push_back(
+        {{"lambda", u.lambda}, {"first", name_of(u.first)}, {"second", name_of(u.second)}});
   return {{"states", states},
           {"transitions", transitions},
           {"barriers", barriers},
           {"escapes", escapes},
+          {"unjoined", unjoined},
           {"is_closed", report->is_closed},
           {"limit_reached", report->limit_reached},
           {"memory", memory_word(report->memory)},
@@ -225,14 +239,35 @@ std::string transitions_csv(const std::vector<StudyResult>& results) {
 }
 
 std::string barriers_csv(const std::vector<StudyResult>& results) {
+  const auto has_states = [](const StudyResult& result) { return report_of(result) != nullptr; };
+  const std::vector<std::string> names = columns_where(results, has_states);
+  if (names.empty()) return "";
+  std::string csv =
+      "study,run,label,at_lambda,first,second,from_first,from_second,lowest_from_first,"
+      "lowest_from_second,potential";
+  for (const auto& name : names) csv += "," + csv_text(name);
+  csv += "\n";
+  for (const StudyResult& result : results) {
+    if (!has_states(result)) continue;
+    for (const Barrier& b : report_of(result)->barriers) {
+      csv += common(result) + csv_number(b.lambda) + "," + name_of(b.first) + "," +
+             name_of(b.second) + "," + csv_number(b.from_first) + "," + csv_number(b.from_second) +
+             "," + csv_number(b.lowest_from_first) + "," + csv_number(b.lowest_from_second) + "," +
+             csv_number(b.saddle.energy);
+      for (const auto& name : names) csv += "," + csv_number(column_value(result, b.saddle, name));
+      csv += "\n";
+    }
+  }
+  return csv;
+}
+
+std::string escapes_csv(const std::vector<StudyResult>& results) {
   return with_rows(
-      "lambda,first,second,from_first,from_second,lowest_from_first,lowest_from_second", results,
+      "at_lambda,state,to,energy", results,
       [](const StudyResult& result, const TransitionReport& report, std::string& rows) {
-        for (const Barrier& b : report.barriers)
-          rows += common(result) + csv_number(b.lambda) + "," + name_of(b.first) + "," +
-                  name_of(b.second) + "," + csv_number(b.from_first) + "," +
-                  csv_number(b.from_second) + "," + csv_number(b.lowest_from_first) + "," +
-                  csv_number(b.lowest_from_second) + "\n";
+        for (const Escape& e : report.escapes)
+          rows += common(result) + csv_number(e.lambda) + "," + name_of(e.state) + "," +
+                  name_of(e.to) + "," + csv_number(e.energy) + "\n";
       });
 }
 

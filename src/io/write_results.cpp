@@ -70,7 +70,8 @@ std::vector<PlannedFile> planned_files(const Case& the_case,
                                     {"cycles.csv", cycles_csv(results)},
                                     {"states.csv", states_csv(results)},
                                     {"transitions.csv", transitions_csv(results)},
-                                    {"barriers.csv", barriers_csv(results)}})
+                                    {"barriers.csv", barriers_csv(results)},
+                                    {"escapes.csv", escapes_csv(results)}})
     if (!bytes.empty()) files.push_back({path, bytes});
   const auto graphs = graph_names(results);
   for (std::size_t i = 0; i < results.size(); ++i) {

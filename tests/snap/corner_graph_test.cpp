@@ -47,6 +47,28 @@ TEST(CornerGraph, OfAColumnWithASpringAtRestHandsOverToTheFreeSideOnly) {
   EXPECT_NEAR(report.states[1].low, 2, 1e-3);
 }
 
+/// Its sprung side: P = 2 c t/(l sin t) + (k l/2) cos t falls to 3.0954 c/l at t = 1.369 and rises from there. No jump leads
+/// to it, and at its loads no state that is reached lies within the limits.
+TEST(CornerGraph, OfAColumnWithASpringAtRestFindsTheSprungStateToWhichNoJumpLeads) {
+  io::Case c = case_of("column-with-stop/case.toml");
+  io::PlannedRun& planned = c.runs.at(0);
+  planned.plan.snap = SnapSettings{.starts = 0};
+  planned.plan.snap->transitions = TransitionSettings{.search_at = {3.1}};
+  const StudyResult result = run_study(planned.mechanism, planned.plan);
+  ASSERT_TRUE(result.snap && result.snap->transitions);
+  const TransitionReport& report = *result.snap->transitions;
+  ASSERT_EQ(report.states.size(), 3u);
+  const StableState& sprung = report.states[2];
+  const double t = column(result, sprung.found.values, "first.foot");
+  EXPECT_NEAR(2 * t / std::sin(t) + 1.5 * std::cos(t), 3.1, 1e-9);
+  double low = 10;
+  for (double at = 1.2; at < 1.5; at += 1e-5)
+    low = std::min(low, 2 * at / std::sin(at) + 1.5 * std::cos(at));
+  EXPECT_NEAR(sprung.low, low, 1e-9);
+  EXPECT_TRUE(sprung.is_garden_of_eden);
+  EXPECT_TRUE(sprung.high_is_limit);
+}
+
 /// On the way from the limit point the knee meets its stop; from the corner it leaves it again.
 TEST(CornerGraph, AJumpFromACornerSwitchesTheSpringThatItLeaves) {
   const io::Case c = case_of("snap-through/case-toggle.toml");

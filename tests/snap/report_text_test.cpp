@@ -6,6 +6,7 @@
 
 #include "io/cycle_access.hpp"
 #include "io/jump_access.hpp"
+#include "io/result_access.hpp"
 #include "io/transition_access.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/case_file.hpp"
@@ -43,8 +44,21 @@ TEST(TransitionText, HasAnArrowForEachJumpOfASwitch) {
   EXPECT_EQ(lines_in(transitions_csv({result})), 3u);
   // Between the two states, and over the dead point of the sleeves out of the range.
   EXPECT_EQ(lines_in(barriers_csv({result})), 3u);
+  EXPECT_EQ(lines_in(escapes_csv({result})), 3u);
+  EXPECT_TRUE(has(graphml, "<data key=\"kind\">barrier</data>"));
+  EXPECT_TRUE(has(graphml, "<data key=\"escape\">"));
   EXPECT_EQ(graph_names({result}), std::vector<std::string>{"states-1"});
   EXPECT_EQ(jumps_json(result)["transitions"]["memory"], "holds");
+}
+
+/// The oblique springs of cases/snap-through/case-switch.toml are straight at the saddle: its pose is the middle.
+TEST(TransitionText, GivesTheSaddlesPose) {
+  const auto result = run("snap-through/case-switch.toml", "states");
+  const std::string csv = barriers_csv({result});
+  EXPECT_TRUE(has(csv.substr(0, csv.find('\n')), "mass.x"));
+  const auto& barrier = result.snap->transitions->barriers.at(0);
+  EXPECT_NEAR(column_value(result, barrier.saddle, "mass.x"), 0, 1e-12);
+  EXPECT_NEAR(barrier.from_first, 0.05, 1e-12);
 }
 
 TEST(TransitionText, IsThereForItsOwnKindOnly) {

@@ -204,13 +204,21 @@ struct Escape {
   double energy = 0;  ///< of the saddle above the state's
 };
 
+/// Two states of one lambda between which no way was found, by climbs, drives or strings.
+struct Unjoined {
+  double lambda = 0;
+  int first = 0,
+      second = 0;  ///< from 1; of states that are joined with one another one stands for all
+};
+
 /// All stable states that were found, and where each is left to.
 struct TransitionReport {
   std::vector<StableState> states{};
   std::vector<Transition> transitions{};
   std::vector<Barrier> barriers{};  ///< for each pair of states beside one saddle the lowest one
-  std::vector<Escape> escapes{};    ///< of each state that a saddle was found beside
-  bool limit_reached = false;       ///< ended because so many were found
+  std::vector<Unjoined> unjoined{};
+  std::vector<Escape> escapes{};  ///< of each state that a saddle was found beside
+  bool limit_reached = false;     ///< ended because so many were found
   bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
   enum class Memory {
     holds,      ///< every loop that was gone through comes back to its state
