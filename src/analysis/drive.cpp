@@ -58,7 +58,7 @@ std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, con
 }
 
 Driven drive(const Landscape& landscape, const RestState& from, const Vector& along,
-             double farthest) {
+             const DriveLimits& limits) {
   constexpr double first = 1e-3, shortest = 1e-4, longest = 0.1, arrived = 1e-7;
   /// The work of the force between two states is the change of the energy, by the trapezoidal rule to this part.
   constexpr double poor = 0.1, good = 0.02;
@@ -66,7 +66,7 @@ Driven drive(const Landscape& landscape, const RestState& from, const Vector& al
   Driven result;
   Reached here{.energy = from.energy, .x = from.x};
   double length = first;
-  for (int k = 0; k < most && here.amplitude < farthest; ++k) {
+  for (int k = 0; k < most && here.amplitude < limits.farthest; ++k) {
     const double amplitude = here.amplitude + length;
     const auto next = pushed(landscape, from.x, along, here.x,
                              {.amplitude = amplitude, .arrived = arrived, .is_resting = true});
@@ -80,6 +80,8 @@ Driven drive(const Landscape& landscape, const RestState& from, const Vector& al
       continue;
     }
     if (!next || !std::isfinite(energy)) return result;
+    // Up to where the force turns the energy has risen all along.
+    if (std::max(energy, here.energy) > limits.highest) return result;
     if (next->force > 0) {
       const double part = here.force / (here.force - next->force);
       auto saddle = rest_near(landscape, here.x + part * (next->x - here.x));

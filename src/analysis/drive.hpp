@@ -2,6 +2,8 @@
 // Private to analysis.
 #pragma once
 
+#include <limits>
+
 #include "descent.hpp"
 
 namespace springfold::analysis {
@@ -24,6 +26,13 @@ struct PushOptions {
 std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, const Vector& along,
                              Vector start, const PushOptions& options);
 
+/// Where a drive is given up.
+struct DriveLimits {
+  double farthest = 0;  ///< amplitude
+  double highest =
+      std::numeric_limits<double>::infinity();  ///< energy: saddles behind are higher still
+};
+
 struct Driven {
   std::optional<RestState> saddle{};  ///< where the force along the direction turns
   std::optional<Vector> beyond{};     ///< a state behind that; none: the force never turned
@@ -31,8 +40,7 @@ struct Driven {
 
 /// Drives a minimum outward, everything else following at rest, until the energy drives on by itself. Where what follows
 /// snaps on the way, the drive goes on from there.
-/// @param farthest  amplitude at which it is given up
 Driven drive(const Landscape& landscape, const RestState& from, const Vector& along,
-             double farthest);
+             const DriveLimits& limits);
 
 }  // namespace springfold::analysis

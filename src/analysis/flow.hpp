@@ -14,6 +14,8 @@ namespace springfold::analysis {
 struct MassPoint {
   double mass = 0;
   Matrix jacobian{};  ///< rows: components of the velocity; columns: the moving unknowns
+  bool has_speed =
+      true;  ///< one of the case; otherwise it stands for the turning of a body with others
 };
 
 /// What moves: the landscape's damping, and masses if there are any.

@@ -187,10 +187,16 @@ class Integrator {
     double speed = rate->rate.lpNorm<Eigen::Infinity>();
     if (data_.has_masses()) {
       speed = 0;
-      for (const MassPoint& mass : data_.motion->masses(data_.x))
-        speed = std::max(speed, (mass.jacobian * data_.speeds(y)).norm());
+      double turning = 0;
+      for (const MassPoint& mass : data_.motion->masses(data_.x)) {
+        double& largest = mass.has_speed ? speed : turning;
+        largest = std::max(largest, (mass.jacobian * data_.speeds(y)).norm());
+      }
+      flow_.peak_speed = std::max(flow_.peak_speed, speed);
+      speed = std::max(speed, turning);
+    } else {
+      flow_.peak_speed = std::max(flow_.peak_speed, speed);
     }
-    flow_.peak_speed = std::max(flow_.peak_speed, speed);
     Vector r;
     if (landscape.terrain().problem.residual(data_.x, landscape.terrain().lambda, data_.piece, r) &&
         !landscape.multipliers().empty())

@@ -7,7 +7,8 @@
 
 namespace springfold::analysis {
 
-/// All masses of bodies, links and points, and how they move with the landscape's unknowns.
+/// All masses of bodies, links and points, and how they move with the landscape's unknowns. What has moments of inertia
+/// about its centre of mass has point masses in its place that turn alike.
 class Masses {
  public:
   explicit Masses(const Frozen& frozen);
@@ -22,6 +23,7 @@ class Masses {
   struct Mass {
     double mass = 0;
     std::size_t point = 0;
+    bool has_speed = true;
   };
   const Frozen& frozen_;
   statics::System system_{};  ///< as the landscape's, with a point at every mass

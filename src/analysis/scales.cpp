@@ -195,10 +195,16 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
     }
     for (model::CoupledSpring& spring : chain.coupled_springs)
       make_dimensionless(chain, scales, spring);
-    for (model::ChainPoint& point : chain.points) point.at /= scales.length;
+    for (model::ChainPoint& point : chain.points) {
+      point.at /= scales.length;
+      point.inertia /= scales.length * scales.length;
+    }
   }
   m.gravity /= scales.force;
-  for (model::Body& body : m.bodies) body.centre /= scales.length;
+  for (model::Body& body : m.bodies) {
+    body.centre /= scales.length;
+    body.inertia /= scales.length * scales.length;
+  }
   for (model::Load& load : m.loads) {
     load.on.at /= scales.length;
     load.vector /= unit_of_load(load, scales);

@@ -116,8 +116,10 @@ void StateBook::take(const RestState& saddle, const StateSearch& options) {
 void StateBook::drive_from(const RestState& from, const Ground& at, const StateSearch& options) {
   const Box box = box_of_states();
   const auto& moving = landscape_.moving();
+  // In closed chains many coordinates move as few others do: the first ones, those of joints, are enough.
+  const Index most = 2 * std::min<Index>(options.modes, at.motions.cols());
   std::vector<Vector> taken;  // along the motions
-  for (std::size_t i = 0; i < moving.size(); ++i) {
+  for (std::size_t i = 0; i < moving.size() && std::ssize(taken) < most; ++i) {
     Vector along = at.motions.row(static_cast<Index>(i)).transpose();
     constexpr double still = 1e-6, alike = 0.999;
     const double part = along.norm();
@@ -130,7 +132,8 @@ void StateBook::drive_from(const RestState& from, const Ground& at, const StateS
     for (const double sign : {1.0, -1.0}) {
       const double end = sign > 0 ? box.high[moving[i]] : box.low[moving[i]];
       const double farthest = std::abs(end - from.x[moving[i]]) / part;
-      const Driven driven = drive(landscape_, from, sign * (at.motions * along), farthest);
+      const Driven driven =
+          drive(landscape_, from, sign * (at.motions * along), {farthest, options.bound});
       if (driven.saddle)
         take(*driven.saddle, options);
       else if (driven.beyond)

@@ -191,14 +191,16 @@ std::vector<RestState> saddles_on(const Landscape& landscape, const RelaxedWay& 
 }
 
 void join_by_strings(StateBook& book) {
-  constexpr std::size_t few = 6;     // minima between all pairs of which there are strings
+  constexpr std::size_t few = 6;  // minima between all pairs of which there are strings,
+  constexpr std::size_t small =
+      40;  // in mechanisms with so many coordinates: otherwise they take minutes
   constexpr int most_strings = 400;  // each costs about 0.05 s
   std::set<std::pair<std::size_t, std::size_t>> tried;
   for (int n = 0; n < most_strings; ++n) {
     const std::vector<std::size_t> minima = minima_of(book);
     if (minima.size() < 2) return;
     const JoinedMinima joined(book);
-    const bool are_few = minima.size() <= few;
+    const bool are_few = minima.size() <= few && book.landscape().moving().size() <= small;
     if (!are_few && joined.all_one(minima)) return;
     std::optional<std::pair<std::size_t, std::size_t>> nearest;
     double least = std::numeric_limits<double>::infinity();

@@ -115,7 +115,7 @@ std::optional<Index> body_number(const std::string& name, const Item& at,
 void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const TableReader table{
-        *item.node, item.key, {"name", "task_space", "pose", "mass", "com"}, reading};
+        *item.node, item.key, {"name", "task_space", "pose", "mass", "com", "inertia"}, reading};
     BodyDraft body{.place = item.node->place, .key = item.key};
     body.name = read_own_name(table, draft, reading);
     table.require("task_space", choices(space_words));
@@ -129,6 +129,13 @@ void read_bodies(const std::vector<Item>& tables, MechanismDraft& draft, Reading
       body.centre = read_vector3({com, table.key_of("com")}, is_planar(body), reading.units.length,
                                  draft.numbers, reading);
     if (table.has("com")) table.require("mass", "the mass of the body, whose centre this is");
+    const bool turns = translations(body.task_space) < dimension(body.task_space);
+    if (known_space && table.has("inertia") && !turns)
+      reading.problems.add(table.find("inertia")->place, table.key_of("inertia"),
+                           "a body of task space \"" + space->text +
+                               "\" is a point and does not turn, need \"planar\" or \"spatial\"");
+    else
+      body.inertia = read_inertia(table, is_planar(body), draft.numbers, reading);
     draft.bodies.push_back(std::move(body));
   }
 }

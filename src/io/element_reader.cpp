@@ -265,7 +265,7 @@ class JointReader {
 
 void read_rigid(const Item& item, bool planar, NumberTable& numbers, Reading& reading,
                 ChainDraft& chain) {
-  const TableReader table{*item.node, item.key, {"rigid", "mass", "com"}, reading};
+  const TableReader table{*item.node, item.key, {"rigid", "mass", "com", "inertia"}, reading};
   const FrameDraft frame =
       read_frame({table.find("rigid"), table.key_of("rigid")}, planar, numbers, reading);
   if (table.has("mass")) {  // in the middle of the link unless said otherwise
@@ -276,9 +276,11 @@ void read_rigid(const Item& item, bool planar, NumberTable& numbers, Reading& re
           read_vector3({com, table.key_of("com")}, planar, reading.units.length, numbers, reading);
       point.factor = 1;
     }
+    point.inertia = read_inertia(table, planar, numbers, reading);
     chain.points.push_back(std::move(point));
-  } else if (table.has("com")) {
-    table.require("mass", "the mass of the link, whose centre this is");
+  } else {
+    if (table.has("com")) table.require("mass", "the mass of the link, whose centre this is");
+    read_inertia(table, planar, numbers, reading);  // which needs the mass
   }
   chain.elements.push_back({frame, item.node->place, item.key});
 }

@@ -61,4 +61,34 @@ FrameDraft read_frame(const Item& item, bool planar, NumberTable& numbers, Readi
   return frame;
 }
 
+std::vector<NumberId> read_inertia(const TableReader& table, bool planar, NumberTable& numbers,
+                                   Reading& reading) {
+  const Node* node = table.find("inertia");
+  if (!node) return {};
+  table.require("mass", "the mass whose moments of inertia these are");
+  const std::string key = table.key_of("inertia");
+  const std::string unit =
+      reading.units.force + "*" + reading.units.length + "^2 per unit of gravity";
+  if (planar) return {table.number("inertia", {Range::non_negative, unit}, numbers, 0)};
+  const std::string need = "three numbers, about x, y and z, or three rows of three";
+  const std::vector<Item> items = list_items({node, key}, need, reading);
+  if (node->kind != Node::Kind::array) return {};
+  std::vector<NumberId> ids;
+  for (const Item& item : items) {
+    const bool is_row = item.node->kind == Node::Kind::array;
+    for (const Item& entry : is_row ? list_items(item, need, reading) : std::vector{item})
+      ids.push_back(read_number(entry, {Range::finite, unit}, numbers, reading));
+  }
+  if (items.size() != 3 || (ids.size() != 3 && ids.size() != 9)) {
+    reading.problems.add(node->place, key, "got " + described(*node) + ", need " + need);
+    return {};
+  }
+  numbers.require(ids, node->place, key, [](const std::vector<double>& values) {
+    std::vector<NumberId> own(values.size());
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] = i;
+    return model::problem_in_inertia(inertia_of(own, values));
+  });
+  return ids;
+}
+
 }  // namespace springfold::io

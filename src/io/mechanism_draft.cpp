@@ -139,10 +139,24 @@ model::ChainPoint point_of(const PointDraft& draft, std::size_t elements_before,
   return {.name = draft.name,
           .elements_before = elements_before,
           .at = draft.factor * vec3_of(draft.at, numbers),
-          .mass = draft.mass ? numbers[*draft.mass] : 0};
+          .mass = draft.mass ? numbers[*draft.mass] : 0,
+          .inertia = inertia_of(draft.inertia, numbers)};
 }
 
 }  // namespace
+
+model::Mat3<double> inertia_of(const std::vector<NumberId>& ids, const Numbers& numbers) {
+  model::Mat3<double> I = model::Mat3<double>::Zero();
+  // One number is that of a plate: what it has about x and y matters to nothing in the plane.
+  if (ids.size() == 1)
+    I.diagonal() << numbers[ids[0]] / 2, numbers[ids[0]] / 2, numbers[ids[0]];
+  else if (ids.size() == 3)
+    I.diagonal() = vec3_of(ids, numbers);
+  else
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      I(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) = numbers[ids[i]];
+  return I;
+}
 
 model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
   return {.body = draft.body,
@@ -189,7 +203,8 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
                                 .task_space = body.task_space,
                                 .pose = vector_of(body.pose, numbers),
                                 .mass = body.mass ? numbers[*body.mass] : 0,
-                                .centre = vec3_of(body.centre, numbers)});
+                                .centre = vec3_of(body.centre, numbers),
+                                .inertia = inertia_of(body.inertia, numbers)});
   for (const ChainDraft& from : draft.chains) {
     model::Chain chain{.name = from.name, .from = from.from, .to = from.to};
     chain.from_attachment = pose_of(from.from_at, numbers);

@@ -75,6 +75,7 @@ struct PointDraft {
   std::vector<NumberId> at{};  ///< x, y, z; empty: none
   double factor = 1;           ///< of `at`: 1/2 for the middle of a link
   std::optional<NumberId> mass{};
+  std::vector<NumberId> inertia{};  ///< none, one about z, three, or nine of a matrix
 };
 
 /// Where something acts: on a body, or on a point of a chain.
@@ -174,6 +175,7 @@ struct BodyDraft {
   std::vector<NumberId> pose{};
   std::optional<NumberId> mass{};
   std::vector<NumberId> centre{};
+  std::vector<NumberId> inertia{};  ///< as in PointDraft
   bool is_node = false;
   std::vector<std::string> fixed{};  ///< of a node: directions in which it is held, not all
   Place place{};
@@ -208,5 +210,9 @@ std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts,
 
 /// The numbers with these ids.
 Vector vector_of(const std::vector<NumberId>& ids, const std::vector<double>& numbers);
+
+/// Moments of inertia of none, one, three or nine numbers.
+model::Mat3<double> inertia_of(const std::vector<NumberId>& ids,
+                               const std::vector<double>& numbers);
 
 }  // namespace springfold::io

@@ -42,6 +42,10 @@ std::vector<LoadDraft> read_loads(const std::vector<Item>& tables, const Mechani
 /// `mass`: >= 0.
 NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& reading);
 
+/// `inertia` of what has a mass, about its centre: one number about z in the plane, in space three, or three rows of three.
+std::vector<NumberId> read_inertia(const TableReader& table, bool planar, NumberTable& numbers,
+                                   Reading& reading);
+
 /// `[[node]]`: point bodies, fixed points of the base, and chains along which nodes slide. All bodies
 /// must be read before.
 void read_nodes(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading);

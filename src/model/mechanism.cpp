@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/model/closure.hpp"
 #include "springfold/model/shape.hpp"
 
@@ -86,6 +87,13 @@ std::vector<bool> check_coupled(const Chain& chain, const std::string& where,
   return coupled;
 }
 
+void check_inertia(const Mat3<double>& inertia, const std::string& where,
+                   std::vector<std::string>& problems) {
+  if (inertia.isZero(0)) return;
+  const std::string problem = problem_in_inertia(inertia);
+  if (!problem.empty()) problems.push_back(where + "inertia: " + problem);
+}
+
 void check_points(const Chain& chain, const std::string& where,
                   std::vector<std::string>& problems) {
   std::set<std::string> names;
@@ -98,6 +106,7 @@ void check_points(const Chain& chain, const std::string& where,
     if (!point.at.allFinite()) problems.push_back(at + "at: need finite numbers");
     if (!(point.mass >= 0) || !std::isfinite(point.mass))
       problems.push_back(at + "mass: need a finite number >= 0");
+    check_inertia(point.inertia, at, problems);
   }
 }
 
@@ -246,6 +255,20 @@ void check_loads(const Mechanism& mechanism, std::vector<std::string>& problems)
 
 }  // namespace
 
+std::string problem_in_inertia(const Mat3<double>& inertia) {
+  if (!inertia.allFinite()) return "need finite numbers";
+  const double size = inertia.cwiseAbs().maxCoeff();
+  constexpr double rounding = 1e-12;
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > rounding * size)
+    return "need a symmetric matrix";
+  // The mass has second moments tr(I)/2 - I, and none of them is negative.
+  const Matrix second = inertia.trace() / 2 * Matrix::Identity(3, 3) - inertia;
+  if (symmetric_eigenvalues(second)[0] < -rounding * size)
+    return "no body has these moments: none may be negative, and none larger than the sum of both "
+           "others";
+  return "";
+}
+
 std::vector<std::string> problems_in(const Mechanism& mechanism) {
   std::vector<std::string> problems;
   if (mechanism.bodies.empty()) problems.push_back("body: a mechanism needs a moving body");
@@ -260,6 +283,9 @@ std::vector<std::string> problems_in(const Mechanism& mechanism) {
       problems.push_back(where + ": pose: need " + std::to_string(dimension(body.task_space)) +
                          " finite numbers");
     check_mass(body.mass, where, problems);
+    check_inertia(body.inertia, where + ": ", problems);
+    if (!body.inertia.isZero(0) && translations(body.task_space) == dimension(body.task_space))
+      problems.push_back(where + ": inertia: a point does not turn");
     if (!body.centre.allFinite()) problems.push_back(where + ": com: need finite numbers");
     if (body.mass != 0 && body.centre.allFinite())
       check_anchor(mechanism, {.body = static_cast<Index>(b + 1), .at = body.centre}, false,

@@ -196,14 +196,18 @@ TEST(Drive, OverAFlatTrussFindsItsSaddle) {
   const Landscape landscape = landscape_of(problem, 0);
   const auto start = rest_near(landscape, Vector::Zero(2));
   ASSERT_TRUE(start);
-  const Driven driven = drive(landscape, *start, Vector::Unit(2, 0), 3);
+  const Driven driven = drive(landscape, *start, Vector::Unit(2, 0), {.farthest = 3});
   ASSERT_TRUE(driven.saddle);
   EXPECT_EQ(driven.saddle->index, 1);
   EXPECT_NEAR(driven.saddle->x[0], 1, 1e-10);
   EXPECT_NEAR(driven.saddle->x[1], 0, 1e-10);
   EXPECT_NEAR(driven.saddle->energy, std::pow(1 / std::cos(45 * degree) - 1, 2), 1e-12);
   // Outward the force never turns.
-  EXPECT_FALSE(drive(landscape, *start, -Vector::Unit(2, 0), 3).beyond);
+  EXPECT_FALSE(drive(landscape, *start, -Vector::Unit(2, 0), {.farthest = 3}).beyond);
+  // Nor below the saddle.
+  const double below = 0.9 * driven.saddle->energy;
+  EXPECT_FALSE(
+      drive(landscape, *start, Vector::Unit(2, 0), {.farthest = 3, .highest = below}).beyond);
 }
 
 }  // namespace

@@ -82,6 +82,8 @@ struct ChainPoint {
   std::size_t elements_before = 0;         ///< 0: in the frame where the chain begins
   Vec3<double> at = Vec3<double>::Zero();  ///< in that frame [length]
   double mass = 0;                         ///< weight = mass * gravity acts there
+  /// Moments of inertia about `at`, in the axes of that frame [mass length^2]; statics does not ask for them.
+  Mat3<double> inertia = Mat3<double>::Zero();
 };
 
 /// An edge of the graph. Its elements lead from a frame fixed in body `from` to a frame fixed in
@@ -105,6 +107,9 @@ struct Body {
   Vector pose{};
   double mass = 0;                             ///< weight = mass * gravity acts at `centre`
   Vec3<double> centre = Vec3<double>::Zero();  ///< centre of mass in the body's frame [length]
+  /// Moments of inertia about the centre of mass, in the body's axes [mass length^2]; of planar bodies that about z counts
+  /// alone. Of bodies that turn; statics does not ask for them.
+  Mat3<double> inertia = Mat3<double>::Zero();
 };
 
 /// Where a load or a line spring acts: a point fixed in a body, or one fixed to a point of a chain.
@@ -185,6 +190,10 @@ struct Mechanism {
   std::vector<LineSpring> line_springs{};
   std::vector<ShapeSpring> shape_springs{};
 };
+
+/// What is wrong with moments of inertia; empty when a rigid body can have them: symmetric, none negative, and each of the
+/// principal ones at most the sum of both others.
+std::string problem_in_inertia(const Mat3<double>& inertia);
 
 /// Every rule that the mechanism breaks, as sentences; empty when usable.
 std::vector<std::string> problems_in(const Mechanism& mechanism);
