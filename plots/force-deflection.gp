@@ -15,6 +15,8 @@
 #   insets        number of enlarged parts; inset_x_low, inset_left, ... are lists of as many numbers, the rooms
 #                 for numbers in parts of the inset; inset_x_ticks_1, inset_y_ticks_1, ... are lists of ticks
 #   has_bar       1: palette_text, bar_title, bar_low, bar_high say what the colours of curves mean
+#   regions       number of shaded parts, with region_name[n]; block region_<n> holds outlines; region_wanted has for
+#                 each 1, nothing unwanted happens there, or 0, it happens whatever is done
 #   point_codes   "start LP SA ...": codes that occur; block point_<code> holds x y
 #   key_codes     those of them that are seen
 # Labels and their leader lines are set already: they hang on points of the axes.
@@ -54,7 +56,7 @@ set title figure_title @figure_title_mode font title_font textcolor rgb ink offs
 set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
 set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
-key_rows = (words(first_parts) + words(key_codes) + mixed_in_key + quantities + 2) / 3
+key_rows = (words(first_parts) + words(key_codes) + mixed_in_key + quantities + regions + 2) / 3
 set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
@@ -63,6 +65,8 @@ set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top ce
 # Blocks that are not there are never drawn, but gnuplot looks for their names.
 mixed_block = has_mixed ? '$mixed' : '$'.word(curve_parts, 1)
 bar_block = has_bar ? '$bar' : '$'.word(curve_parts, 1)
+region_block(k) = regions > 0 ? '$region_'.k : '$'.word(curve_parts, 1)
+region_tint(k) = word(region_wanted, k) eq '1' ? wanted_tint : unwanted_tint
 bar_value = has_bar ? bar_low : 0
 if (!has_bar) { palette_text = '0 "black", 1 "white"'; set cbrange [0:1] }
 if (has_bar) {
@@ -91,7 +95,9 @@ if (figure_format eq 'tikz') {
 }
 set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
 if (insets > 0) { set multiplot }
-plot for [k = 1:has_mixed] mixed_block with lines linestyle 7 \
+plot for [k = 1:regions] region_block(k) with filledcurves closed fillcolor rgb region_tint(k) \
+         fillstyle solid noborder title region_name[k], \
+     for [k = 1:has_mixed] mixed_block with lines linestyle 7 \
          title (mixed_in_key ? 'with a less stable one on it' : ''), \
      for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
          linecolor rgb part_color(part) notitle, \
@@ -127,7 +133,9 @@ do for [k = 1:insets] {
   set ytics (word(inset_y_ticks, 1) real(word(inset_y_ticks, 1))) font key_font
   do for [tick in inset_x_ticks] { set xtics add (tick real(tick)) }
   do for [tick in inset_y_ticks] { set ytics add (tick real(tick)) }
-  plot for [j = 1:has_mixed] mixed_block with lines linestyle 7, \
+  plot for [j = 1:regions] region_block(j) with filledcurves closed fillcolor rgb region_tint(j) \
+           fillstyle solid noborder, \
+       for [j = 1:has_mixed] mixed_block with lines linestyle 7, \
        for [part in curve_parts] '$'.part with lines linestyle part_style(part) \
            linecolor rgb part_color(part), \
        for [code in point_codes] '$point_'.code with points linestyle point_style(code)

@@ -19,6 +19,9 @@ stable_color = '#0072B2'
 driven_color = '#D55E00'
 unstable_color = '#D55E00'
 mixed_color = '#F5CBA7'
+# Shaded parts: where nothing unwanted happens, and where it happens whatever is done.
+wanted_tint = '#E1EEF7'
+unwanted_tint = '#F7E3D4'
 # Branches of a diagram, one after the other.
 branch_colors = '#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #882255 #999933'
 ink = '#222222'

@@ -104,10 +104,11 @@ void PointLaws::put_worst(std::vector<double>& values) const {
     return;
   }
   if (!(slope > 0)) return;
-  // A load that is reached from below is lowered down the gradient, one from above up the gradient.
+  // A load that is reached from below is lowered down the gradient, one from above up the gradient; C of the law
+  // is what is lost, as for all other exponents.
   const double way = towards();
   values[at] = 1;
-  values[at + 1] = -way * slope;
+  values[at + 1] = slope;
   for (std::size_t i = 0; i < count; ++i) values[at + 2 + i] = -way * rates_[i] / slope;
 }
 

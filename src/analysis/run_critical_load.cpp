@@ -85,8 +85,8 @@ class LoadsOverParameter {
   }
 
   void doubt(double mu, const std::string& why) {
-    result_.doubts.push_back("unresolved at " + curves_.name() + " = " +
-                             rounded(mu * curves_.scale()) + ": " + why);
+    result_.doubts.push_back("at " + curves_.name() + " = " + rounded(mu * curves_.scale()) + ": " +
+                             why);
   }
 
   /// The piece of the point that comes first at `mu`, within [from, to]; nothing if it cannot be followed.

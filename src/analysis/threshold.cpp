@@ -121,9 +121,10 @@ class Threshold {
   }
 
   void doubt(double mu) {
-    report_.message = "unresolved at " + study_.critical.parameter + " = " +
-                      rounded(mu * curves_.scale()) + ": " + why_;
-    result_.doubts.push_back(report_.message);
+    const std::string what =
+        "at " + study_.critical.parameter + " = " + rounded(mu * curves_.scale()) + ": " + why_;
+    report_.message = "unresolved " + what;
+    result_.doubts.push_back(what);
     label_critical(result_.branches);
   }
 

@@ -263,6 +263,7 @@ class Builder {
           if (draft_->studies[i].name != curves.study) continue;
           check_curves("plot \"" + spec.name + "\"", i);
           if (!is_over_parameter(spec)) check_use(plot.x, i, 1);
+          if (is_in_plane(spec)) continue;
           for (const NamedPlace& y : plot.y) check_use(y, i, 1);
         }
       result_.plots.push_back(std::move(spec));

@@ -32,7 +32,7 @@ std::string point_table(const StudyResult& result, const Branch& branch,
     for (const std::string& name : columns)
       row.push_back(number_cell(value_at(result, branch, event.row, name)));
     const bool unresolved = event.kind == analysis::EventKind::unresolved;
-    row.push_back((unresolved ? "UNRESOLVED: " : "") + event.detail);
+    row.push_back(unresolved ? unresolved_text(event.detail) : event.detail);
   }
   std::vector<Align> align(1 + columns.size(), Align::right);
   align.front() = Align::left;

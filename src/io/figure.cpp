@@ -52,6 +52,7 @@ struct Axes {
   std::string y{};         ///< the quantity that is plotted: spec.y or one of spec.more_y
   bool is_traced = false;  ///< rows lie on curves over arc length
   int hue = 0;             ///< of several quantities: the number of this one
+  bool has_start = true;   ///< false: its rows begin where they are found first
 
   PlotPoint point(const StudyResult& result, const Branch& branch, std::size_t row) const {
     return place(value_at(result, branch, row, spec.x), value_at(result, branch, row, y));
@@ -212,7 +213,7 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
     number_branches(figure, first_curve);
   add_equilibria(figure, axes, result);
   add_jumps(figure, axes, result);
-  if (result.branches.empty()) return;
+  if (result.branches.empty() || !axes.has_start) return;
   const Branch& first = result.branches.front();
   add_mark(figure, {"start", "", axes.point(result, first, first.start_row)});
 }
@@ -222,6 +223,7 @@ void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
                     const StudyResult& result, const FigureText& label) {
   const PlannedRun* planned = plan_of(the_case, result);
   Axes axes{.spec = spec, .units = the_case.units, .y = spec.y};
+  axes.has_start = planned == nullptr || planned->plan.kind != analysis::StudyKind::critical_load;
   axes.is_traced = planned != nullptr &&
                    (planned->plan.kind == analysis::StudyKind::force_deflection ||
                     analysis::is_of_critical_points(planned->plan.kind)) &&
@@ -288,6 +290,11 @@ bool has_columns(const PlotSpec& spec, const StudyResult& result,
 
 }  // namespace
 
+bool is_curve_of_points(analysis::StudyKind kind) {
+  return kind == analysis::StudyKind::critical_curve || kind == analysis::StudyKind::threshold ||
+         kind == analysis::StudyKind::critical_load;
+}
+
 bool look_alike(const FigureCurve& a, const FigureCurve& b) {
   if (a.parts.size() != b.parts.size()) return false;
   for (std::size_t i = 0; i < a.parts.size(); ++i) {
@@ -323,7 +330,10 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     figure.look = spec.look;
     std::vector<RunCurves> runs;
     bool is_wanted = false;  // a figure of runs that were left out on purpose is no problem
-    if (is_over_parameter(spec)) add_sweep_points(the_case, spec, results, figure);
+    if (is_in_plane(spec))
+      add_boundary(the_case, spec, results, figure);
+    else if (is_over_parameter(spec))
+      add_sweep_points(the_case, spec, results, figure);
     for (const auto& curves : is_over_parameter(spec) ? std::vector<PlotCurves>{} : spec.curves) {
       for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
@@ -333,12 +343,17 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
         runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first});
       }
     }
+    if (!runs.empty() && std::all_of(runs.begin(), runs.end(), [](const RunCurves& run) {
+          return run.planned != nullptr && is_curve_of_points(run.planned->plan.kind);
+        }))
+      figure.tells_stability = false;
     if (is_over_parameter(spec))
       is_wanted =
           std::any_of(spec.curves.begin(), spec.curves.end(), [&](const PlotCurves& curves) {
             return !shown_runs(the_case, spec.markup, curves, results).empty();
           });
     if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, figure);
+    if (spec.shade) shade_held_loads(runs, spec, results, figure);
     say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))
       figures.push_back(std::move(figure));

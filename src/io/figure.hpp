@@ -47,6 +47,13 @@ struct FigureMark {
   PlotPoint at{};
 };
 
+/// A shaded part of the plane, behind everything else.
+struct FigureRegion {
+  std::string name{};  ///< as the key calls it; regions of one name have one entry
+  bool is_wanted = true;
+  std::vector<Polyline> parts{};  ///< closed outlines; corners may lie beyond the axes
+};
+
 /// What the colours of the runs of a sweep mean.
 struct ColourBar {
   std::string title{};
@@ -60,6 +67,7 @@ struct Figure {
   std::vector<FigureCurve> curves{};
   std::vector<FigureMark> marks{};
   std::vector<std::pair<PlotPoint, PlotPoint>> arrows{};  ///< jumps, from the state that is left
+  std::vector<FigureRegion> regions{};
   PlotLook look{};
   std::vector<std::string> quantities{};  ///< several over one x: the n-th has the n-th colour
   PlotPoint least{};  ///< what lies below it on a logarithmic axis does not widen that
@@ -82,6 +90,9 @@ std::vector<PlotSpec> plots_of(const Case& the_case,
 /// @param polar  the origin is seen, and angles are right
 bool fit_axes(Figure& figure, bool polar);
 
+/// Are its rows critical points over a parameter? Their lines are no equilibria of one mechanism.
+bool is_curve_of_points(analysis::StudyKind kind);
+
 /// Is it a figure of special points over a parameter, x = "parameter.Kv"?
 bool is_over_parameter(const PlotSpec& spec);
 
@@ -89,6 +100,17 @@ bool is_over_parameter(const PlotSpec& spec);
 /// @pre is_over_parameter(spec)
 void add_sweep_points(const Case& the_case, const PlotSpec& spec,
                       const std::vector<analysis::StudyResult>& results, Figure& figure);
+
+/// Is it a figure in the plane of two parameters, x = "parameter.a0", y = "parameter.Kv"?
+bool is_in_plane(const PlotSpec& spec);
+
+/// Thresholds of all runs and degeneracies of critical curves in the plane of two parameters: lines for the pieces of
+/// the boundary, each named by what decides there, and the regions beside them. @pre is_in_plane(spec)
+void add_boundary(const Case& the_case, const PlotSpec& spec,
+                  const std::vector<analysis::StudyResult>& results, Figure& figure);
+
+/// Regions reach to the edges of the axes, which are known when all else is. After fit_axes.
+void fit_regions(Figure& figure);
 
 /// Do two curves show the same line? Mirrored branches do where the figure does not show the mirror.
 bool look_alike(const FigureCurve& a, const FigureCurve& b);
@@ -105,6 +127,12 @@ struct RunCurves {
   const PlannedRun* planned = nullptr;
   std::size_t first = 0, count = 0;
 };
+
+/// Shades what lies below the first critical load, from lambda at the start on: loads that the path from the start
+/// reaches without the loss that the study looks for. Of runs of kind critical_load; others are left out.
+/// @param runs  whose curves the figure has, lambda over the parameter
+void shade_held_loads(const std::vector<RunCurves>& runs, const PlotSpec& spec,
+                      const std::vector<analysis::StudyResult>& results, Figure& figure);
 
 /// Colour of a value between the smallest (0) and the largest (1), "#RRGGBB".
 std::string sweep_colour(double part);

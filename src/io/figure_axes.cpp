@@ -60,6 +60,12 @@ bool fit_axes(Figure& figure, bool polar) {
     for (const auto& part : curve.parts) std::for_each(part.line.begin(), part.line.end(), include);
   for (const auto& mark : figure.marks) include(mark.at);
   for (const auto& [from, to] : figure.arrows) include(from), include(to);
+  for (const FigureRegion& region : figure.regions)
+    for (const Polyline& outline : region.parts)
+      for (const PlotPoint& corner : outline) {  // what is infinite reaches to the edge
+        if (std::isfinite(corner.first)) x.include(corner.first);
+        if (std::isfinite(corner.second)) y.include(corner.second);
+      }
   if (!(x.low <= x.high) || !(y.low <= y.high)) return false;
   if (polar) include({0, 0});
   AxisRange padded_x = x.padded(), padded_y = y.padded();
@@ -68,6 +74,7 @@ bool fit_axes(Figure& figure, bool polar) {
   if (polar || look.equal) equalise(canvas_of(look, figure.bar.has_value()), padded_x, padded_y);
   figure.low = {padded_x.low, padded_y.low};
   figure.high = {padded_x.high, padded_y.high};
+  fit_regions(figure);
   return true;
 }
 

@@ -204,6 +204,26 @@ void send_quantities(Gnuplot& gnuplot, const Figure& figure, bool is_tex) {
                           text_for({figure.quantities[i]}, is_tex).text);
 }
 
+/// Shaded parts of the plane. The colours say whether they are what is wanted.
+void send_regions(Gnuplot& gnuplot, const Figure& figure) {
+  const std::size_t count = figure.regions.size();
+  std::string wanted;
+  for (std::size_t i = 0; i < count; ++i) {
+    gnuplot << "$region_" << i + 1 << begin_block;
+    gnuplot.send2d(figure.regions[i].parts);  // an empty line between outlines
+    add_word(wanted, figure.regions[i].is_wanted ? "1" : "0");
+  }
+  gnuplot << "regions = " << count << "\n"
+          << assignment("region_wanted", wanted) << "array region_name["
+          << std::max<std::size_t>(count, 1) << "]\n";
+}
+
+void send_region_names(Gnuplot& gnuplot, const Figure& figure, bool is_tex) {
+  for (std::size_t i = 0; i < figure.regions.size(); ++i)
+    gnuplot << assignment("region_name[" + std::to_string(i + 1) + "]",
+                          text_for({figure.regions[i].name}, is_tex).text);
+}
+
 /// What the colours of the runs of a sweep mean.
 void send_bar(Gnuplot& gnuplot, const Figure& figure, bool is_tex) {
   gnuplot << "has_bar = " << (figure.bar ? 1 : 0) << "\n";
@@ -266,12 +286,14 @@ void write_figure_script(const std::filesystem::path& path, const Figure& figure
   send_curves(gnuplot, figure, canvas);
   send_marks(gnuplot, figure, canvas);
   send_insets(gnuplot, figure, canvas);
+  send_regions(gnuplot, figure);
   for (const std::string& format : figure.look.formats) {
     const bool is_tex = format == "tikz";
     gnuplot << "\n" << assignment("figure_format", format);
     send_values(gnuplot, figure, canvas, is_tex);
     send_bar(gnuplot, figure, is_tex);
     send_quantities(gnuplot, figure, is_tex);
+    send_region_names(gnuplot, figure, is_tex);
     gnuplot << "\n" << style << "\nunset label\nunset arrow\n";
     send_labels(gnuplot, figure, canvas, is_tex);
     send_jumps(gnuplot, figure);

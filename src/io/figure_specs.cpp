@@ -12,8 +12,8 @@ namespace {
 using analysis::Branch;
 using analysis::StudyResult;
 
-/// Quantities of a figure without [[plot]]: force over deflection, otherwise lambda over the first
-/// coordinate of the pose.
+/// Quantities of a figure without [[plot]]: of curves of special points lambda over their parameter, otherwise
+/// force over deflection, or lambda over the first coordinate of the pose.
 PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
   PlotSpec spec{.name = safe_file_name(result.study), .title = result.study};
   spec.curves.push_back({.study = result.study});
@@ -25,9 +25,19 @@ PlotSpec default_plot(const Case& the_case, const StudyResult& result) {
         return spec;
       }
   }
+  const PlannedRun* planned = plan_of(the_case, result);
+  using analysis::StudyKind;
+  const StudyKind kind = planned == nullptr ? StudyKind::force_deflection : planned->plan.kind;
+  if (is_curve_of_points(kind)) {
+    spec.x = planned->plan.critical.parameter;
+    spec.y = "lambda";
+    spec.shade = kind == StudyKind::critical_load &&
+                 planned->plan.control != analysis::ControlMode::parameter &&
+                 planned->varied.empty();
+    return spec;
+  }
   if (column_of(result, "deflection") && column_of(result, "force")) return spec;
   spec.y = "lambda";
-  const PlannedRun* planned = plan_of(the_case, result);
   const bool has_body = planned != nullptr && !planned->mechanism.bodies.empty();
   spec.x = has_body ? planned->mechanism.bodies.front().name + ".x" : "s";
   return spec;

@@ -106,32 +106,6 @@ void check_polar(const TableReader& table, const PlotSpec& spec, Reading& readin
           "the origin, which a logarithmic axis does not have");
 }
 
-/// A figure of special points over a parameter: what its studies vary, and what has no meaning there.
-void check_parameter_plot(const TableReader& table, const PlotDraft& draft,
-                          const std::vector<StudyDraft>& studies, Reading& reading) {
-  const PlotSpec& spec = draft.spec;
-  const std::string name = spec.x.substr(std::string_view{parameter_prefix}.size());
-  for (const PlotCurves& curves : spec.curves)
-    for (const StudyDraft& study : studies) {
-      if (study.name != curves.study || !study.runs_known) continue;
-      std::vector<std::string> varied;
-      if (study.vary)
-        for (const std::size_t p : study.vary->parameters)
-          varied.push_back(parameter_prefix + (*reading.parameters)[p].name);
-      if (std::find(varied.begin(), varied.end(), parameter_prefix + name) == varied.end())
-        reading.problems.add(draft.x.place, draft.x.key,
-                             "got \"" + spec.x + "\", need a parameter that study \"" + study.name +
-                                 "\" varies" + suggestion(spec.x, varied));
-      if (!curves.labels.empty())
-        reading.problems.add(table.find("curves")->place, table.key_of("curves"),
-                             "labels name runs, need none: lines over a parameter have the names "
-                             "of their points");
-    }
-  if (spec.polar)
-    reading.problems.add(table.find("polar")->place, table.key_of("polar"),
-                         "got true, need false: a parameter is no angle");
-}
-
 }  // namespace
 
 std::optional<int> read_run(const Item& item, const StudyDraft& study, Reading& reading) {
@@ -188,7 +162,7 @@ bool read_markup(const TableReader& table, const Item& plot, Reading& reading) {
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading) {
   std::vector<std::string> keys{"name",     "title",    "x",      "y",      "x_label", "y_label",
-                                "x_factor", "y_factor", "markup", "curves", "polar"};
+                                "x_factor", "y_factor", "markup", "curves", "polar",   "shade"};
   keys.insert(keys.end(), look_keys().begin(), look_keys().end());
   std::vector<PlotDraft> plots;
   std::set<std::string> taken;
@@ -219,7 +193,8 @@ std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
     if (curves && curves->kind == Node::Kind::array && curves->items.empty())
       reading.problems.add(curves->place, table.key_of("curves"),
                            "got an empty list, need at least one curve");
-    if (is_over_parameter(spec)) check_parameter_plot(table, draft, studies, reading);
+    spec.shade = table.flag("shade", false);
+    check_parameter_plot(table, draft, studies, reading);
     if (spec.markup)
       for (const PlotCurves& of : spec.curves)
         check_vary_labels({table.find("markup"), table.key_of("markup")}, of, studies, reading);

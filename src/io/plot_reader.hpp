@@ -16,6 +16,11 @@ std::optional<std::size_t> study_number(const std::string& name, const Item& at,
 std::vector<PlotDraft> read_plots(const std::vector<Item>& tables,
                                   const std::vector<StudyDraft>& studies, Reading& reading);
 
+/// Reports parameters as axes that its studies do not have, and loads that cannot be shaded.
+/// @param table  the plot's @param draft  what was read of it
+void check_parameter_plot(const TableReader& table, const PlotDraft& draft,
+                          const std::vector<StudyDraft>& studies, Reading& reading);
+
 /// [[map_plot]] tables. @param plots  whose names are taken
 std::vector<MapPlotDraft> read_map_plots(const std::vector<Item>& tables,
                                          const std::vector<StudyDraft>& studies,

@@ -22,6 +22,13 @@ inline std::string summary_line(std::string_view label, const std::string& text)
   return whole + "\n";
 }
 
+/// The words of an unresolved point, so that it is seen: "UNRESOLVED: ...". Details may say it already.
+inline std::string unresolved_text(const std::string& detail) {
+  constexpr std::string_view said = "unresolved";
+  const bool is_said = detail.starts_with(said);
+  return "UNRESOLVED" + (is_said ? detail.substr(said.size()) : ": " + detail);
+}
+
 /// "1 point", "2 points".
 inline std::string counted(int count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

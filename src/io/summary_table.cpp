@@ -126,7 +126,7 @@ std::string point_lines(const StudyResult& result, const Branch& branch) {
     for (const auto& name : columns) row.push_back(cell(value_at(result, branch, event.row, name)));
     const bool is_unresolved = event.kind == analysis::EventKind::unresolved;
     for (const auto& name : indices) row.push_back(index_text(result, branch, event, name));
-    row.push_back((is_unresolved ? "UNRESOLVED: " : "") + event.detail);
+    row.push_back(is_unresolved ? unresolved_text(event.detail) : event.detail);
   }
   std::vector<Align> align(1 + columns.size() + indices.size(), Align::right);
   align.front() = Align::left;

@@ -85,5 +85,34 @@ TEST_F(CriticalMessages, WantARangeAndTwoValuesForAFirstCriticalLoad) {
               ElementsAre(testing::HasSubstr("critical_load.value: unknown key")));
 }
 
+TEST_F(CriticalMessages, WantPlotsInAPlaneOfTheParametersOfTheirStudies) {
+  const std::string plot =
+      critical_strut + "[[plot]]\nname = \"f\"\nx = \"parameter.k\"\ny = \"parameter.c\"\n";
+  EXPECT_THAT(messages(plot + "curves = [{ study = \"a\" }]\n"), ElementsAre());
+  EXPECT_THAT(
+      messages(replaced(plot, "parameter.c", "parameter.cc") + "curves = [{ study = \"a\" }]\n"),
+      ElementsAre(testing::HasSubstr("plot[1].y: got \"parameter.cc\", need a parameter of "
+                                     "the case, did you mean \"parameter.c\"?")));
+  EXPECT_THAT(
+      messages(replaced(plot, "parameter.c", "parameter.k") + "curves = [{ study = \"a\" }]\n"),
+      ElementsAre(testing::HasSubstr("need another parameter than x")));
+  const std::string other = replaced(plot, "parameter = \"k\", range = [0.1, 2] }",
+                                     "parameter = \"d\", range = [0.1, 2] }");
+  EXPECT_THAT(
+      messages(
+          replaced(replaced(other, "mark = { k = [0.5] }\n", ""), "k = 1\n", "k = 1\nd = 1\n") +
+          "curves = [{ study = \"a\" }]\n"),
+      ElementsAre(testing::HasSubstr("study \"a\" does not fit, need one of kind threshold or "
+                                     "critical_curve whose parameter is x or y")));
+}
+
+TEST_F(CriticalMessages, ShadeLoadsOnlyWhereAStudyKnowsWhichComesFirst) {
+  EXPECT_THAT(
+      messages(critical_strut + "[[plot]]\nname = \"f\"\nx = \"k\"\ny = \"lambda\"\n"
+                                "shade = true\ncurves = [{ study = \"a\" }]\n"),
+      ElementsAre(testing::HasSubstr("plot[1].shade: got true, need y = \"lambda\" over the "
+                                     "parameter of a study of kind critical_load")));
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -128,6 +128,8 @@ struct PlotSpec {
       false;  ///< the plotted x is an angle [rad], the plotted y the distance from the origin
   std::vector<PlotCurves> curves{};
   std::vector<std::string> more_y{};  ///< further quantities over the same x
+  bool shade =
+      false;  ///< loads below the first critical one are shaded: studies of kind critical_load
   PlotLook look{};
 };
 

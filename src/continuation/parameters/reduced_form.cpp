@@ -1,5 +1,7 @@
 // The equations at a singular point, reduced to the modes that vanish there.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "continuation/parameters/augmented.hpp"
 #include "springfold/continuation/imperfection.hpp"
@@ -9,8 +11,10 @@
 namespace springfold::continuation {
 namespace {
 
-/// Singular values of dF/dx below this, relative to the largest one, vanish at a located point.
-constexpr double vanishing = 1e-7;
+/// Singular values of dF/dx below this, relative to the largest one, vanish at a located point: those that do are its
+/// error, at most 1e-10 (the engine's contract), and the root of rounding lies two digits above. Two points whose
+/// values are both below lie so near that the located one stands for both.
+const double vanishing = std::sqrt(std::numeric_limits<double>::epsilon());
 /// Largest entry of the nearest points of differences along directions: first and second derivatives of dF/dx.
 constexpr double first_step = 0x1p-8;
 constexpr double second_step = 0x1p-8;
@@ -115,10 +119,10 @@ bool put_cubic(const ReducedPlace& place, const Lu& bordered, const std::vector<
   return true;
 }
 
-/// How many singular values vanish.
-Index corank_of(const Matrix& A) {
+/// How many singular values vanish; at least as many as the engine located, whose own errors decided that.
+Index corank_of(const Matrix& A, int located) {
   const Vector values = jacobi_svd(A).values;
-  Index k = 0;
+  Index k = std::min<Index>(located, values.size());
   while (k < values.size() && values[values.size() - 1 - k] <= vanishing * values[0]) ++k;
   return k;
 }
@@ -131,7 +135,7 @@ std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStar
   const auto base = place.here();
   if (!base) return std::nullopt;
   const Index n = start.x.size();
-  const Index k = corank_of(base->J.leftCols(n));
+  const Index k = corank_of(base->J.leftCols(n), start.corank);
   if (k == 0) return std::nullopt;
   auto null = null_vectors(family, start, static_cast<int>(k));
   if (!null) return std::nullopt;
