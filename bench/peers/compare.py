@@ -10,6 +10,7 @@ import sys
 
 from columns import compare_columns
 from comparison import Comparison
+from folds import compare_folds
 from orthoglide import compare_orthoglides, compare_with_floor
 
 
@@ -26,6 +27,7 @@ def main():
     compare_orthoglides(comparison)
     compare_with_floor(comparison)
     compare_columns(comparison)
+    compare_folds(comparison)
     sys.exit(0 if comparison.verdicts.report() else 1)
 
 

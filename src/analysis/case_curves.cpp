@@ -126,6 +126,7 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   }
   if (keeps) problem.inputs.rho = base_->first.inputs.rho;
   if (how.start.solve == StartSolve::actuators) problem.inputs.rho = near.first.inputs.rho;
+  problem.is_neighbour = true;
   member.first = first_equilibrium(member.setup.system, problem);
   member.report.found = member.first.status == statics::StartStatus::found;
   return member.report.found;

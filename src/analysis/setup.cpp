@@ -178,7 +178,8 @@ Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const S
   auto origins = spring_origins(setup.system.mechanism, study, setup.system, z);
   setup.origins_found = origins.has_value();
   if (!origins) origins = Origins{};
-  setup.system = statics::prepare(with_origins(setup.system.mechanism, *origins));
+  if (!origins->empty())
+    setup.system = statics::prepare(with_origins(setup.system.mechanism, *origins));
   setup.redundancy = like != nullptr
                          ? like->redundancy
                          : statics::redundant_closures(setup.system, z, setup.system.commands);

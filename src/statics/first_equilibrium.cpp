@@ -265,6 +265,25 @@ bool solve_long_chains(const System& system, const StartProblem& problem, Equati
   return false;
 }
 
+/// Newton's method from the solution of a neighbouring problem; false where it does not stay beside it.
+bool solve_beside(const System& system, Equations& equations, const State& guess,
+                  FirstEquilibrium& result) {
+  constexpr double beside =
+      0.125;  // of a length or a radian: farther away may be another equilibrium
+  State state = guess;
+  result.residual = polish(equations, state, result.iterations);
+  double moved = 0;
+  for (Index i = 0; i < system.size; ++i)
+    if (!system.is_wrench[static_cast<std::size_t>(i)])
+      moved = std::max(moved, std::abs(state.z[i] - guess.z[i]));
+  if (!(moved <= beside) || !equations.solved(state, 1e-12)) return false;
+  result.z = state.z;
+  result.inputs = state.inputs;
+  result.attempts = 1;
+  result.status = StartStatus::found;
+  return true;
+}
+
 /// Piece, distance from the guess, and the wrench that holds a given pose.
 void complete(const System& system, const StartProblem& problem, FirstEquilibrium& result) {
   result.piece = piece_at(system, result.z);
@@ -300,6 +319,11 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     if (found) complete(system, problem, result);
     if (found || system.size > most_dense) return result;
   }
+  if (problem.is_neighbour && solve_beside(system, equations, guess, result)) {
+    complete(system, problem, result);
+    return result;
+  }
+  result.iterations = 0;
   result.status = StartStatus::no_assembly;
   std::mt19937_64 random(problem.seed);
   for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {

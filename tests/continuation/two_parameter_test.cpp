@@ -115,6 +115,22 @@ TEST(TwoParameters, ImperfectArchesLoseStabilityAsPublished) {
   EXPECT_EQ(seen, known.size());
 }
 
+TEST(TwoParameters, ThePerfectArchHasItsLimitPointBehindItsBranchPoint) {
+  // Symmetric path q2 = 0: p = e - q1 - q1 (q1^2 - e^2), stationary at q1^2 = (e^2 - 1)/3; branches cross it where
+  // q1^2 = e^2 - 4.
+  const double e = 3, q1 = std::sqrt((e * e - 1) / 3);
+  const Family family = family_of<Given>([=](double m) { return arch(e, m); });
+  const auto fold =
+      polish_critical(family, start_at(CriticalKind::limit_point, Vector{{1.6, 0}}, 11.7, 0));
+  ASSERT_TRUE(fold);
+  EXPECT_NEAR(fold->lambda, 11.709296863229, 1e-11);
+  EXPECT_NEAR(fold->x[0], q1, 1e-9);
+  const auto branches =
+      polish_critical(family, start_at(CriticalKind::branch_point, Vector{{2.2, 0}}, 9.7, 0));
+  ASSERT_TRUE(branches);
+  EXPECT_NEAR(branches->lambda, 9.7082039324994, 1e-11);
+}
+
 TEST(TwoParameters, ButterflyColumnHasCuspsAtItsTripleRoots) {
   const double b = 2;
   const Family family = family_of<ScalarProblem>([=](double H) {

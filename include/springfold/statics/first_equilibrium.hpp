@@ -22,6 +22,8 @@ struct StartProblem {
   Inputs inputs{};  ///< commands (guess, if they are unknown) and loads
   int attempts = 16;
   std::uint64_t seed = 1;
+  bool is_neighbour =
+      false;  ///< z and inputs solve a problem next to this one: Newton's method comes first
 };
 
 enum class StartStatus {

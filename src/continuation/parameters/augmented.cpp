@@ -175,43 +175,58 @@ std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda
   return gradient;
 }
 
-std::optional<double> Augmented::test(const Vector& X, double mu, BaseTerms& base) const {
+std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) const {
+  Terms terms;
   if (is_bordered()) {
     auto p = place(X, mu);
     if (!p) return std::nullopt;
-    base = std::move(p->base);
-    return p->G.trace();
+    terms.at = std::move(*p);
+    terms.last = terms.at.G.trace();
+    return terms;
   }
-  if (!base_terms(family_, state(X), lambda(X), mu, start_.piece, base)) return std::nullopt;
-  return surface(state(X), lambda(X), mu);
+  if (!base_terms(family_, state(X), lambda(X), mu, start_.piece, terms.at.base))
+    return std::nullopt;
+  const auto value = surface(state(X), lambda(X), mu);
+  if (!value) return std::nullopt;
+  terms.last = *value;
+  return terms;
 }
 
 bool Augmented::residual(const Vector& X, double mu, Vector& F) const {
-  BaseTerms base;
-  const auto last = test(X, mu, base);
-  if (!last || !std::isfinite(*last)) return false;
+  const auto here = terms(X, mu);
+  return here && put_residual(X, *here, F);
+}
+
+bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  const auto here = terms(X, mu);
+  return here && put_derivatives(X, mu, *here, dF_dX, dF_dmu);
+}
+
+bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,
+                          Vector& dF_dmu) const {
+  const auto here = terms(X, mu);
+  return here && put_residual(X, *here, F) && put_derivatives(X, mu, *here, dF_dX, dF_dmu);
+}
+
+bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) const {
+  if (!std::isfinite(terms.last)) return false;
   F.resize(size());
-  F.head(n_) = base.F;
+  F.head(n_) = terms.at.base.F;
   if (k_ > 0) {
     F.head(n_) += borders_.left * X.tail(k_);
     F.segment(n_, k_) = borders_.right.transpose() * (state(X) - start_.x);
   }
-  F[n_ + k_] = *last;
+  F[n_ + k_] = terms.last;
   return true;
 }
 
-bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Matrix& dF_dX,
+                                Vector& dF_dmu) const {
   const Vector x = state(X);
   const double l = lambda(X);
-  BaseTerms base;
+  const Matrix &V = terms.at.V, &W = terms.at.W;
   Vector last = Vector::Zero(n_ + 1);  // derivative of the last equation by (x, lambda)
-  Matrix V, W;
   if (is_bordered()) {
-    auto p = place(X, mu);
-    if (!p) return false;
-    base = std::move(p->base);
-    V = std::move(p->V);
-    W = std::move(p->W);
     for (Index i = 0; i < V.cols(); ++i) {
       Vector along = Vector::Zero(n_ + 1);
       along.head(n_) = V.col(i);
@@ -221,11 +236,11 @@ bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& d
     }
   } else {
     const auto gradient = surface_gradient(x, l, mu);
-    if (!gradient || !base_terms(family_, x, l, mu, start_.piece, base)) return false;
+    if (!gradient) return false;
     last = *gradient;
   }
   dF_dX = Matrix::Zero(size(), size());
-  dF_dX.topLeftCorner(n_, n_ + 1) = base.J;
+  dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
   if (k_ > 0) {
     dF_dX.topRightCorner(n_, k_) = borders_.left;
     dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();

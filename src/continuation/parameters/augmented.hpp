@@ -52,6 +52,8 @@ class Augmented {
   Index size() const { return n_ + 1 + k_; }
   bool residual(const Vector& X, double mu, Vector& F) const;
   bool derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
+  /// Both from one factorisation.
+  bool equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX, Vector& dF_dmu) const;
   Vector metric() const;
   Vector periods() const;
   std::vector<Index> double_covers() const { return covers_; }
@@ -72,8 +74,15 @@ class Augmented {
 
  private:
   bool is_bordered() const;
-  /// The last equation: G, its trace, or the surface.
-  std::optional<double> test(const Vector& X, double mu, BaseTerms& base) const;
+  /// All terms at one place; V, W and G of bordered kinds only. `last`: the last equation: trace of G, or the surface.
+  struct Terms {
+    BorderedPlace at{};
+    double last = 0;
+  };
+  std::optional<Terms> terms(const Vector& X, double mu) const;
+  bool put_residual(const Vector& X, const Terms& terms, Vector& F) const;
+  bool put_derivatives(const Vector& X, double mu, const Terms& terms, Matrix& dF_dX,
+                       Vector& dF_dmu) const;
 
   const Family& family_;
   CriticalStart start_;

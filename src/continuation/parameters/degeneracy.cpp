@@ -43,8 +43,13 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
 }
 
 /// The determinant's sign with the size of the smallest singular value: continuous, and zero
-/// where one more eigenvalue of dF/dx vanishes.
-double signed_least(const Matrix& M) {
+/// where one more eigenvalue of dF/dx vanishes. Singular values of symmetric matrices are sizes of eigenvalues.
+double signed_least(const Matrix& M, bool is_symmetric) {
+  if (is_symmetric) {
+    const Vector values = symmetric_eigenvalues(M);
+    const double least = values.cwiseAbs().minCoeff();
+    return (values.array() < 0).count() % 2 == 0 ? least : -least;
+  }
   const Vector values = jacobi_svd(M).values;
   return Lu(M).sign() * values[values.size() - 1];
 }
@@ -96,17 +101,18 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
 }
 
 void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
-  watches.push_back({Degeneracy::corank_two, "",
-                     [&system](const CurvePoint& p) {
-                       BaseTerms base;
-                       return base_terms(system.family(), system.state(p.x), system.lambda(p.x),
-                                         p.lambda, system.start().piece, base)
-                                  ? signed_least(bordered_matrix(base, system.borders().left,
-                                                                 system.borders().right))
-                                  : nowhere;
-                     },
-                     EventAction::record,
-                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
+  watches.push_back(
+      {Degeneracy::corank_two, "",
+       [&system](const CurvePoint& p) {
+         BaseTerms base;
+         if (!base_terms(system.family(), system.state(p.x), system.lambda(p.x), p.lambda,
+                         system.start().piece, base))
+           return nowhere;
+         const auto problem = system.family().at(p.lambda);
+         return signed_least(bordered_matrix(base, system.borders().left, system.borders().right),
+                             problem && problem->symmetric());
+       },
+       EventAction::record, [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
 }
 
 void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
