@@ -13,6 +13,10 @@ install(DIRECTORY include/ "${PROJECT_BINARY_DIR}/include/"
 install(DIRECTORY plots/ DESTINATION "${CMAKE_INSTALL_DATADIR}/springfold/plots")
 
 install(EXPORT springfoldTargets NAMESPACE springfold:: DESTINATION "${springfold_package_dir}")
+set(SPRINGFOLD_USES_URDF OFF)
+if(TARGET springfold::urdfdom)
+  set(SPRINGFOLD_USES_URDF ON)
+endif()
 configure_package_config_file(cmake/springfoldConfig.cmake.in
   "${PROJECT_BINARY_DIR}/springfoldConfig.cmake" INSTALL_DESTINATION "${springfold_package_dir}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/springfoldConfigVersion.cmake"

@@ -42,3 +42,19 @@ if(NOT TARGET springfold::nettle)
     IMPORTED_LOCATION "${SPRINGFOLD_NETTLE_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${SPRINGFOLD_NETTLE_INCLUDE_DIR}")
 endif()
+
+# Descriptions of robots: optional. Its own package file asks for more than the model's library.
+if(SPRINGFOLD_URDF AND NOT TARGET springfold::urdfdom)
+  find_path(SPRINGFOLD_URDFDOM_INCLUDE_DIR urdf_parser/urdf_parser.h)
+  find_library(SPRINGFOLD_URDFDOM_LIBRARY urdfdom_model)
+  find_library(SPRINGFOLD_CONSOLE_BRIDGE_LIBRARY console_bridge)
+  mark_as_advanced(SPRINGFOLD_URDFDOM_INCLUDE_DIR SPRINGFOLD_URDFDOM_LIBRARY
+                   SPRINGFOLD_CONSOLE_BRIDGE_LIBRARY)
+  if(SPRINGFOLD_URDFDOM_INCLUDE_DIR AND SPRINGFOLD_URDFDOM_LIBRARY AND SPRINGFOLD_CONSOLE_BRIDGE_LIBRARY)
+    add_library(springfold::urdfdom UNKNOWN IMPORTED)
+    set_target_properties(springfold::urdfdom PROPERTIES
+      IMPORTED_LOCATION "${SPRINGFOLD_URDFDOM_LIBRARY}"
+      INTERFACE_INCLUDE_DIRECTORIES "${SPRINGFOLD_URDFDOM_INCLUDE_DIR}"
+      INTERFACE_LINK_LIBRARIES "${SPRINGFOLD_CONSOLE_BRIDGE_LIBRARY}")
+  endif()
+endif()

@@ -139,9 +139,20 @@ class Design {
       for (const std::size_t i : found.limiting)
         if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
     }
-    check_rows(found);
+    const bool rows_fit = check_rows(found);
+    if (!rows_fit) report_.verified = false;
     if (!report_.verified)
-      result_.doubts.push_back("traced again, the path does not confirm the design");
+      result_.doubts.push_back("traced again, the path does not confirm the design: " +
+                               cause(climbs && !jumps, rows_fit));
+  }
+
+  /// Why an answer is not confirmed.
+  std::string cause(bool is_birth, bool rows_fit) const {
+    for (const FoundRequirement& one : report_.requirements)
+      if (!one.holds)
+        return one.name + (std::isnan(one.after) ? " has no value there" : " does not hold there");
+    if (!rows_fit) return "a row of the path lies off the mean by more than is allowed";
+    return is_birth ? "limit points are not born beside it" : "it could not be followed";
   }
 
   static FoundRequirement merged(FoundRequirement on, const Assessment& inside, std::size_t i) {
@@ -150,9 +161,9 @@ class Design {
     return on;
   }
 
-  /// Every row of the traced path within the range, against the mean.
-  void check_rows(const FoundDesign& found) {
-    if (!study_.design.constant) return;
+  /// Does every row of the traced path within the range keep near the mean?
+  bool check_rows(const FoundDesign& found) {
+    if (!study_.design.constant) return true;
     const ConstantRequirement& wanted = *study_.design.constant;
     double mean = 0;
     for (const FoundRequirement& one : report_.requirements)
@@ -170,10 +181,10 @@ class Design {
       if (!(wanted.from <= x && x <= wanted.to)) continue;
       ++rows;
       if (!(std::abs(row.values[of] - mean) <= (wanted.within + between_nodes) * std::abs(mean)))
-        report_.verified = false;
+        return false;
       if (x >= wanted.to) break;  // only the first passage counts
     }
-    if (rows == 0) report_.verified = false;
+    return rows > 0;
   }
 
   void say(const FoundDesign& found) {

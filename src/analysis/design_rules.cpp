@@ -63,6 +63,10 @@ class Checker {
       return add(key, "the case has no parameter \"" + parameter.name + "\"");
     if (study_.control == ControlMode::parameter && study_.parameter == parameter.name)
       add(key, "is lambda already");
+    const auto answers = design_quantities(settings_);
+    if (std::count(answers.begin(), answers.end(), "design." + parameter.name) > 1)
+      add(key, "the answer has a value design." + parameter.name +
+                   " already, need another name of the parameter");
     if (!std::isfinite(parameter.low) || !std::isfinite(parameter.high) ||
         !(parameter.low < parameter.high))
       return add(key, "need two finite numbers low < high");

@@ -142,7 +142,8 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
 }
 
 void add_import(CLI::App& import, Arguments& arguments) {
-  import.add_option("MESH", arguments.mesh, "Mesh: Wavefront .obj, or .fold of origami")
+  import
+      .add_option("MESH", arguments.mesh, "Mesh: Wavefront .obj, or .fold of origami; robot: .urdf")
       ->required();
   import
       .add_option("--output", arguments.new_case,
@@ -239,7 +240,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   verify->add_flag("--csv", arguments.prints_csv, "Print CSV, not a table")->excludes(json);
 
   CLI::App* import = app.add_subcommand(
-      "import", "Make a case file of a mesh: bars along its edges, folds between faces");
+      "import",
+      "Make a case file of a mesh (bars along its edges, folds between faces) or of a robot");
   add_import(*import, arguments);
 
   ParsedArguments parsed;

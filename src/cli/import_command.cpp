@@ -3,12 +3,14 @@
 #include <stdexcept>
 
 #include "exit_code.hpp"
-#include "springfold/io/import_mesh.hpp"
+#include "springfold/io/import_urdf.hpp"
 
 namespace springfold::cli {
 
 int import_command(const Arguments& arguments, const Session& session) {
-  const io::ImportedCase imported = io::import_mesh(arguments.mesh, stop_request_of(session));
+  const bool is_robot = arguments.mesh.extension() == ".urdf";
+  const io::ImportedCase imported =
+      (is_robot ? io::import_urdf : io::import_mesh)(arguments.mesh, stop_request_of(session));
   for (const std::string& line : imported.report) say(session, line);
   if (!arguments.new_case) {
     session.out << imported.text << std::flush;

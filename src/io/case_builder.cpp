@@ -214,8 +214,9 @@ class Builder {
     std::set<std::string> seen;
     for (const std::string& name : names)
       if (!seen.insert(name).second)
-        problems_.add(study.place, study.key,
-                      "two quantities are called \"" + name + "\": rename a body, chain or joint");
+        problems_.add(
+            study.place, study.key,
+            "two quantities are called \"" + name + "\": rename a body, chain, joint or parameter");
     for (const LimitDraft& limit : study.until)
       check_quantity(limit.quantity, names, study, problems_);
     for (const MarkDraft& mark : study.marks)

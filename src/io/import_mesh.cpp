@@ -1,7 +1,6 @@
 #include "springfold/io/import_mesh.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "atomic_file.hpp"
@@ -9,18 +8,10 @@
 #include "source_files.hpp"
 #include "springfold/io/case_file.hpp"
 #include "text.hpp"
+#include "toml_text.hpp"
 
 namespace springfold::io {
 namespace {
-
-/// A text in TOML: the escapes of JSON are among those of TOML, but for surrogates, so that other characters stay.
-std::string toml_text(const std::string& text) {
-  std::string quoted =
-      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = quoted.find('\x7f', at)) != std::string::npos;)
-    quoted.replace(at, 1, "\\u007f");
-  return quoted;
-}
 
 /// A case, table by table.
 class CaseText {
@@ -140,6 +131,11 @@ std::vector<std::string> import_report(const Mesh& mesh, const MeshParts& parts)
                    "; put supports where they belong");
   report.push_back("stiffnesses are placeholders: put in your own, and loads");
   report.insert(report.end(), parts.report.begin(), parts.report.end());
+  if (std::find(mesh.left_out.begin(), mesh.left_out.end(), "edges_foldAngle") !=
+      mesh.left_out.end())
+    report.emplace_back(
+        "left out: the angles of edges_foldAngle; folds rest as drawn, put other angles into "
+        "`free`");
   if (!mesh.left_out.empty()) {
     std::string words;
     for (const std::string& word : mesh.left_out) words += (words.empty() ? "" : ", ") + word;
@@ -156,8 +152,9 @@ ImportedCase import_mesh(const std::filesystem::path& file,
   const std::string extension = lowered_extension(file);
   const bool is_fold = extension == ".fold";
   if (!is_fold && extension != ".obj")
-    problems.add({file.string(), 0, 0}, "",
-                 "got a file that ends in \"" + extension + "\", need \".obj\" or \".fold\"");
+    problems.add(
+        {file.string(), 0, 0}, "",
+        "got a file that ends in \"" + extension + "\", need \".obj\", \".fold\" or \".urdf\"");
   const auto throw_problems = [&problems] {
     if (!problems.empty()) throw CaseError(problems.messages());
   };

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "face_triangles.hpp"
 #include "springfold/model/shape.hpp"
 
 namespace springfold::io {
@@ -14,7 +15,6 @@ namespace {
 
 using MeshPoint = model::Vec3<double>;
 using VertexPair = std::array<std::size_t, 2>;
-using MeshTriangle = std::array<std::size_t, 3>;
 
 /// Twice a triangle's area over the square of its longest side: below it is a line to rounding.
 constexpr double flattest_triangle = 1e-10;
@@ -25,16 +25,6 @@ VertexPair edge_between(std::size_t a, std::size_t b) { return {std::min(a, b), 
 
 double edge_length(const Mesh& mesh, const VertexPair& pair) {
   return (mesh.vertices[pair[1]] - mesh.vertices[pair[0]]).norm();
-}
-
-/// Triangles of a face: four corners along the shorter diagonal, more of them from the first corner.
-std::vector<MeshTriangle> triangles_of(const Mesh& mesh, const MeshFace& face) {
-  const std::vector<std::size_t>& c = face.corners;
-  if (c.size() == 4 && edge_length(mesh, {c[1], c[3]}) < edge_length(mesh, {c[0], c[2]}))
-    return {{c[0], c[1], c[3]}, {c[1], c[2], c[3]}};
-  std::vector<MeshTriangle> triangles;
-  for (std::size_t i = 1; i + 1 < c.size(); ++i) triangles.push_back({c[0], c[i], c[i + 1]});
-  return triangles;
 }
 
 bool is_a_line(const Mesh& mesh, const MeshTriangle& t) {
@@ -89,8 +79,10 @@ class PartsMaker {
   }
 
   void add_triangles(const MeshFace& face) {
-    if (face.corners.size() > 4) ++large_faces_;
-    for (const MeshTriangle& t : triangles_of(mesh_, face)) {
+    const std::vector<MeshTriangle> triangles = triangles_of(mesh_, face);
+    if (triangles.empty() && face.corners.size() > 2)
+      problems_.add(face.place, face.key, "its sides cross each other, need a face that does not");
+    for (const MeshTriangle& t : triangles) {
       if (is_a_line(mesh_, t)) {
         problems_.add(face.place, face.key,
                       "the corners " + vertex_name(mesh_, t[0]) + ", " + vertex_name(mesh_, t[1]) +
@@ -161,14 +153,47 @@ class PartsMaker {
     if (loose_ > 1)
       parts_.report.push_back(std::to_string(loose_) +
                               " edges between two faces are cuts or borders and have no fold");
-    if (large_faces_ > 0)
-      parts_.report.push_back(std::to_string(large_faces_) +
-                              " faces of more than four corners are cut from their first corner: "
-                              "look whether they are convex");
+    say_twins();
+    say_pieces();
     const auto unused = std::count(parts_.is_used.begin(), parts_.is_used.end(), false);
     if (unused > 0)
       parts_.report.push_back("left out: " + std::to_string(unused) +
                               (unused == 1 ? " vertex" : " vertices") + " without an edge");
+  }
+
+  /// Vertices at one place are no joint: what hangs on one of them does not hang on the other.
+  void say_twins() {
+    std::map<std::array<double, 3>, std::size_t> places;
+    std::size_t count = 0, first = 0, second = 0;
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+      const MeshPoint& p = mesh_.vertices[i];
+      const auto [known, is_new] = places.emplace(std::array{p[0], p[1], p[2]}, i);
+      if (is_new || !parts_.is_used[i]) continue;
+      if (count++ == 0) first = known->second, second = i;
+    }
+    if (count == 0) return;
+    parts_.report.push_back(
+        "not joined: " + vertex_name(mesh_, first) + " and " + vertex_name(mesh_, second) +
+        " are at one place" +
+        (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : ""));
+  }
+
+  /// What no edge joins moves apart.
+  void say_pieces() {
+    std::vector<std::size_t> next(mesh_.vertices.size());
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = i;
+    const auto root = [&next](std::size_t i) {
+      while (next[i] != i) i = next[i] = next[next[i]];
+      return i;
+    };
+    for (const VertexPair& bar : parts_.bars) next[root(bar[0])] = root(bar[1]);
+    std::set<std::size_t> roots;
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (parts_.is_used[i]) roots.insert(root(i));
+    if (roots.size() > 1)
+      parts_.report.push_back(
+          "the mesh has " + std::to_string(roots.size()) +
+          " separate parts: the supports hold one of them, need more for the others");
   }
 
   /// The used vertex for which `size` is largest; the first of equal ones.
@@ -217,7 +242,7 @@ class PartsMaker {
   std::map<VertexPair, Crease> creases_{};
   std::map<VertexPair, std::vector<Neighbour>> neighbours_{};
   std::vector<VertexPair> crowded_{}, closed_{};
-  std::size_t loose_ = 0, large_faces_ = 0;
+  std::size_t loose_ = 0;
 };
 
 }  // namespace

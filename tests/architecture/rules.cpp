@@ -57,6 +57,7 @@ const std::vector<Library>& libraries() {
       {"muParser", std::regex{"muParser.*\\.h"}, {"io"}, true},
       {"gnuplot-iostream", std::regex{"gnuplot-iostream\\.h"}, {"io"}, true},
       {"nlohmann/json", std::regex{"nlohmann/.*"}, {"io", "cli"}},
+      {"urdfdom", std::regex{"urdf_parser/.*|console_bridge/.*"}, {"io"}, true},
       {"Nettle", std::regex{"nettle/.*"}, {"io"}, true},
       {"fmt", std::regex{"fmt/.*"}, {"io", "cli"}},
       {"CLI11", std::regex{"CLI/.*"}, {"cli"}, true},

@@ -85,6 +85,19 @@ TEST_F(CriticalMessages, WantARangeAndTwoValuesForAFirstCriticalLoad) {
               ElementsAre(testing::HasSubstr("critical_load.value: unknown key")));
 }
 
+TEST_F(CriticalMessages, WantParametersThatAreNoColumns) {
+  std::string text = critical_strut;
+  for (const auto& [old, with] : {std::pair{"k = 1\n", "energy = 1\n"},
+                                  {"2*k", "2*energy"},
+                                  {"stiffness = \"k\"", "stiffness = \"energy\""},
+                                  {"mark = { k = [0.5] }\n", ""},
+                                  {"parameter = \"k\"", "parameter = \"energy\""}})
+    text = replaced(text, old, with);
+  EXPECT_THAT(messages(text),
+              ElementsAre(testing::HasSubstr("two quantities are called \"energy\": rename a body, "
+                                             "chain, joint or parameter")));
+}
+
 TEST_F(CriticalMessages, WantPlotsInAPlaneOfTheParametersOfTheirStudies) {
   const std::string plot =
       critical_strut + "[[plot]]\nname = \"f\"\nx = \"parameter.k\"\ny = \"parameter.c\"\n";

@@ -56,6 +56,16 @@ TEST_F(DesignMessages, WantParametersOfTheCase) {
               testing::Contains(HasSubstr("study[1].design.parameters.kk: no parameter \"kk\"")));
 }
 
+TEST_F(DesignMessages, WantParametersWhoseNamesTheAnswerDoesNotHave) {
+  std::string text = designed_strut;
+  for (std::size_t at; (at = text.find("k = [0.5, 2]")) != std::string::npos;)
+    text.replace(at, 1, "met");
+  EXPECT_THAT(
+      messages("[parameters]\nmet = 1\n" + text.substr(text.find('\n') + 1)),
+      testing::Contains(HasSubstr("design.parameters.met: the answer has a value design.met "
+                                  "already, need another name of the parameter")));
+}
+
 TEST_F(DesignMessages, WantTheCaseWithinItsBounds) {
   EXPECT_THAT(after("[0.5, 2]", "[1.5, 2]"),
               ElementsAre(HasSubstr(

@@ -180,6 +180,42 @@ TEST_F(ImportedMesh, CutsQuadrilateralsAlongTheirShorterDiagonal) {
   EXPECT_EQ(mechanism.line_springs.back().free, 2);
 }
 
+TEST_F(ImportedMesh, CutsFacesWithACornerThatPointsInwardsInside) {
+  // An arrowhead, either way round: the shorter diagonal, v1 to v3, lies outside of it.
+  for (const char* face : {"f 1 2 3 4\n", "f 4 3 2 1\n"}) {
+    const Mechanism arrow =
+        mechanism_of("arrow.obj", std::string{"v 3 2 0\nv 2.2 2.2 0\nv 2 3 0\nv 0 0 0\n"} + face);
+    ASSERT_EQ(arrow.line_springs.size(), 5U);
+    EXPECT_EQ(arrow.line_springs.back().name, "v2-v4");
+  }
+  // An L of area 3: its triangles cover it, none of them twice.
+  const Mechanism corner = mechanism_of(
+      "l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
+  ASSERT_EQ(corner.line_springs.size(), 9U);
+  for (std::size_t i = 6; i < 9; ++i) {
+    const std::string& name = corner.line_springs[i].name;
+    EXPECT_NE(name, "v3-v5") << "outside";
+    EXPECT_NE(name, "v3-v6") << "it crosses the corner that points inwards";
+    EXPECT_NE(name, "v2-v5") << "it crosses the corner that points inwards";
+  }
+  EXPECT_THAT(problems("tie.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 2 0\nf 1 2 3 4\n"),
+              ElementsAre(HasSubstr("its sides cross each other, need a face that does not")));
+}
+
+TEST_F(ImportedMesh, SaysWhatIsNotJoinedAndWhatItsSupportsDoNotHold) {
+  const ImportedCase apart =
+      import("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n");
+  EXPECT_THAT(apart.report, testing::IsSupersetOf(
+                                {"not joined: v2 and v4 are at one place, and so are 1 more",
+                                 "the mesh has 2 separate parts: the supports hold one of them, "
+                                 "need more for the others"}));
+  EXPECT_THAT(import("angles.fold", replaced(square_fold, "\"faceOrders\": []",
+                                             "\"edges_foldAngle\": [0, 0, 0, 0, 90]"))
+                  .report,
+              Contains("left out: the angles of edges_foldAngle; folds rest as drawn, put other "
+                       "angles into `free`"));
+}
+
 // Seen from above the square's faces run counter-clockwise: a valley closes above, below pi.
 TEST_F(ImportedMesh, TellsValleysFromMountains) {
   const auto angle = [&](const std::string& height) {
@@ -235,7 +271,8 @@ TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInObjFiles) {
   EXPECT_THAT(problems("a.obj", "v 0 0 0\n"),
               ElementsAre("a.obj: there are no edges and no faces, need some"));
   EXPECT_THAT(problems("a.stl", square_obj),
-              ElementsAre("a.stl: got a file that ends in \".stl\", need \".obj\" or \".fold\""));
+              ElementsAre("a.stl: got a file that ends in \".stl\", need \".obj\", "
+                          "\".fold\" or \".urdf\""));
 }
 
 TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInFoldFiles) {

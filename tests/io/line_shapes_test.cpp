@@ -88,19 +88,19 @@ std::size_t lines_in(const DrawnLines& drawn) {
   return count;
 }
 
-const Polyline low{{0.1, 0.1}, {0.5, 0.3}, {0.9, 0.9}};
-const Polyline back(low.rbegin(), low.rend());
+const Polyline lower_line{{0.1, 0.1}, {0.5, 0.3}, {0.9, 0.9}};
+const Polyline back(lower_line.rbegin(), lower_line.rend());
 
 TEST(WithoutOverlaps, DrawsOneOfTwoDashedLinesThatWouldFillEachOther) {
   const auto drawn = without_overlaps(
-      with_parts({{Stability::unstable, low}, {Stability::unstable, back}}), Canvas{});
+      with_parts({{Stability::unstable, lower_line}, {Stability::unstable, back}}), Canvas{});
   EXPECT_EQ(lines_in(drawn), 1u);
   EXPECT_THAT(drawn.mixed, IsEmpty());
 }
 
 TEST(WithoutOverlaps, SaysWhereAnUnstableLineLiesOnAStableOne) {
   const auto drawn = without_overlaps(
-      with_parts({{Stability::unstable, back}, {Stability::stable, low}}), Canvas{});
+      with_parts({{Stability::unstable, back}, {Stability::stable, lower_line}}), Canvas{});
   ASSERT_THAT(drawn.mixed, SizeIs(1));
   EXPECT_THAT(drawn.curves[0], IsEmpty());
   EXPECT_THAT(drawn.curves[1], SizeIs(1)) << "the stable line";

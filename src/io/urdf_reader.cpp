@@ -1,0 +1,194 @@
+// The only file that knows urdfdom. Without it there is a function that says so.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "robot.hpp"
+#include "springfold/io/import_urdf.hpp"
+
+#if SPRINGFOLD_HAS_URDF
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+namespace springfold::io {
+namespace {
+
+/// What urdfdom says while it reads. It writes to the terminal otherwise.
+class UrdfMessages : public console_bridge::OutputHandler {
+ public:
+  UrdfMessages() : before_{console_bridge::getOutputHandler()} {
+    console_bridge::useOutputHandler(this);
+  }
+  UrdfMessages(const UrdfMessages&) = delete;
+  UrdfMessages& operator=(const UrdfMessages&) = delete;
+  ~UrdfMessages() override { console_bridge::useOutputHandler(before_); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && error.empty()) error = text;
+  }
+  std::string error{};  ///< the first one: others follow from it
+
+ private:
+  console_bridge::OutputHandler* before_;
+};
+
+/// Its parser calls itself for every element within another one: so deep, at most.
+constexpr int deepest_element = 1000;
+
+bool is_too_deep(const std::string& bytes) {
+  int depth = 0;
+  for (std::size_t at = bytes.find('<'); at != std::string::npos; at = bytes.find('<', at + 1)) {
+    if (bytes.compare(at, 4, "<!--") == 0) {
+      at = std::min(bytes.find("-->", at), bytes.size());
+      if (at == bytes.size()) return false;
+      continue;
+    }
+    if (bytes.compare(at, 2, "</") == 0)
+      --depth;
+    else if (bytes.compare(at, 2, "<?") != 0 && bytes.compare(at, 2, "<!") != 0 &&
+             ++depth > deepest_element)
+      return true;
+    const std::size_t end = bytes.find('>', at);
+    if (end != std::string::npos && end > at && bytes[end - 1] == '/') --depth;
+  }
+  return false;
+}
+
+model::Vec3<double> vector_of_urdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+/// Rotation vector of a unit quaternion.
+model::Vec3<double> turn_of_urdf(const urdf::Rotation& q) {
+  const model::Vec3<double> v{q.x, q.y, q.z};
+  const double sine = v.norm();
+  if (sine == 0) return v;
+  const double half = std::atan2(sine, q.w);
+  return v * (2 * (q.w < 0 ? half - std::acos(-1.0) : half) / sine);
+}
+
+class UrdfTree {
+ public:
+  UrdfTree(const std::string& file, Problems& problems) : place_{file, 0, 0}, problems_{problems} {}
+
+  Robot read(const urdf::ModelInterface& model) {
+    robot_.name = model.getName();
+    add(*model.getRoot());
+    if (robot_.links.size() != model.links_.size())
+      refuse("", "only " + std::to_string(robot_.links.size()) + " of " +
+                     std::to_string(model.links_.size()) +
+                     " links hang on the root, need a tree: joints in a circle have none");
+    tell();
+    return std::move(robot_);
+  }
+
+ private:
+  void refuse(const std::string& key, const std::string& what) { problems_.add(place_, key, what); }
+
+  /// The root and all that hang on it, level by level.
+  void add(const urdf::Link& root) {
+    std::vector<std::pair<const urdf::Link*, std::size_t>> waiting{{&root, 0}};
+    for (std::size_t next = 0; next < waiting.size(); ++next) {
+      const auto [link, parent] = waiting[next];
+      robot_.links.push_back(link_of(*link, parent));
+      for (const auto& child : link->child_links) waiting.emplace_back(child.get(), next);
+    }
+  }
+
+  RobotLink link_of(const urdf::Link& from, std::size_t parent) {
+    RobotLink link{.name = from.name, .parent = parent};
+    if (from.inertial) {
+      link.mass = from.inertial->mass;
+      link.com = vector_of_urdf(from.inertial->origin.position);
+      const auto& i = *from.inertial;
+      if (i.ixx != 0 || i.iyy != 0 || i.izz != 0 || i.ixy != 0 || i.ixz != 0 || i.iyz != 0)
+        ++counts_["moments of inertia of links"];
+      if (!(link.mass >= 0) || !std::isfinite(link.mass) || !link.com.allFinite())
+        refuse("link \"" + from.name + "\"", "got a mass that is no number >= 0, need one");
+    }
+    if (!from.visual_array.empty()) ++counts_["shapes to be seen"];
+    if (!from.collision_array.empty()) ++counts_["shapes to collide with"];
+    if (from.parent_joint) put_joint(*from.parent_joint, link);
+    return link;
+  }
+
+  void put_joint(const urdf::Joint& from, RobotLink& link) {
+    const std::string key = "joint \"" + from.name + "\"";
+    link.joint_name = from.name;
+    const urdf::Pose& origin = from.parent_to_joint_origin_transform;
+    link.shift = vector_of_urdf(origin.position);
+    link.turn = turn_of_urdf(origin.rotation);
+    link.axis = vector_of_urdf(from.axis);
+    switch (from.type) {
+      case urdf::Joint::FIXED:
+        break;
+      case urdf::Joint::REVOLUTE:
+      case urdf::Joint::CONTINUOUS:
+        link.joint = RobotJoint::revolute;
+        break;
+      case urdf::Joint::PRISMATIC:
+        link.joint = RobotJoint::prismatic;
+        break;
+      default:
+        refuse(key,
+               "got a floating or planar joint, need revolute, continuous, prismatic or fixed");
+        return;
+    }
+    if (!link.shift.allFinite() || !link.turn.allFinite())
+      refuse(key, "got an origin that is no number, need finite ones [m, rad]");
+    if (link.joint != RobotJoint::fixed && !(link.axis.allFinite() && link.axis.norm() > 0))
+      refuse(key, "got an axis without a direction, need three numbers, not all zero");
+    if (from.limits && link.joint != RobotJoint::fixed) ++counts_["limits of joints"];
+    if (from.dynamics) ++counts_["damping and friction of joints"];
+    if (from.safety) ++counts_["safety controllers"];
+    if (from.mimic)
+      robot_.left_out.push_back("joint \"" + from.name + "\" mimics \"" + from.mimic->joint_name +
+                                "\": here it has a drive of its own");
+  }
+
+  void tell() {
+    for (const auto& [what, count] : counts_)
+      robot_.left_out.push_back("left out: " + what + " (" + std::to_string(count) + ")");
+  }
+
+  Place place_;
+  Problems& problems_;
+  Robot robot_{};
+  std::map<std::string, int> counts_{};
+};
+
+}  // namespace
+
+bool reads_urdf() { return true; }
+
+Robot read_urdf(const std::string& bytes, const std::string& file, Problems& problems) {
+  if (is_too_deep(bytes)) {
+    problems.add({file, 0, 0}, "", "elements are nested too deeply, need a robot");
+    return {};
+  }
+  UrdfMessages messages;
+  const auto model = urdf::parseURDF(bytes);
+  if (!model || !model->getRoot()) {
+    problems.add({file, 0, 0}, "",
+                 "no URDF: " + (messages.error.empty() ? "nothing can be read" : messages.error) +
+                     ", need a robot of links and joints");
+    return {};
+  }
+  return UrdfTree(file, problems).read(*model);
+}
+
+}  // namespace springfold::io
+
+#else
+
+namespace springfold::io {
+
+bool reads_urdf() { return false; }
+
+Robot read_urdf(const std::string&, const std::string& file, Problems& problems) {
+  problems.add(
+      {file, 0, 0}, "",
+      "this springfold was built without urdfdom (Debian: liburdfdom-dev), need one with it");
+  return {};
+}
+
+}  // namespace springfold::io
+
+#endif
