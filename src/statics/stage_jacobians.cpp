@@ -78,7 +78,7 @@ struct StageJacobians::Slot {
   /// Of many members: the matrix by poses and by commands, and that of the root unknowns.
   struct Entries {
     explicit Entries(const SparseLayout& of) : matrices{of} {}
-    Matrix A{}, by_commands{}, half{}, reduced{};
+    Matrix A{}, by_commands{}, reduced{};
     Workspace work{};
     SparseMatrices matrices;
     StructuredMatrix J{};
@@ -118,6 +118,19 @@ double largest_entry(const StageMatrix& matrix) {
 
 bool same(const FrontalBorders& a, const FrontalBorders& b) {
   return a.B.cols() == b.B.cols() && a.B == b.B && a.C == b.C && a.D == b.D;
+}
+
+/// Are the body's root unknowns its pose coordinates themselves?
+bool is_plain(const BodySlice& body, const std::vector<Index>& columns, const Matrix& basis,
+              Index first) {
+  if (std::ssize(columns) != body.count) return false;
+  for (Index k = 0; k < body.count; ++k) {
+    const Index column = columns[static_cast<std::size_t>(k)];
+    if (column != columns.front() + k) return false;
+    for (Index i = 0; i < body.count; ++i)
+      if (basis(body.t - first + i, column) != (i == k ? 1 : 0)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -181,32 +194,51 @@ void StageJacobians::Slot::magnitudes(const Vector& v, Vector& result) {
   result = -result;
 }
 
-/// basis^T A basis + own, body by body: each body has root unknowns of its own.
+/// basis^T A basis + own, body by body: each body has root unknowns of its own. Columns one after the other, as they
+/// lie in memory; most bodies of structures are points, whose part is that of A.
 const Matrix& StageJacobians::Slot::reduce(const Matrix& basis, const Matrix& own) {
   Entries& e = *entries;
   const System& system = layout->system;
   const Index first = system.first_pose, roots = root_count(system, layout->root_columns);
-  if (basis.size() == 0 && own.size() == 0) return e.A;
-  if (basis.size() == 0) {
+  std::vector<char> plain(system.body_slices.size(), 1);
+  if (basis.size() > 0)
+    for (std::size_t b = 0; b < plain.size(); ++b)
+      plain[b] = is_plain(system.body_slices[b], layout->root_columns[b], basis, first) ? 1 : 0;
+  bool unchanged = true;
+  for (std::size_t b = 0; basis.size() > 0 && b < plain.size(); ++b)
+    unchanged &= plain[b] && layout->root_columns[b].front() == system.body_slices[b].t - first;
+  if (unchanged && own.size() == 0) return e.A;
+  if (unchanged) {
     e.reduced = e.A;
   } else {
-    e.half.resize(system.size, first + roots);
     e.reduced.resize(first + roots, first + roots);
-    e.half.leftCols(first) = e.A.leftCols(first);
-    for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
-      const BodySlice& body = system.body_slices[b];
-      for (const Index column : layout->root_columns[b])
-        e.half.col(first + column).noalias() =
-            e.A.middleCols(body.t, body.count) *
-            basis.col(column).segment(body.t - first, body.count);
+    Vector column(system.size);
+    const auto put = [&](Index target) {  // basis^T column
+      e.reduced.col(target).head(first) = column.head(first);
+      for (std::size_t b = 0; b < plain.size(); ++b) {
+        const BodySlice& body = system.body_slices[b];
+        const std::vector<Index>& rows = layout->root_columns[b];
+        if (plain[b])
+          e.reduced.col(target).segment(first + rows.front(), body.count) =
+              column.segment(body.t, body.count);
+        else
+          for (const Index row : rows)
+            e.reduced(first + row, target) = basis.col(row)
+                                                 .segment(body.t - first, body.count)
+                                                 .dot(column.segment(body.t, body.count));
+      }
+    };
+    for (Index i = 0; i < first; ++i) {
+      column = e.A.col(i);
+      put(i);
     }
-    e.reduced.topRows(first) = e.half.topRows(first);
-    for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+    for (std::size_t b = 0; b < plain.size(); ++b) {
       const BodySlice& body = system.body_slices[b];
-      for (const Index column : layout->root_columns[b])
-        e.reduced.row(first + column).noalias() =
-            basis.col(column).segment(body.t - first, body.count).transpose() *
-            e.half.middleRows(body.t, body.count);
+      for (const Index into : layout->root_columns[b]) {
+        column.noalias() = e.A.middleCols(body.t, body.count) *
+                           basis.col(into).segment(body.t - first, body.count);
+        put(first + into);
+      }
     }
   }
   if (own.size() > 0) e.reduced.bottomRightCorner(roots, roots) += own;
