@@ -71,6 +71,51 @@ double buckling_load(int n, int mode) {
   return 2 * q / (l + std::sqrt(l * l - 4 * q / k));
 }
 
+/// A shallow net of 7 x 7 nodes in a fixed rim, pressed in its middle, and a plate that hangs on it by eight springs.
+std::string net(const std::string& control) {
+  constexpr int rim = 8;
+  const auto name = [](int i, int j) { return "n" + std::to_string(i) + "_" + std::to_string(j); };
+  const auto is_rim = [](int i, int j) { return i % rim == 0 || j % rim == 0; };
+  std::string text;
+  for (int i = 0; i <= rim; ++i)
+    for (int j = 0; j <= rim; ++j) {
+      const double u = i / 4.0 - 1, v = j / 4.0 - 1, z = 1.5 * (1 - u * u) * (1 - v * v);
+      text += "[[node]]\nname = \"" + name(i, j) + "\"\nat = [" + std::to_string(i) + ", " +
+              std::to_string(j) + ", " + std::to_string(z) + "]\n" +
+              (is_rim(i, j) ? "fixed = true\n" : "");
+    }
+  for (int i = 0; i <= rim; ++i)
+    for (int j = 0; j <= rim; ++j)
+      for (const auto& [k, l] : {std::pair{i + 1, j}, {i, j + 1}, {i + 1, j - 1}})
+        if (k <= rim && l >= 0 && l <= rim && !(is_rim(i, j) && is_rim(k, l)))
+          text += "[[bar]]\nfrom = \"" + name(i, j) + "\"\nto = \"" + name(k, l) + "\"\nEA = 10\n";
+  text +=
+      "[[body]]\nname = \"plate\"\ntask_space = \"spatial\"\npose = [4, 4, 0, 0.1, -0.2, 0.3]\n";
+  for (const int i : {3, 5})
+    for (const int j : {3, 5})
+      for (const int z : {-1, 1})
+        text += "[[spring]]\nname = \"hanger" + std::to_string(100 * i + 10 * j + z + 1) +
+                "\"\nfrom = \"" + name(i, j) + "\"\nto = \"plate\"\nto_at = [" +
+                std::to_string(0.5 * (i - 4) + 0.1 * z) + ", " + std::to_string(0.5 * (j - 4)) +
+                ", " + std::to_string(0.3 * z) + "]\nstiffness = 1\nfree = 0.5\n";
+  return text + "[[study]]\nname = \"press\"\nbody = \"n4_4\"\ndirection = [0, 0, -1]\n" + control;
+}
+
+TEST(ManyMembers, ANetCarriesTheSameLoadWhetherItIsPushedOrDriven) {
+  const auto pushed =
+      run(net("control = \"load\"\nuntil = { deflection = [0, 0.05] }\n")).of("press");
+  const auto driven = run(net("control = \"mixed\"\nuntil = { lambda = [0, 0.05] }\n")).of("press");
+  for (const auto& result : {pushed, driven}) {
+    ASSERT_TRUE(result.start.found) << result.start.message;
+    ASSERT_TRUE(complete(result));
+  }
+  const std::size_t at = pushed.branches[0].samples.size() - 1;
+  const std::size_t there = driven.branches[0].samples.size() - 1;
+  EXPECT_GT(value(pushed, at, "force"), 0);
+  for (const char* name : {"force", "deflection", "n2_3.z", "plate.z", "plate.rx", "plate.rz"})
+    EXPECT_NEAR(value(pushed, at, name), value(driven, there, name), 1e-9) << name;
+}
+
 TEST(ManyMembers, AColumnByAnglesBucklesAtItsClosedFormLoads) {
   // The first one in dense arithmetic, the second one in sparse arithmetic.
   for (const int n : {12, 80}) {
