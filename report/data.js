@@ -5,29 +5,36 @@
  * @typedef {{name: string, unit: string}} Quantity
  * @typedef {{label: string, code: string, row: number, detail: string, sentence: string, motion?: string,
  *            stiffness?: number[][]}} SpecialPoint
- * @typedef {{file: string, rows: number, start: number, stops: string[], values: string, points: string,
- *            springs: string, loads: string, events: SpecialPoint[]}} WrittenBranch
+ * @typedef {{name: string, form: string, file: string, rows: number, start: number, values: string, points: string,
+ *            springs: string, loads: string, layout: number[] | null, status: {texts: string[], of: number[]} | null,
+ *            events: SpecialPoint[]}} WrittenBranch
  * @typedef {{dimension: number, points: number, right: number[], up: number[], chains: string[],
  *            links: {from: number, to: number, chain: number, rail: boolean}[],
  *            joints: {name: string, shape: string, role: string, at: number, axis: number}[],
  *            springs: {name: string, line: boolean, from: number, at: number, to: number}[],
+ *            outlines: {name: string, corners: number[]}[],
  *            stops: {spring: number, at: number, tip: number, slide: boolean}[],
  *            bodies: {name: string, origin: number, corners: number[]}[],
  *            loads: {name: string, at: number, moment: boolean, direction: boolean, weight: boolean}[],
  *            base: {at: number, towards: number}[], names: {name: string, at: number}[]}} Parts
+ * @typedef {{name: string, from: number, to: number, points: number}} MapAxis
+ * @typedef {{axes: MapAxis[], quantity: string}} WrittenMap
  * @typedef {{study: string, run: number, label: string, kind: string, control: string,
- *            parameters: Object<string, number>, start: string, doubts: string[], quantities: Quantity[],
- *            branches: WrittenBranch[], mechanism?: Parts}} Run
+ *            parameters: Object<string, number>, varied: string[], start: string, doubts: string[],
+ *            axes: string[], map: WrittenMap | null, quantities: Quantity[],
+ *            branches: WrittenBranch[], mechanisms: Parts[]}} Run
  * @typedef {{version: string, title: string, case: string, hash: string, runs: Run[]}} Page
  * @typedef {{values: Float64Array, points: Float64Array, springs: Float64Array, loads: Float64Array}} Numbers
  */
 
+const isLittleEndian = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
+
 /** @param {string} text @returns {Float64Array} */
 function numbersOf(text) {
-  const bytes = atob(text);
-  const view = new DataView(new ArrayBuffer(bytes.length));
-  for (let i = 0; i < bytes.length; ++i) view.setUint8(i, bytes.charCodeAt(i));
-  const numbers = new Float64Array(bytes.length / 8);
+  const bytes = atob(text), plain = new Uint8Array(bytes.length);
+  for (let i = 0; i < bytes.length; ++i) plain[i] = bytes.charCodeAt(i);
+  if (isLittleEndian) return new Float64Array(plain.buffer);
+  const view = new DataView(plain.buffer), numbers = new Float64Array(bytes.length / 8);
   for (let i = 0; i < numbers.length; ++i) numbers[i] = view.getFloat64(8 * i, true);
   return numbers;
 }
@@ -46,9 +53,43 @@ function numbersIn(branch) {
   return numbers;
 }
 
+/**
+ * Which parts a row has (-1: no posture is known), and where its numbers begin in each array.
+ * @typedef {{layout: number[], points: number[], springs: number[], loads: number[]}} Offsets
+ * @type {WeakMap<WrittenBranch, Offsets>} */
+const offsetsOf = new WeakMap();
+
+/** @param {Run} run @param {WrittenBranch} branch @returns {Offsets} */
+function offsetsIn(run, branch) {
+  const known = offsetsOf.get(branch);
+  if (known) return known;
+  const layout = branch.layout || Array(branch.rows).fill(0);
+  /** @type {Offsets} */ const offsets = {layout, points: [], springs: [], loads: []};
+  let points = 0, springs = 0, loads = 0;
+  for (const number of layout) {
+    offsets.points.push(points);
+    offsets.springs.push(springs);
+    offsets.loads.push(loads);
+    if (number < 0) continue;
+    const parts = run.mechanisms[number];
+    points += parts.dimension * parts.points;
+    springs += 2 * parts.springs.length;
+    loads += 3 * parts.loads.length;
+  }
+  offsetsOf.set(branch, offsets);
+  return offsets;
+}
+
 /** @param {Run} run @param {string} name @returns {number} */
 function columnOf(run, name) {
   return run.quantities.findIndex(q => q.name === name);
+}
+
+/** "deflection [m]".
+ * @param {Run} run @param {number} column */
+function titleOf(run, column) {
+  const q = run.quantities[column];
+  return q ? q.name + (q.unit ? ` [${q.unit}]` : "") : "";
 }
 
 /** @param {Run} run @param {WrittenBranch} branch @param {number} row @param {number} column */
@@ -56,16 +97,37 @@ function valueAt(run, branch, row, column) {
   return column < 0 ? NaN : numbersIn(branch).values[row * run.quantities.length + column];
 }
 
+/** One quantity along all rows.
+ * @param {Run} run @param {WrittenBranch} branch @param {number} column */
+function valuesAlong(run, branch, column) {
+  const all = numbersIn(branch).values, width = run.quantities.length;
+  return Float64Array.from({length: branch.rows}, (_, row) => column < 0 ? NaN : all[row * width + column]);
+}
+
 /** Stability of a row: a class of the style sheet.
  * @param {Run} run @param {WrittenBranch} branch @param {number} row */
 function stabilityAt(run, branch, row) {
+  if (branch.form === "jump") return "moving";
   const driven = valueAt(run, branch, row, columnOf(run, "index"));
   const dead = valueAt(run, branch, row, columnOf(run, "index_force"));
   const constrained = valueAt(run, branch, row, columnOf(run, "index_driven"));
+  return stabilityOf(driven, dead, constrained);
+}
+
+/** @param {number} driven @param {number} dead @param {number} constrained */
+function stabilityOf(driven, dead, constrained) {
   if (driven > 0) return constrained === 0 ? "driven" : "unstable";
   if (Number.isNaN(dead)) return "unknown";
   if (dead === 0) return "stable";
   return driven === 0 ? "driven" : "unstable";
+}
+
+/** Stability along all rows.
+ * @param {Run} run @param {WrittenBranch} branch @returns {string[]} */
+function stabilitiesAlong(run, branch) {
+  if (branch.form === "jump") return Array(branch.rows).fill("moving");
+  const [driven, dead, constrained] = ["index", "index_force", "index_driven"].map(n => valuesAlong(run, branch, columnOf(run, n)));
+  return Array.from({length: branch.rows}, (_, i) => stabilityOf(driven[i], dead[i], constrained[i]));
 }
 
 /** @param {number} value */

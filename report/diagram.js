@@ -1,8 +1,22 @@
 "use strict";
-// The curves of a run: any two quantities as axes, zoom, special points, the row under the cursor.
+// The curves of a run: any two quantities as axes, zoom, special points, the row under the cursor. A map: its nodes.
 
 /** @type {any} D3 3.5 has no types of its own. */
 const d3 = /** @type {any} */ (window)["d3"];
+
+/**
+ * A list of rows as it is drawn.
+ * @typedef {{run: Run, branch: WrittenBranch, number: number, x: Float64Array, y: Float64Array, kinds: string[],
+ *            special: Set<number>}} Plot
+ * @typedef {{kind: string, plot: Plot, path: string, spots: number[]}} Line
+ */
+
+/** @param {Run} run @param {number} number @param {number} xColumn @param {number} yColumn @returns {Plot} */
+function plotOf(run, number, xColumn, yColumn) {
+  const branch = run.branches[number];
+  return {run, branch, number, x: valuesAlong(run, branch, xColumn), y: valuesAlong(run, branch, yColumn),
+          kinds: stabilitiesAlong(run, branch), special: new Set(branch.events.map(e => e.row))};
+}
 
 class Diagram {
   /** @param {SVGSVGElement} svg @param {(branch: number, row: number) => void} choose */
@@ -13,52 +27,61 @@ class Diagram {
     this.height = 420;
     this.edges = {left: 70, right: 14, top: 12, bottom: 44};
     /** @type {Run | null} */ this.run = null;
-    this.xColumn = this.yColumn = this.branch = this.row = 0;
+    /** @type {Plot[]} */ this.plots = [];
+    /** @type {Plot[]} */ this.others = [];
+    /** @type {MapView | null} */ this.map = null;
+    this.branch = this.row = 0;
     d3.select(svg).attr("viewBox", `0 0 ${this.width} ${this.height}`);
     this.x = d3.scale.linear().range([this.edges.left, this.width - this.edges.right]);
     this.y = d3.scale.linear().range([this.height - this.edges.bottom, this.edges.top]);
     this.zoom = d3.behavior.zoom().scaleExtent([0.5, 1e6]).on("zoom", () => this.redraw());
     const root = d3.select(svg);
     const id = "inside";
-    root.append("clipPath").attr("id", id).append("rect").attr("x", this.edges.left).attr("y", this.edges.top)
-        .attr("width", this.width - this.edges.left - this.edges.right)
-        .attr("height", this.height - this.edges.top - this.edges.bottom);
+    const inside = {x: this.edges.left, y: this.edges.top, width: this.width - this.edges.left - this.edges.right,
+                    height: this.height - this.edges.top - this.edges.bottom};
+    root.append("clipPath").attr("id", id).append("rect").attr(inside);
     this.xAxis = root.append("g").attr("class", "axis").attr("transform", `translate(0,${this.height - this.edges.bottom})`);
     this.yAxis = root.append("g").attr("class", "axis").attr("transform", `translate(${this.edges.left},0)`);
     this.xLabel = root.append("text").attr("x", this.width - this.edges.right).attr("y", this.height - 8).attr("text-anchor", "end");
     this.yLabel = root.append("text").attr("x", 6).attr("y", 11);
     const plane = root.append("g");
-    this.plane = plane;
-    const sheet = plane.append("rect").attr("x", this.edges.left).attr("y", this.edges.top).attr("fill", "transparent")
-        .attr("width", this.width - this.edges.left - this.edges.right)
-        .attr("height", this.height - this.edges.top - this.edges.bottom);
+    this.image = plane.append("g").attr("clip-path", `url(#${id})`).append("image").attr("class", "nodes")
+        .attr("preserveAspectRatio", "none").attr("display", "none");
+    const sheet = plane.append("rect").attr("class", "sheet").attr("fill", "transparent").attr(inside);
     this.curves = plane.append("g").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
     this.marks = plane.append("g").attr("clip-path", `url(#${id})`);
+    this.labels = plane.append("g").attr("class", "labels").attr("pointer-events", "none");
     this.cursor = plane.append("circle").attr("class", "cursor").attr("r", 5);
     plane.call(this.zoom).on("dblclick.zoom", null);
     this.follow(/** @type {SVGRectElement} */ (sheet.node()));
   }
 
   /**
-   * Dragging moves along the branch; with shift it moves the diagram.
+   * Dragging moves along the branch, once for each frame; with shift it moves the diagram. Over a map nothing has to be held.
    * @param {SVGRectElement} sheet */
   follow(sheet) {
     let drags = false;
+    /** @type {{clientX: number, clientY: number} | null} */ let wanted = null;
+    const want = (/** @type {{clientX: number, clientY: number}} */ event) => {
+      if (!wanted) requestAnimationFrame(() => { const at = wanted; wanted = null; if (at) this.chooseNear(at); });
+      wanted = {clientX: event.clientX, clientY: event.clientY};
+    };
     sheet.addEventListener("mousedown", event => {
       if (event.shiftKey) return;
       event.stopPropagation();
       event.preventDefault();
       this.svg.focus();
       drags = true;
-      this.chooseNear(event);
+      want(event);
     });
-    window.addEventListener("mousemove", event => { if (drags) this.chooseNear(event); });
+    sheet.addEventListener("mousemove", event => { if (this.map && !event.buttons) want(event); });
+    window.addEventListener("mousemove", event => { if (drags) want(event); });
     window.addEventListener("mouseup", () => { drags = false; });
     sheet.addEventListener("touchmove", event => {
       if (event.touches.length !== 1) return;
       event.stopPropagation();
       event.preventDefault();
-      this.chooseNear(event.touches[0]);
+      want(event.touches[0]);
     }, {passive: false});
   }
 
@@ -66,124 +89,208 @@ class Diagram {
    * The row whose mark is nearest on the screen.
    * @param {{clientX: number, clientY: number}} event */
   chooseNear(event) {
-    if (!this.run) return;
     const frame = this.svg.getBoundingClientRect();
     const px = (event.clientX - frame.left) * this.width / frame.width;
     const py = (event.clientY - frame.top) * this.height / frame.height;
+    if (this.map) return this.choose(0, this.map.nodeNear(this.map.sliceOf(this.row), this.x.invert(px), this.y.invert(py)));
+    const [x, y] = [this.line(this.x), this.line(this.y)];
     let best = Infinity, branch = this.branch, row = this.row;
-    this.run.branches.forEach((b, k) => {
-      for (let i = 0; i < b.rows; ++i) {
-        const spot = this.spot(k, i);
-        const away = (spot[0] - px) ** 2 + (spot[1] - py) ** 2;
-        if (away < best) { best = away; branch = k; row = i; }
+    for (const plot of this.plots) {
+      // A drag along a branch is not to end in a jump that begins there.
+      if (plot.branch.form === "jump" && plot.number !== this.branch) continue;
+      for (let i = 0; i < plot.branch.rows; ++i) {
+        const dx = x.begin + x.slope * plot.x[i] - px, dy = y.begin + y.slope * plot.y[i] - py;
+        const away = dx * dx + dy * dy;
+        if (away < best) { best = away; branch = plot.number; row = i; }
       }
-    });
+    }
     if (best < Infinity) this.choose(branch, row);
+  }
+
+  /** A linear scale as a straight line: D3's own calls take far longer on many rows.
+   * @param {any} scale */
+  line(scale) {
+    const begin = scale(0);
+    return {begin, slope: scale(1) - begin};
   }
 
   /** @param {number} branch @param {number} row */
   spot(branch, row) {
-    const run = /** @type {Run} */ (this.run);
-    return [this.x(valueAt(run, run.branches[branch], row, this.xColumn)),
-            this.y(valueAt(run, run.branches[branch], row, this.yColumn))];
+    const plot = this.plots[branch];
+    return plot ? [this.x(plot.x[row]), this.y(plot.y[row])] : [NaN, NaN];
   }
 
-  /** @param {Run} run @param {number} xColumn @param {number} yColumn */
-  show(run, xColumn, yColumn) {
+  /** @param {Run} run @param {number} xColumn @param {number} yColumn @param {Run[]} others  drawn behind it
+   * @param {MapView | null} map */
+  show(run, xColumn, yColumn, others, map) {
     this.run = run;
-    this.xColumn = xColumn;
-    this.yColumn = yColumn;
-    for (const [scale, column] of [[this.x, xColumn], [this.y, yColumn]]) {
-      let low = Infinity, high = -Infinity;
-      for (const branch of run.branches)
-        for (let i = 0; i < branch.rows; ++i) {
-          const v = valueAt(run, branch, i, column);
-          if (!Number.isFinite(v)) continue;
-          low = Math.min(low, v);
-          high = Math.max(high, v);
-        }
-      if (!(low <= high)) { low = 0; high = 1; }
-      const room = 0.05 * (high - low) || 0.5 * Math.abs(low) || 1;
-      scale.domain([low - room, high + room]);
-    }
+    this.map = map;
+    this.plots = run.branches.map((_, k) => plotOf(run, k, xColumn, yColumn));
+    this.others = others.flatMap(o => o.branches.map((_, k) => plotOf(o, k, xColumn, yColumn)).filter(p => p.branch.form === "curve"));
+    const all = [...this.plots, ...this.others], frame = map && map.frame();
+    this.x.domain(frame ? frame.x : this.reach(all.map(p => p.x)));
+    this.y.domain(frame ? frame.y : this.reach(all.map(p => p.y)));
     this.zoom.x(this.x).y(this.y);
-    const name = (/** @type {number} */ column) => {
-      const q = run.quantities[column];
-      return q ? q.name + (q.unit ? ` [${q.unit}]` : "") : "";
-    };
-    this.xLabel.text(name(xColumn));
-    this.yLabel.text(name(yColumn));
+    this.xLabel.text(titleOf(run, xColumn));
+    this.yLabel.text(titleOf(run, yColumn));
     this.redraw();
   }
 
-  /** Lines of one stability each; rows that lie on each other on the screen are left out. */
+  /** From the least to the largest value, with room.
+   * @param {Float64Array[]} lists */
+  reach(lists) {
+    let low = Infinity, high = -Infinity, size = 0;
+    for (const list of lists)
+      for (const v of list) {
+        if (!Number.isFinite(v)) continue;
+        if (v < low) low = v;
+        if (v > high) high = v;
+      }
+    if (!(low <= high)) { low = 0; high = 1; }
+    size = Math.max(Math.abs(low), Math.abs(high));
+    // What differs by rounding alone is one value.
+    const room = high - low > 1e-12 * size ? 0.05 * (high - low) : 0.5 * size || 1;
+    return [low - room, high + room];
+  }
+
+  /** Lines of one stability each; rows that lie on each other on the screen are left out.
+   * @param {Plot} plot @param {Line[]} lines */
+  addLines(plot, lines) {
+    if (plot.branch.form !== "curve" && plot.branch.form !== "jump") return;
+    const x = this.line(this.x), y = this.line(this.y), last = plot.branch.rows - 1;
+    /** @type {string[]} */ let path = [];
+    /** @type {number[]} */ let spots = [];
+    let kind = "", lastX = 0, lastY = 0, step = 1;
+    const end = () => { if (path.length > 1) lines.push({kind, plot, path: path.join("L"), spots}); path = []; spots = []; };
+    for (let i = 0; i < last; i += step) {
+      step = 1;
+      const ax = x.begin + x.slope * plot.x[i], ay = y.begin + y.slope * plot.y[i];
+      const bx = x.begin + x.slope * plot.x[i + 1], by = y.begin + y.slope * plot.y[i + 1];
+      if (!Number.isFinite(ax + ay + bx + by)) { end(); continue; }
+      // A special point belongs to both sides: the row behind it says what follows.
+      const now = plot.kinds[plot.special.has(i) && !plot.special.has(i + 1) ? i + 1 : i];
+      if (now !== kind || path.length === 0) {
+        end();
+        kind = now;
+        path.push(`M${ax.toFixed(1)},${ay.toFixed(1)}`);
+        spots.push(ax, ay);
+        lastX = ax;
+        lastY = ay;
+      }
+      const ends = i + 1 === last || plot.special.has(i + 1) || plot.kinds[i + 1] !== kind;
+      if (!ends && Math.abs(bx - lastX) + Math.abs(by - lastY) < 0.7) continue;
+      path.push(`${bx.toFixed(1)},${by.toFixed(1)}`);
+      spots.push(bx, by);
+      lastX = bx;
+      lastY = by;
+    }
+    end();
+  }
+
   redraw() {
-    const run = this.run;
-    if (!run) return;
+    if (!this.run) return;
     this.xAxis.call(d3.svg.axis().scale(this.x).orient("bottom").ticks(6));
     this.yAxis.call(d3.svg.axis().scale(this.y).orient("left").ticks(6));
-    /** @type {{kind: string, branch: number, path: string}[]} */
-    const lines = [];
-    run.branches.forEach((branch, k) => {
-      const special = new Set(branch.events.map(e => e.row));
-      let path = "", kind = "", last = [NaN, NaN];
-      for (let i = 0; i + 1 < branch.rows; ++i) {
-        const a = this.spot(k, i), b = this.spot(k, i + 1);
-        if (!(Number.isFinite(a[0]) && Number.isFinite(a[1]) && Number.isFinite(b[0]) && Number.isFinite(b[1]))) {
-          if (path) lines.push({kind, branch: k, path});
-          path = "";
-          continue;
-        }
-        // A special point belongs to both sides: the row behind it says what follows.
-        const now = stabilityAt(run, branch, special.has(i) && !special.has(i + 1) ? i + 1 : i);
-        if (now !== kind || !path) {
-          if (path) lines.push({kind, branch: k, path});
-          kind = now;
-          path = `M${a[0].toFixed(1)},${a[1].toFixed(1)}`;
-          last = a;
-        }
-        const ends = i + 2 === branch.rows || special.has(i + 1);
-        if (!ends && Math.abs(b[0] - last[0]) + Math.abs(b[1] - last[1]) < 0.7) continue;
-        path += `L${b[0].toFixed(1)},${b[1].toFixed(1)}`;
-        last = b;
-      }
-      if (path) lines.push({kind, branch: k, path});
-    });
+    /** @type {Line[]} */ const lines = [];
+    for (const plot of this.others) this.addLines(plot, lines);
+    for (const plot of this.plots) this.addLines(plot, lines);
     const drawn = this.curves.selectAll("path").data(lines);
     drawn.enter().append("path");
     drawn.exit().remove();
-    drawn.attr("d", (/** @type {any} */ l) => l.path)
-        .attr("class", (/** @type {any} */ l) => `curve ${l.kind}${l.branch === this.branch ? "" : " other"}`);
+    drawn.attr("d", (/** @type {Line} */ l) => l.path).attr("class", (/** @type {Line} */ l) => {
+      const here = l.plot.run === this.run;
+      return `curve ${l.kind}${!here ? " run" : l.plot.number === this.branch ? "" : " other"}`;
+    });
+    this.redrawNodes();
     this.mark();
+    this.label(lines);
+  }
+
+  /** Names of special points beside them, where there is room.
+   * @param {Line[]} lines */
+  label(lines) {
+    const room = {left: this.edges.left, top: 0, right: this.width, bottom: this.height - this.edges.bottom};
+    const spots = this.plots.flatMap(plot => plot.branch.events.map(event => ({text: event.label, spot: this.spot(plot.number, event.row)})))
+        .filter(({spot}) => spot[0] >= room.left && spot[0] <= room.right && spot[1] >= room.top && spot[1] <= room.bottom);
+    /** @type {Box[]} */ const boxes = spots.map(({spot: [x, y]}) => ({left: x - 5, right: x + 5, top: y - 5, bottom: y + 5}));
+    /** @type {number[]} */ const dots = [];
+    for (const line of lines)
+      if (line.plot.run === this.run)
+        for (let i = 1; i < line.spots.length / 2; ++i) addDots(line.spots[2 * i - 2], line.spots[2 * i - 1], line.spots[2 * i], line.spots[2 * i + 1], dots);
+    /** @type {{x: number, y: number, at: number[], text: string}[]} */ const placed = [];
+    for (const {text, spot} of spots) {
+      // Branches that cross have the same point.
+      if (placed.some(p => p.text === text && Math.hypot(p.at[0] - spot[0], p.at[1] - spot[1]) < 1)) continue;
+      const place = placeOfName(spot[0], spot[1], text, dots, boxes, room);
+      if (!place) continue;
+      placed.push({x: place.x, y: place.y, at: spot, text});
+      boxes.push(place.box);
+    }
+    const drawn = this.labels.selectAll("text").data(placed);
+    drawn.enter().append("text");
+    drawn.exit().remove();
+    drawn.attr("x", (/** @type {any} */ p) => p.x).attr("y", (/** @type {any} */ p) => p.y).text((/** @type {any} */ p) => p.text);
+  }
+
+  redrawNodes() {
+    const run = this.run, map = this.map;
+    if (!run || !map) { this.image.attr("display", "none"); return; }
+    const {x, y} = map.frame();
+    this.image.attr("display", null).attr("x", this.x(x[0])).attr("width", this.x(x[1]) - this.x(x[0]))
+        .attr("y", this.y(y[1])).attr("height", this.y(y[0]) - this.y(y[1]))
+        .attr("href", map.picture(run.branches[0], map.sliceOf(this.row)));
   }
 
   mark() {
-    const run = this.run;
-    if (!run) return;
-    /** @type {{branch: number, event: SpecialPoint}[]} */
+    /** @type {{plot: Plot, row: number, event: SpecialPoint | null}[]} */
     const points = [];
-    run.branches.forEach((branch, k) => branch.events.forEach(event => points.push({branch: k, event})));
+    for (const plot of this.plots) {
+      const named = new Set();
+      for (const event of plot.branch.events) { points.push({plot, row: event.row, event}); named.add(event.row); }
+      if (plot.branch.form !== "points") continue;
+      for (let row = 0; row < plot.branch.rows; ++row) if (!named.has(row)) points.push({plot, row, event: null});
+    }
     const marks = this.marks.selectAll("circle").data(points);
     marks.enter().append("circle").attr("r", 5).append("title");
     marks.exit().remove();
-    marks.attr("class", (/** @type {any} */ p) => `special${p.branch === this.branch && p.event.row === this.row ? " here" : ""}`)
-        .attr("cx", (/** @type {any} */ p) => this.spot(p.branch, p.event.row)[0] || -99)
-        .attr("cy", (/** @type {any} */ p) => this.spot(p.branch, p.event.row)[1] || -99)
-        .attr("data-label", (/** @type {any} */ p) => p.event.label)
+    marks.attr("class", (/** @type {any} */ p) => {
+      const states = p.plot.branch.form === "points" ? ` ${p.plot.kinds[p.row]}` : "";
+      return `special${states}${p.plot.number === this.branch && p.row === this.row ? " here" : ""}`;
+    })
+        .attr("cx", (/** @type {any} */ p) => this.spot(p.plot.number, p.row)[0] || -99)
+        .attr("cy", (/** @type {any} */ p) => this.spot(p.plot.number, p.row)[1] || -99)
+        .attr("data-label", (/** @type {any} */ p) => p.event ? p.event.label : "")
         .on("mousedown", () => d3.event.stopPropagation())
-        .on("click", (/** @type {any} */ p) => this.choose(p.branch, p.event.row))
-        .select("title").text((/** @type {any} */ p) => `${p.event.label} ${p.event.detail}`);
-    const spot = this.spot(this.branch, this.row);
-    const seen = Number.isFinite(spot[0]) && Number.isFinite(spot[1]);
-    this.cursor.attr("display", seen ? null : "none").attr("cx", seen ? spot[0] : 0).attr("cy", seen ? spot[1] : 0);
+        .on("click", (/** @type {any} */ p) => this.choose(p.plot.number, p.row))
+        .select("title").text((/** @type {any} */ p) => p.event ? `${p.event.label} ${p.event.detail}` : p.plot.branch.name);
+    this.moveCursor();
+  }
+
+  moveCursor() {
+    const map = this.map, here = this.spot(this.branch, this.row);
+    if (map) {  // where the node was asked for, also where it has no values
+      const i = this.row % map.wide, j = Math.floor(this.row / map.wide) % map.tall;
+      here[0] = this.x(map.at(0, i));
+      here[1] = this.y(map.at(1, j));
+    }
+    const seen = Number.isFinite(here[0]) && Number.isFinite(here[1]);
+    this.cursor.attr("display", seen ? null : "none").attr("cx", seen ? here[0] : 0).attr("cy", seen ? here[1] : 0);
   }
 
   /** @param {number} branch @param {number} row */
   go(branch, row) {
-    const other = branch !== this.branch;
+    const map = this.map, isOther = branch !== this.branch || (map && map.sliceOf(row) !== map.sliceOf(this.row));
+    const wasMarked = this.isMarked(this.branch, this.row);
     this.branch = branch;
     this.row = row;
-    if (other) this.redraw();
-    else this.mark();
+    if (isOther) this.redraw();
+    else if (wasMarked || this.isMarked(branch, row)) this.mark();
+    else this.moveCursor();
+  }
+
+  /** @param {number} branch @param {number} row */
+  isMarked(branch, row) {
+    const plot = this.plots[branch];
+    return plot && (plot.branch.form === "points" || plot.special.has(row));
   }
 }

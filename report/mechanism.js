@@ -5,69 +5,113 @@ const svgSpace = "http://www.w3.org/2000/svg";
 
 /** @typedef {{x: number, y: number}} Spot */
 
+/** @param {string} stability */
+function hasColour(stability) { return ["stable", "driven", "unstable"].includes(stability); }
+
+/** Distance of the eye in sizes of the mechanism, as in springfold's own drawings. */
+const eyeDistance = 2.5;
+
 class MechanismView {
-  /** @param {SVGSVGElement} svg @param {Run} run @param {Parts} parts */
-  constructor(svg, run, parts) {
+  /** @param {SVGSVGElement} svg @param {Run} run  with a mechanism */
+  constructor(svg, run) {
     this.svg = svg;
-    this.parts = parts;
+    this.run = run;
+    this.parts = run.mechanisms[0];
     this.width = 560;
     this.height = 420;
     this.scale = this.size = 1;
     this.middle = [0, 0];
+    this.centre = [0, 0, 0];
+    /** @type {number[][]} */ this.corners = [];
+    this.right = this.parts.right;
+    this.up = this.parts.up;
+    this.isPerspective = false;
     this.largestLoad = 0;
     svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
-    this.fit(run);
+    this.measure(run);
+    this.fit();
   }
 
   /**
-   * One scale for all rows of all branches.
+   * The box around all rows of all branches, in space: one scale for all of them.
    * @param {Run} run */
-  fit(run) {
-    let left = Infinity, right = -Infinity, low = Infinity, high = -Infinity;
+  measure(run) {
+    const d = this.parts.dimension, low = [0, 0, 0].fill(Infinity), high = [0, 0, 0].fill(-Infinity);
     this.largestLoad = 0;
-    const used = new Set();
-    for (const p of this.parts.links) used.add(p.from).add(p.to);
-    for (const p of this.parts.springs) used.add(p.from).add(p.to);
-    for (const p of this.parts.bodies) for (const i of p.corners) used.add(i);
+    const used = run.mechanisms.map(parts => {
+      const points = new Set();
+      for (const p of [...parts.links, ...parts.springs]) points.add(p.from).add(p.to);
+      for (const p of [...parts.bodies, ...parts.outlines]) for (const i of p.corners) points.add(i);
+      return [...points].map(i => d * i);
+    });
+    const forces = run.mechanisms.map(parts => parts.loads.flatMap((load, i) => load.direction ? [] : [3 * i]));
     for (const branch of run.branches) {
-      const numbers = numbersIn(branch);
+      const {points, loads} = numbersIn(branch), offsets = offsetsIn(run, branch);
       for (let row = 0; row < branch.rows; ++row) {
-        for (const i of used) {
-          const [x, y] = this.seen(numbers.points, row, i);
-          if (Number.isNaN(x)) continue;
-          left = Math.min(left, x); right = Math.max(right, x);
-          low = Math.min(low, y); high = Math.max(high, y);
-        }
-        for (let i = 0; i < this.parts.loads.length; ++i)
-          if (!this.parts.loads[i].direction)
-            this.largestLoad = Math.max(this.largestLoad, this.loadSize(numbers.loads, row, i) || 0);
+        if (offsets.layout[row] < 0) continue;
+        for (const offset of used[offsets.layout[row]])
+          for (let k = 0; k < d; ++k) {
+            const v = points[offsets.points[row] + offset + k];
+            if (v < low[k]) low[k] = v;
+            if (v > high[k]) high[k] = v;
+          }
+        for (const offset of forces[offsets.layout[row]])
+          this.largestLoad = Math.max(this.largestLoad, sizeOf(loads, offsets.loads[row] + offset) || 0);
       }
     }
-    const margin = 60;
+    if (d === 2) low[2] = high[2] = 0;
+    if (!low.every(Number.isFinite)) { low.fill(0); high.fill(0); }
+    this.centre = low.map((v, k) => (v + high[k]) / 2);
+    this.size = Math.hypot(...low.map((v, k) => high[k] - v)) || 1;
+    this.corners = [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => (i >> k) & 1 ? high[k] : low[k]));
+  }
+
+  /** The box fills the picture as it is looked at. */
+  fit() {
+    const seen = this.corners.map(([x, y, z]) => this.project(x, y, z));
+    const reach = (/** @type {number} */ k) => [Math.min(...seen.map(s => s[k])), Math.max(...seen.map(s => s[k]))];
+    const [left, right] = reach(0), [low, high] = reach(1), margin = 60;
     const across = Math.max((right - left) / (this.width - 2 * margin), (high - low) / (this.height - 2 * margin));
     this.scale = across > 0 && Number.isFinite(across) ? 1 / across : 1;
     this.middle = [(left + right) / 2, (low + high) / 2];
-    this.size = Math.hypot(right - left, high - low) || 1;
   }
 
-  /** @param {Float64Array} loads @param {number} row @param {number} i */
-  loadSize(loads, row, i) {
-    const at = 3 * (row * this.parts.loads.length + i);
-    return Math.hypot(loads[at], loads[at + 1], loads[at + 2]);
+  /** Turns what is seen about the picture's axes [rad]; lengths keep together, so that views stay perpendicular.
+   * @param {number} aside @param {number} upwards */
+  turn(aside, upwards) {
+    const out = cross(this.right, this.up);
+    const right = unit(this.right.map((r, k) => Math.cos(aside) * r - Math.sin(aside) * out[k]));
+    const behind = cross(right, this.up);
+    const up = this.up.map((u, k) => Math.cos(upwards) * u - Math.sin(upwards) * behind[k]);
+    const along = right.reduce((sum, r, k) => sum + r * up[k], 0);
+    this.right = right;
+    this.up = unit(up.map((u, k) => u - along * right[k]));
+    this.fit();
+  }
+
+  /** Back to how it was looked at first. */
+  turnBack() {
+    this.right = this.parts.right;
+    this.up = this.parts.up;
+    this.fit();
+  }
+
+  /** A place in the picture's plane [length]: orthographic, or as the eye sees it from the front.
+   * @param {number} x @param {number} y @param {number} z */
+  project(x, y, z) {
+    const v = [x - this.centre[0], y - this.centre[1], z - this.centre[2]], seen = this.turned(v[0], v[1], v[2]);
+    if (!this.isPerspective) return seen;
+    const out = cross(this.right, this.up), eye = eyeDistance * this.size;
+    const near = eye / (eye - (out[0] * v[0] + out[1] * v[1] + out[2] * v[2]));
+    return [near * seen[0], near * seen[1]];
   }
 
   /**
    * World vector to the picture's axes.
    * @param {number} x @param {number} y @param {number} z */
   turned(x, y, z) {
-    const r = this.parts.right, u = this.parts.up;
+    const r = this.right, u = this.up;
     return [r[0] * x + r[1] * y + r[2] * z, u[0] * x + u[1] * y + u[2] * z];
-  }
-
-  /** @param {Float64Array} points @param {number} row @param {number} i */
-  seen(points, row, i) {
-    const d = this.parts.dimension, at = d * (row * this.parts.points + i);
-    return this.turned(points[at], points[at + 1], d === 3 ? points[at + 2] : 0);
   }
 
   /** @param {number[]} seen @returns {Spot} */
@@ -99,44 +143,51 @@ class MechanismView {
    * @param {Float64Array} [motion] of all points, to be added @param {number} [factor] of it */
   draw(branch, row, stability, motion, factor) {
     while (this.svg.firstChild) this.svg.removeChild(this.svg.firstChild);
-    const numbers = numbersIn(branch), parts = this.parts, d = parts.dimension;
-    if (Number.isNaN(numbers.points[d * row * parts.points])) {
+    const numbers = numbersIn(branch), offsets = offsetsIn(this.run, branch), layout = offsets.layout[row];
+    if (layout < 0) {
       this.add("text", {x: 20, y: 30}).textContent = "no posture in this row";
       return;
     }
+    this.parts = this.run.mechanisms[layout];
+    const parts = this.parts, d = parts.dimension, first = offsets.points[row], springs = offsets.springs[row], loads = offsets.loads[row];
     /** @param {number} i @returns {Spot} */
     const at = i => {
-      const seen = this.seen(numbers.points, row, i);
-      if (motion && motion.length === d * parts.points) {
-        const by = this.turned(motion[d * i], motion[d * i + 1], d === 3 ? motion[d * i + 2] : 0);
-        seen[0] += (factor || 0) * by[0];
-        seen[1] += (factor || 0) * by[1];
-      }
-      return this.spot(seen);
+      const moves = motion && motion.length === d * parts.points;
+      const place = [0, 1, 2].map(k => k >= d ? 0 : numbers.points[first + d * i + k] +
+                                                   (moves ? (factor || 0) * motion[d * i + k] : 0));
+      return this.spot(this.project(place[0], place[1], place[2]));
     };
     for (const body of parts.bodies)
       this.add("polygon", {points: hullOf(body.corners.map(at)).map(s => `${s.x.toFixed(2)},${s.y.toFixed(2)}`).join(" "),
-                           fill: "var(--body)", stroke: `var(--${stability === "unknown" ? "ink" : stability})`, "stroke-width": 2}, body.name);
+                           fill: "var(--body)", stroke: `var(--${hasColour(stability) ? stability : "ink"})`, "stroke-width": 2}, body.name);
     for (const base of parts.base) this.drawBase(at(base.at), at(base.towards));
     for (const link of parts.links)
       this.line([at(link.from), at(link.to)], link.rail
         ? {stroke: "var(--grey)", "stroke-dasharray": "5 3"}
-        : {stroke: `var(--${stability === "unknown" ? "ink" : stability})`, "stroke-width": 3, "stroke-linecap": "round"},
+        : {stroke: `var(--${hasColour(stability) ? stability : "ink"})`, "stroke-width": 3, "stroke-linecap": "round"},
                 "chain " + parts.chains[link.chain]);
+    for (const outline of parts.outlines)
+      this.add(outline.corners.length > 2 ? "polygon" : "polyline",
+               {points: outline.corners.map(at).map(s => `${s.x.toFixed(2)},${s.y.toFixed(2)}`).join(" "), class: "outline",
+                fill: "none", stroke: "var(--spring)", "stroke-width": 1.2, "stroke-dasharray": "5 3"},
+               "spring or pressure " + outline.name);
     parts.springs.forEach((spring, i) => {
-      const k = 2 * (row * parts.springs.length + i);
+      const k = springs + 2 * i;
       const acts = numbers.springs[k] > 0, force = numbers.springs[k + 1];
       // Bars between nodes, perhaps on rollers: there is no link that could show stability.
       const shows = spring.line && parts.links.every((link) => link.rail);
-      const colour = !shows ? "spring" : stability === "unknown" ? "ink" : stability;
+      const colour = !shows ? "spring" : hasColour(stability) ? stability : "ink";
       /** @type {Object<string, string | number>} */
       const ink = acts ? {stroke: `var(--${colour})`, "stroke-width": 1.8} : {stroke: "var(--grey)", "stroke-dasharray": "3 2"};
       const title = `spring ${spring.name}${acts ? "" : ", does not act"}, force ${brief(force)}`;
-      if (spring.line) this.line(coilOf(at(spring.from), at(spring.to)), ink, title);
+      const from = at(spring.from), to = at(spring.to);
+      if (spring.line && Math.hypot(to.x - from.x, to.y - from.y) < shortestCoil)
+        this.add("circle", {cx: to.x, cy: to.y, r: 8, fill: "none", ...ink}, title);
+      else if (spring.line) this.line(coilOf(from, to), ink, title);
       else this.line(spiralOf(at(spring.at), at(spring.from), at(spring.to)), ink, title);
     });
     for (const stop of parts.stops) {
-      const acts = numbers.springs[2 * (row * parts.springs.length + stop.spring)] > 0;
+      const acts = numbers.springs[springs + 2 * stop.spring] > 0;
       const a = at(stop.at), b = at(stop.tip), long = Math.hypot(b.x - a.x, b.y - a.y) || 1;
       const u = {x: (b.x - a.x) / long, y: (b.y - a.y) / long};
       const ends = stop.slide ? [{x: a.x - 9 * u.y, y: a.y + 9 * u.x}, {x: a.x + 9 * u.y, y: a.y - 9 * u.x}]
@@ -144,13 +195,31 @@ class MechanismView {
       this.line(ends, {stroke: acts ? "var(--unstable)" : "var(--grey)", "stroke-width": 2});
     }
     for (const joint of parts.joints) this.drawJoint(joint, at(joint.at), at(joint.axis));
-    parts.loads.forEach((load, i) => this.drawLoad(load, i, numbers.loads, row, at(load.at)));
+    parts.loads.forEach((load, i) => this.drawLoad(load, numbers.loads, loads, loads + 3 * i, at(load.at)));
     for (const body of parts.bodies) {
-      const o = at(body.origin), k = d * (row * parts.points + body.origin);
+      const o = at(body.origin), k = first + d * body.origin;
       const mark = this.add("circle", {cx: o.x, cy: o.y, r: 2, fill: "var(--ink)", "data-body": body.name,
                                        "data-x": numbers.points[k], "data-y": numbers.points[k + 1]});
       if (d === 3) mark.setAttribute("data-z", String(numbers.points[k + 2]));
-      this.add("text", {x: o.x + 9, y: o.y - 9}).textContent = body.name;
+    }
+    this.drawNames(at);
+  }
+
+  /** Bodies have names, where these cover no link and no other name.
+   * @param {(point: number) => Spot} at */
+  drawNames(at) {
+    /** @type {number[]} */ const dots = [];
+    /** @type {Box[]} */ const boxes = [];
+    const room = {left: 0, top: 0, right: this.width, bottom: this.height};
+    for (const part of [...this.parts.links, ...this.parts.springs]) {
+      const a = at(part.from), b = at(part.to);
+      addDots(a.x, a.y, b.x, b.y, dots);
+    }
+    for (const body of this.parts.bodies) {
+      const o = at(body.origin), place = placeOfName(o.x, o.y, body.name, dots, boxes, room);
+      if (!place) continue;
+      boxes.push(place.box);
+      this.add("text", {x: place.x, y: place.y}).textContent = body.name;
     }
   }
 
@@ -185,11 +254,12 @@ class MechanismView {
     }
   }
 
-  /** @param {Parts["loads"][0]} load @param {number} i @param {Float64Array} loads @param {number} row @param {Spot} at */
-  drawLoad(load, i, loads, row, at) {
-    const k = 3 * (row * this.parts.loads.length + i), size = this.loadSize(loads, row, i);
+  /** @param {Parts["loads"][0]} load @param {Float64Array} loads @param {number} first  of the row @param {number} k  of the load
+   * @param {Spot} at */
+  drawLoad(load, loads, first, k, at) {
+    const size = sizeOf(loads, k);
     if (!(size > 0) || (!load.direction && !(this.largestLoad > 0))) return;
-    const acts = this.parts.loads.some((other, j) => !other.direction && other.at === load.at && this.loadSize(loads, row, j) > 0);
+    const acts = this.parts.loads.some((other, j) => !other.direction && other.at === load.at && sizeOf(loads, first + 3 * j) > 0);
     if (load.direction && acts) return;
     const ink = {stroke: "var(--load)", "stroke-width": load.weight ? 1.2 : 2, "stroke-dasharray": load.direction ? "4 3" : "none"};
     const title = load.direction ? "direction of the study" : `${load.name || (load.moment ? "moment" : "force")} ${brief(size)}`;
@@ -207,10 +277,27 @@ class MechanismView {
   }
 }
 
+/** Of a vector within an array.
+ * @param {Float64Array} all @param {number} at */
+function sizeOf(all, at) { return Math.hypot(all[at], all[at + 1], all[at + 2]); }
+
+/** @param {number[]} a @param {number[]} b */
+function cross(a, b) {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+/** @param {number[]} v */
+function unit(v) {
+  const long = Math.hypot(...v) || 1;
+  return v.map(c => c / long);
+}
+
+/** Pixels: below it a coil is a blot, and a ring stands for it. */
+const shortestCoil = 8;
+
 /** @param {Spot} from @param {Spot} to @returns {Spot[]} */
 function coilOf(from, to) {
   const dx = to.x - from.x, dy = to.y - from.y, long = Math.hypot(dx, dy);
-  if (long < 8) return [from, to];
   const side = Math.min(7, 0.3 * long), n = {x: -dy / long * side, y: dx / long * side};
   const spots = [from, {x: from.x + 0.18 * dx, y: from.y + 0.18 * dy}];
   for (let i = 0; i < 12; ++i) {

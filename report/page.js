@@ -26,22 +26,32 @@ class ReportPage {
     this.branch = this.row = 0;
     this.plays = this.moves = false;
     /** @type {MechanismView | null} */ this.view = null;
+    /** @type {MapView | null} */ this.map = null;
+    this.shownTables = "";
     this.diagram = new Diagram(byId("diagram"), (branch, row) => { this.stop(); this.go(branch, row); });
     byId("title").textContent = page.title || page.case;
     byId("subtitle").textContent = `${page.case}, springfold ${page.version}`;
     byId("made").textContent = `Made by springfold ${page.version} from ${page.case}, hash ${page.hash}.`;
     fill(byId("run"), page.runs.map(r => `${r.study}, run ${r.run}${r.label ? `: ${r.label}` : ""}`));
     this.listen();
-    this.showRun(Math.max(0, page.runs.findIndex(r => r.branches.some(b => b.rows > 1))));
+    if (page.runs.length) this.showRun(Math.max(0, page.runs.findIndex(r => r.branches.some(b => b.rows > 1))));
   }
 
   listen() {
     byId("run").addEventListener("change", () => this.showRun(Number(byId("run").value)));
     byId("branch").addEventListener("change", () => this.go(Number(byId("branch").value), 0));
     byId("row").addEventListener("input", () => { this.stop(); this.go(this.branch, Number(byId("row").value)); });
+    byId("others").addEventListener("change", () => this.showAxes());
+    byId("perspective").addEventListener("change", () => this.look());
+    byId("colour").addEventListener("change", () => {
+      if (this.map) this.map.choose(Number(byId("colour").value));
+      this.showAxes();
+      this.showKey();
+    });
+    this.listenToTurns();
     for (const id of ["x", "y"]) byId(id).addEventListener("change", () => this.showAxes());
     byId("play").addEventListener("click", () => this.plays ? this.stop() : this.play());
-    byId("reset").addEventListener("click", () => this.showAxes());
+    byId("reset").addEventListener("click", () => this.reset());
     document.addEventListener("keydown", event => {
       const target = /** @type {HTMLElement} */ (event.target);
       if (["SELECT", "INPUT", "BUTTON"].includes(target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -49,8 +59,36 @@ class ReportPage {
     });
   }
 
+  /** A mechanism in space is turned with the mouse: half a turn for the width of the picture. */
+  listenToTurns() {
+    const svg = byId("mechanism");
+    svg.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => {
+      if (this.view && this.view.parts.dimension === 3) svg.setPointerCapture(event.pointerId);
+    });
+    svg.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
+      if (!this.view || !svg.hasPointerCapture(event.pointerId)) return;
+      const width = svg.getBoundingClientRect().width;
+      this.view.turn(Math.PI * event.movementX / width, Math.PI * event.movementY / width);
+      this.drawPosture();
+    });
+  }
+
+  reset() {
+    if (this.view) { this.view.turnBack(); this.drawPosture(); }
+    this.showAxes();
+  }
+
+  /** Perspective or not. */
+  look() {
+    if (!this.view) return;
+    this.view.isPerspective = byId("perspective").checked && this.view.parts.dimension === 3;
+    this.view.fit();
+    this.drawPosture();
+  }
+
   /** @param {string} key @param {number} by @returns {boolean} */
   key(key, by) {
+    const map = this.map, line = map ? map.wide : 0, plane = map ? map.wide * map.tall : 0;
     const last = this.run.branches.length ? this.run.branches[this.branch].rows - 1 : 0;
     switch (key) {
       case "ArrowRight": this.stop(); this.go(this.branch, this.row + by); return true;
@@ -60,7 +98,13 @@ class ReportPage {
       case "n": this.stop(); this.special(1); return true;
       case "p": this.stop(); this.special(-1); return true;
       case " ": if (this.plays) this.stop(); else this.play(); return true;
-      case "r": this.showAxes(); return true;
+      case "ArrowUp": if (map) this.go(0, this.row + by * line); return map !== null;
+      case "ArrowDown": if (map) this.go(0, this.row - by * line); return map !== null;
+      case "PageUp": if (map) this.go(0, this.row + plane); return map !== null;
+      case "PageDown": if (map) this.go(0, this.row - plane); return map !== null;
+      case "b": if (this.run.branches.length) { this.stop(); this.go((this.branch + 1) % this.run.branches.length, 0); } return true;
+      case "r": this.reset(); return true;
+      case "v": byId("perspective").checked = !byId("perspective").checked; this.look(); return true;
       case "m": this.vibrate(); return true;
     }
     return false;
@@ -84,47 +128,101 @@ class ReportPage {
     byId("run").value = String(number);
     fill(byId("x"), run.quantities.map(q => q.name));
     fill(byId("y"), run.quantities.map(q => q.name));
-    const first = (/** @type {string[]} */ names) => Math.max(0, ...names.map(n => columnOf(run, n)).filter(c => c >= 0).slice(0, 1));
-    byId("x").value = String(first(["deflection", "path", "lambda"]));
-    byId("y").value = String(first(columnOf(run, "deflection") >= 0 ? ["force", "lambda"] : ["lambda", "energy"]));
-    fill(byId("branch"), run.branches.map((_, i) => `branch ${i + 1}`));
-    this.view = run.mechanism ? new MechanismView(byId("mechanism"), run, run.mechanism) : null;
+    const column = (/** @type {string} */ name) => String(Math.max(0, columnOf(run, name)));
+    byId("x").value = column(run.axes[0]);
+    byId("y").value = column(run.axes[1]);
+    this.map = run.map && run.map.axes.length > 1 && run.branches.length ? new MapView(run, run.map) : null;
+    fill(byId("colour"), this.map ? run.quantities.map(q => q.name) : []);
+    if (this.map) byId("colour").value = String(this.map.column);
+    byId("colour-choice").hidden = !this.map;
+    byId("x").disabled = byId("y").disabled = this.map !== null;
+    byId("others-choice").hidden = this.otherRuns().length === 0;
+    fill(byId("branch"), run.branches.map(b => b.name));
+    this.view = run.mechanisms.length ? new MechanismView(byId("mechanism"), run) : null;
     if (!this.view) byId("mechanism").textContent = "";
-    this.diagram.branch = 0;
+    const isSpatial = this.view !== null && this.view.parts.dimension === 3;
+    byId("perspective-choice").hidden = !isSpatial;
+    byId("mechanism").classList.toggle("turns", isSpatial);
+    this.look();
+    this.diagram.branch = this.diagram.row = 0;
     this.showAxes();
     this.showTables();
+    this.showKey();
     this.go(0, run.branches.length ? run.branches[0].start : 0);
   }
 
-  showAxes() {
-    this.diagram.show(this.run, Number(byId("x").value), Number(byId("y").value));
+  /** Runs of the same study, whose curves stand behind those of this one; none where there are very many. */
+  otherRuns() {
+    const most = 60;
+    const others = this.page.runs.filter(r => r !== this.run && r.study === this.run.study && !r.map &&
+                                              r.quantities.length === this.run.quantities.length);
+    return others.length < most ? others : [];
   }
 
+  showAxes() {
+    this.diagram.show(this.run, Number(byId("x").value), Number(byId("y").value), byId("others").checked ? this.otherRuns() : [],
+                      this.map);
+  }
+
+  showKey() {
+    const key = byId("key");
+    key.textContent = this.map ? this.map.words()
+      : "Solid: stable under dead load. Long dashes: held as driven, unstable under dead load. Short dashes: unstable." +
+        (this.run.branches.some(b => b.form === "jump") ? " Dots: a jump." : "");
+    if (this.map) append(key, "span").className = "ramp";
+  }
+
+  /** The special points of all runs of the study; of a sweep beside the values that it varies. */
   showTables() {
     const run = this.run, events = byId("events"), parameters = byId("parameters"), files = byId("files");
-    for (const element of [events, parameters, files]) element.textContent = "";
-    const shown = ["lambda", "deflection", "force", "index", "index_force", "K_eig1"].filter(n => columnOf(run, n) >= 0);
-    const head = append(append(events, "thead"), "tr"), body = append(events, "tbody");
-    for (const text of ["point", "branch", ...shown, "what"]) append(head, "th", text);
-    run.branches.forEach((branch, k) => branch.events.forEach(event => {
-      const line = append(body, "tr");
-      line.dataset.branch = k;
-      line.dataset.row = event.row;
-      append(line, "td", event.label);
-      append(line, "td", String(k + 1));
-      for (const name of shown) append(line, "td", brief(valueAt(run, branch, event.row, columnOf(run, name))));
-      append(line, "td", event.detail);
-      line.addEventListener("click", () => { this.stop(); this.go(k, event.row); });
-    }));
+    for (const element of [parameters, files]) element.textContent = "";
+    if (this.shownTables !== run.study) {
+      this.shownTables = run.study;
+      events.textContent = "";
+      this.fillEvents(events, this.page.runs.filter(r => r.study === run.study));
+      byId("special").hidden = events.tBodies[0].rows.length === 0;
+    }
     for (const name of Object.keys(run.parameters)) {
       const line = append(parameters, "tr");
       append(line, "td", name);
       append(line, "td", String(run.parameters[name]));
     }
-    for (const file of [...run.branches.map(b => b.file), "events.csv", "summary.json"]) {
+    for (const file of new Set([...run.branches.map(b => b.file), "events.csv", "summary.json"])) {
+      if (!file) continue;
       const link = append(append(files, "li"), "a", file);
       link.href = file.split("/").map(encodeURIComponent).join("/");
     }
+  }
+
+  /** @param {HTMLElement} table @param {Run[]} runs */
+  fillEvents(table, runs) {
+    const names = ["lambda", "deflection", "force", "index", "index_force", "K_eig1"].filter(n => runs.some(r => columnOf(r, n) >= 0));
+    const varied = runs.length > 1 ? this.run.varied : [];
+    const head = append(append(table, "thead"), "tr"), body = append(table, "tbody");
+    for (const text of ["point", ...(runs.length > 1 ? ["run"] : []), ...varied, "branch", ...names, "what"]) append(head, "th", text);
+    for (const run of runs)
+      run.branches.forEach((branch, k) => branch.events.forEach(event => {
+        const line = append(body, "tr"), number = this.page.runs.indexOf(run);
+        line.dataset.run = number;
+        line.dataset.branch = k;
+        line.dataset.row = event.row;
+        append(line, "td", event.label);
+        if (runs.length > 1) append(line, "td", String(run.run));
+        for (const name of varied) append(line, "td", brief(run.parameters[name] ?? NaN));
+        append(line, "td", branch.name);
+        for (const name of names) append(line, "td", brief(valueAt(run, branch, event.row, columnOf(run, name))));
+        append(line, "td", event.detail);
+        line.addEventListener("click", () => {
+          this.stop();
+          if (this.run !== run) this.showRun(number);
+          this.go(k, event.row);
+        });
+      }));
+  }
+
+  drawPosture() {
+    const b = this.run.branches[this.branch];
+    if (this.view && b) this.view.draw(b, this.row, stabilityAt(this.run, b, this.row));
   }
 
   /** @param {number} branch @param {number} row */
@@ -132,8 +230,9 @@ class ReportPage {
     const run = this.run;
     this.moves = false;
     if (!run.branches.length) {
-      byId("point").textContent = run.start ? `No start point: ${run.start}` : "Rows of this kind of study are in its CSV files.";
-      byId("values").textContent = byId("posture").textContent = "";
+      byId("point").textContent = run.start ? `No start point: ${run.start}` : "Of this run the table of its study has a row, and no curve was kept.";
+      byId("values").textContent = byId("posture").textContent = byId("key").textContent = "";
+      delete byId("values").dataset.run;
       return;
     }
     this.branch = branch;
@@ -146,10 +245,11 @@ class ReportPage {
     this.diagram.go(branch, this.row);
     const stability = stabilityAt(run, b, this.row);
     if (this.view) this.view.draw(b, this.row, stability);
-    const words = {stable: "stable under dead load", driven: "held as driven, unstable under dead load",
-                   unstable: "unstable", unknown: "stability not known"};
-    byId("posture").textContent = `Row ${this.row + 1} of ${b.rows}: ${words[stability]}.`;
-    byId("key").textContent = "Solid: stable under dead load. Long dashes: held as driven, unstable under dead load. Short dashes: unstable.";
+    /** @type {Object<string, string>} */
+    const words = {stable: "stable under dead load", driven: "held as driven, unstable under dead load", unstable: "unstable",
+                   unknown: "stability not known", moving: "not at rest"};
+    const status = b.status ? b.status.texts[b.status.of[this.row]] : "";
+    byId("posture").textContent = `${b.name}, row ${this.row + 1} of ${b.rows}: ${words[stability]}${status ? ` (${status})` : ""}.`;
     this.showPoint();
     this.showValues();
   }
@@ -172,7 +272,7 @@ class ReportPage {
     }
     for (const line of document.querySelectorAll("#events tbody tr")) {
       const data = /** @type {HTMLElement} */ (line).dataset;
-      line.classList.toggle("here", Number(data.branch) === this.branch && Number(data.row) === this.row);
+      line.classList.toggle("here", Number(data.run) === this.page.runs.indexOf(this.run) && Number(data.branch) === this.branch && Number(data.row) === this.row);
     }
   }
 

@@ -66,8 +66,8 @@ void add_run_and_colours(CLI::App& command, Arguments& arguments) {
       ->check(CLI::PositiveNumber);
   command.add_option("--colour", arguments.colour, "What colours stand for")
       ->check(CLI::IsMember({"stability", "force", "energy", "none"}));
-  command.add_option("--view", arguments.view, "Plane that is looked at")
-      ->check(CLI::IsMember({"xy", "xz", "yz"}));
+  command.add_option("--view", arguments.view, "Plane that is looked at, or perspective")
+      ->check(CLI::IsMember({"xy", "xz", "yz", "perspective"}));
 }
 
 /// Options of pictures.

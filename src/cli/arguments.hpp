@@ -28,12 +28,12 @@ struct Arguments {
   std::string draw_all{};                               ///< draw: a study
   bool draws_guess = false;                             ///< draw: --guess
   std::string colour = "stability";                     ///< draw
-  std::string view{};                                   ///< draw: "xy", "xz", "yz"; empty: natural
-  int run_number = 1;                                   ///< draw, animate: --run
-  std::string film_from{}, film_to{};                   ///< animate: --from, --to
-  std::string film_mode{};                              ///< animate: --mode
-  std::string film_jump{};                              ///< animate: --jump
-  int frames = 60;                                      ///< animate: --frames
+  std::string view{};                  ///< draw: "xy", "xz", "yz", "perspective"; empty: natural
+  int run_number = 1;                  ///< draw, animate: --run
+  std::string film_from{}, film_to{};  ///< animate: --from, --to
+  std::string film_mode{};             ///< animate: --mode
+  std::string film_jump{};             ///< animate: --jump
+  int frames = 60;                     ///< animate: --frames
   bool prints_json = false;
   std::filesystem::path results{};                  ///< plot: folder of a run
   bool draws_changed = false;                       ///< plot: --changed

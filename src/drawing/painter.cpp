@@ -6,6 +6,7 @@
 
 #include "glyphs.hpp"
 #include "name_places.hpp"
+#include "projection.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::drawing {
@@ -34,14 +35,15 @@ class Painter {
 
  private:
   Place place(const Vec& p) const {
-    const Vec from_middle = p - sheet_.middle;
-    return {(room_.left + room_.right) / 2 + sheet_.scale * sheet_.view.right.dot(from_middle),
-            (room_.top + room_.bottom) / 2 - sheet_.scale * sheet_.view.up.dot(from_middle)};
+    const Place seen = seen_at(sheet_, p);
+    return {(room_.left + room_.right) / 2 + sheet_.scale * seen.x,
+            (room_.top + room_.bottom) / 2 - sheet_.scale * seen.y};
   }
   Place place(PointId i) const { return place(scene_.points[i]); }
   /// On the screen; shorter than 1 where it points at us.
-  Place seen(const Vec& way) const {
-    return {sheet_.view.right.dot(way), -sheet_.view.up.dot(way)};
+  Place seen(PointId at, const Vec& way) const {
+    const Place step = seen_step(sheet_, scene_.points[at], way);
+    return {step.x, -step.y};
   }
 
   void add(Path path) { picture_.marks.emplace_back(std::move(path)); }
@@ -223,14 +225,13 @@ class Painter {
     if (!load.is_direction) title += ": " + rounded(size);
     if (load.is_direction) ink.dashes = {4, 3};
     if (load.is_moment) {
-      const double sign =
-          model::cross<double>(sheet_.view.right, sheet_.view.up).dot(load.vector) < 0 ? -1 : 1;
+      const double sign = towards_eye(sheet_, scene_.points[load.at]).dot(load.vector) < 0 ? -1 : 1;
       add(turning_arrow(at, 3.4 * sheet_.joint, sign, ink), title);
       return;
     }
     constexpr double least = 0.35;  // of the longest arrow, so that heads fit
     const double part = load.is_direction ? 0.7 : least + (1 - least) * size / largest;
-    const Place way = sheet_.arrow * part * seen(load.vector / size);
+    const Place way = sheet_.arrow * part * seen(load.at, load.vector / size);
     constexpr double end_on = 12;  // pixels: shorter ones point at us or away
     if (length(way) < end_on) {
       picture_.marks.emplace_back(Disc{at, 2.2 * sheet_.joint, ink, title});

@@ -33,7 +33,9 @@ bool has_colour_of_value(const SpringPart& spring, Colouring colouring);
 struct Sheet {
   View view{};
   model::Vec3<double> middle = model::Vec3<double>::Zero();  ///< comes to the middle of the panel
-  double scale = 1;                                          ///< pixels per length
+  Place shift{};     ///< of the panel's middle from where `middle` is seen [length]
+  double eye = 0;    ///< distance of the eye from `middle` [length]; 0: far away
+  double scale = 1;  ///< pixels per length
   Colouring colouring = Colouring::none;
   bool has_names = true;
   double largest_load = 0, largest_moment = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "projection.hpp"
+
 namespace springfold::drawing {
 namespace {
 
@@ -15,17 +17,32 @@ struct Seen {
   double low = left, high = -left;
 };
 
-Seen seen_of(const std::vector<Panel>& panels, const View& view) {
+Seen seen_of(const std::vector<Panel>& panels, const Sheet& sheet) {
   Seen seen;
   for (const Panel& panel : panels)
     for (const PointId i : places_of(panel.scene)) {
-      const Vec& p = panel.scene.points[i];
-      seen.left = std::min(seen.left, view.right.dot(p));
-      seen.right = std::max(seen.right, view.right.dot(p));
-      seen.low = std::min(seen.low, view.up.dot(p));
-      seen.high = std::max(seen.high, view.up.dot(p));
+      const Place at = seen_at(sheet, panel.scene.points[i]);
+      seen.left = std::min(seen.left, at.x);
+      seen.right = std::max(seen.right, at.x);
+      seen.low = std::min(seen.low, at.y);
+      seen.high = std::max(seen.high, at.y);
     }
   return seen;
+}
+
+/// The eye looks at the middle of the box around all panels in space.
+void place_eye(const std::vector<Panel>& panels, Sheet& sheet) {
+  if (!(sheet.view.eye > 0)) return;
+  constexpr double beyond = std::numeric_limits<double>::infinity();
+  Vec low = Vec::Constant(beyond), high = Vec::Constant(-beyond);
+  for (const Panel& panel : panels)
+    for (const PointId i : places_of(panel.scene)) {
+      low = low.cwiseMin(panel.scene.points[i]);
+      high = high.cwiseMax(panel.scene.points[i]);
+    }
+  if (!low.allFinite() || !high.allFinite()) return;
+  sheet.middle = 0.5 * (low + high);
+  sheet.eye = sheet.view.eye * (high - low).norm();
 }
 
 /// Colours and arrows are measured by the largest of all panels.
@@ -70,15 +87,20 @@ Sheet sheet_for(const std::vector<Panel>& panels, const IllustrationOptions& opt
               .colouring = options.colouring,
               .has_names = options.has_names,
               .arrow = room.is_large ? 64.0 : 36.0};
+  if (options.is_perspective && !(sheet.view.eye > 0)) sheet.view.eye = usual_eye;
+  place_eye(panels, sheet);
   measure(panels, sheet);
   const double margin = sheet.arrow + 16;
-  const Seen seen = seen_of(panels, sheet.view);
+  const Seen seen = seen_of(panels, sheet);
   const double wide = seen.right - seen.left, tall = seen.high - seen.low;
   const double across =
       std::max(wide / (room.width - 2 * margin), tall / (room.height - 2 * margin));
   sheet.scale = across > 0 ? 1 / across : 1;
-  sheet.middle = 0.5 * (seen.left + seen.right) * sheet.view.right +
-                 0.5 * (seen.low + seen.high) * sheet.view.up;
+  if (sheet.eye > 0)
+    sheet.shift = {0.5 * (seen.left + seen.right), 0.5 * (seen.low + seen.high)};
+  else
+    sheet.middle = 0.5 * (seen.left + seen.right) * sheet.view.right +
+                   0.5 * (seen.low + seen.high) * sheet.view.up;
   sheet.joint = joint_radius(panels.front(), sheet);
   if (!room.is_large) sheet.joint = std::min(sheet.joint, 4.0);
   return sheet;

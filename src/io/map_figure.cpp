@@ -120,10 +120,7 @@ std::vector<MapPlotSpec> specs_of(const Case& the_case) {
     if (planned.plan.kind != StudyKind::map || map.axes.size() < 2) continue;
     const std::string number = planned.label.empty() ? "" : "-" + std::to_string(planned.run);
     MapPlotSpec spec{.name = safe_file_name(planned.study + number), .title = planned.study};
-    // What the map was asked for, before what every map has.
-    spec.quantity = map.critical             ? "critical_load"
-                    : map.directions.empty() ? "K_trans_min"
-                                             : "stiffness";
+    spec.quantity = quantity_of(map);
     spec.panels = {{planned.study, planned.run, planned.label, 1}};
     specs.push_back(spec);
   }
@@ -205,6 +202,11 @@ void add_lines(const MapPlotSpec& spec, const Plane& plane, const std::vector<do
 }
 
 }  // namespace
+
+std::string quantity_of(const analysis::MapSettings& map) {
+  if (map.critical) return "critical_load";
+  return map.directions.empty() ? "K_trans_min" : "stiffness";
+}
 
 std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<StudyResult>& results,
                                       std::vector<std::string>& problems) {

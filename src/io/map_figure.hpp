@@ -61,6 +61,9 @@ struct MapFigure {
   int clipped = 0;            ///< finite values beyond the colours
 };
 
+/// What a map was asked for, before what every map has: the quantity that its figure shows.
+std::string quantity_of(const analysis::MapSettings& map);
+
 /// The figures that the case asks for; without any, and without any [[plot]], one per map of two
 /// axes. What cannot be drawn is said in `problems`.
 std::vector<MapFigure> map_figures_of(const Case& the_case,

@@ -8,7 +8,7 @@
 namespace springfold::io {
 namespace {
 
-const std::vector<std::string> view_words{"xy", "xz", "yz"};
+const std::vector<std::string> view_words{"xy", "xz", "yz", "perspective"};
 const std::vector<std::string> colour_words{"stability", "force", "energy", "none"};
 
 bool is_posture_label(const std::string& text) {

@@ -75,6 +75,13 @@ double RowScenes::value(const Sample& row, std::optional<std::size_t> column) co
 }
 
 statics::System RowScenes::system_of(const Sample& row, double lambda) const {
+  if (const auto& map = planned_.plan.map; planned_.plan.kind == StudyKind::map && map.situation) {
+    std::vector<double> parameters;
+    for (std::size_t i = 0; i < map.axes.size(); ++i)
+      if (!map.axes[i].pose) parameters.push_back(value(row, i));
+    if (!parameters.empty())
+      return statics::prepare(acting(planned_, map.situation(parameters).mechanism));
+  }
   // Rows of designs and of curves over a further parameter belong to other values of it.
   if (const auto& cases = planned_.plan.critical.cases) {
     std::vector<std::string> names{planned_.plan.critical.parameter};
@@ -197,6 +204,7 @@ drawing::IllustrationOptions illustration_options(const Case& the_case, const st
                                            : drawing::Colouring::stability;
   if (view == "xy") options.view = drawing::View{};
   if (view == "xz") options.view = drawing::View{Vec::UnitX(), Vec::UnitZ()};
+  options.is_perspective = view == "perspective";
   if (view == "yz") options.view = drawing::View{Vec::UnitY(), Vec::UnitZ()};
   return options;
 }

@@ -7,7 +7,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "map_figure.hpp"
 #include "nothing.hpp"
+#include "report_lists.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
 #include "springfold/drawing/illustration.hpp"
@@ -65,7 +67,7 @@ Json parts_of(const drawing::Scene& scene) {
                {"up", json_of(view.up)},
                {"chains", scene.chains}};
   for (const char* list :
-       {"links", "joints", "springs", "stops", "bodies", "loads", "base", "names"})
+       {"links", "joints", "springs", "outlines", "stops", "bodies", "loads", "base", "names"})
     json[list] = Json::array();
   for (const auto& p : scene.links)
     json["links"].push_back(
@@ -79,6 +81,8 @@ Json parts_of(const drawing::Scene& scene) {
   for (const auto& p : scene.springs)
     json["springs"].push_back(
         {{"name", p.name}, {"line", p.is_line}, {"from", p.from}, {"at", p.at}, {"to", p.to}});
+  for (const auto& p : scene.outlines)
+    json["outlines"].push_back({{"name", p.name}, {"corners", p.corners}});
   for (const auto& p : scene.stops)
     json["stops"].push_back(
         {{"spring", p.spring}, {"at", p.at}, {"tip", p.tip}, {"slide", p.is_slide}});
@@ -99,28 +103,44 @@ void add(const model::Vec3<double>& v, Index dimension, std::vector<double>& lis
   for (Index i = 0; i < dimension; ++i) list.push_back(v[i]);
 }
 
-/// Numbers of the rows of a branch, row after row.
+/// Numbers of the rows of a list, row after row.
 struct RowNumbers {
   std::vector<double> values{}, points{}, springs{}, loads{};
+  std::vector<int> layout{};  ///< which parts each row has; -1: no posture is known
 };
 
+/// Are they the same parts, of which some may be elsewhere? A spring whose stiffness a parameter makes 0 is none.
+bool are_alike(const drawing::Scene& a, const drawing::Scene& b) {
+  const auto is_same = [](const drawing::SpringPart& s, const drawing::SpringPart& t) {
+    return s.from == t.from && s.at == t.at && s.to == t.to && s.is_line == t.is_line;
+  };
+  return a.points.size() == b.points.size() && a.links.size() == b.links.size() &&
+         a.joints.size() == b.joints.size() && a.stops.size() == b.stops.size() &&
+         a.outlines.size() == b.outlines.size() && a.loads.size() == b.loads.size() &&
+         std::equal(a.springs.begin(), a.springs.end(), b.springs.begin(), b.springs.end(),
+                    is_same);
+}
+
+/// One scene for every set of parts that occurs.
+using Layouts = std::vector<drawing::Scene>;
+
+int layout_of(const std::optional<drawing::Scene>& scene, Layouts& layouts) {
+  if (!scene) return -1;
+  const auto known = std::find_if(layouts.begin(), layouts.end(), [&](const drawing::Scene& other) {
+    return are_alike(*scene, other);
+  });
+  const auto number = static_cast<int>(known - layouts.begin());
+  if (known == layouts.end()) layouts.push_back(*scene);
+  return number;
+}
+
 void add_row(const StudyResult& result, const Sample& row,
-             const std::optional<drawing::Scene>& scene, const drawing::Scene& first,
-             RowNumbers& rows) {
+             const std::optional<drawing::Scene>& scene, Layouts& layouts, RowNumbers& rows) {
   for (std::size_t i = 0; i < result.quantities.size(); ++i)
     rows.values.push_back(i < row.values.size() ? row.values[i] : nothing);
-  const Index d = first.is_planar ? 2 : 3;
-  const auto is_alike = scene && scene->points.size() == first.points.size() &&
-                        scene->springs.size() == first.springs.size() &&
-                        scene->loads.size() == first.loads.size();
-  if (!is_alike) {
-    rows.points.insert(rows.points.end(), first.points.size() * static_cast<std::size_t>(d),
-                       nothing);
-    rows.springs.insert(rows.springs.end(), 2 * first.springs.size(), nothing);
-    rows.loads.insert(rows.loads.end(), 3 * first.loads.size(), nothing);
-    return;
-  }
-  for (const auto& p : scene->points) add(p, d, rows.points);
+  rows.layout.push_back(layout_of(scene, layouts));
+  if (!scene) return;
+  for (const auto& p : scene->points) add(p, scene->is_planar ? 2 : 3, rows.points);
   for (const auto& s : scene->springs)
     rows.springs.insert(rows.springs.end(), {s.acts ? 1.0 : 0.0, s.force});
   for (const auto& load : scene->loads) add(load.vector, 3, rows.loads);
@@ -135,16 +155,17 @@ std::vector<double> motion_at(const RowScenes& scenes, const Sample& row,
   return motion;
 }
 
-Json json_of(const analysis::Event& event, const analysis::Branch& branch,
-             const RowScenes& scenes) {
-  Json json = {{"label", event.label},
-               {"code", analysis::code_of(event.kind)},
-               {"row", event.row},
-               {"detail", event.detail},
-               {"sentence", explanation_of(event.kind)}};
+Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scenes) {
+  Json json = {{"label", point.label},
+               {"code", point.code},
+               {"row", point.row},
+               {"detail", point.detail},
+               {"sentence", point.sentence}};
+  if (point.event == nullptr) return json;
+  const analysis::Event& event = *point.event;
   const auto& rates = event.rates_after.empty() ? event.rates_before : event.rates_after;
-  if (event.row < branch.samples.size() && scenes.has_postures())
-    json["motion"] = base64_of(motion_at(scenes, branch.samples[event.row], rates));
+  if (event.row < list.rows.size() && scenes.has_postures())
+    json["motion"] = base64_of(motion_at(scenes, *list.rows[event.row], rates));
   if (event.stiffness.size() > 0) {
     json["stiffness"] = Json::array();
     for (Index i = 0; i < event.stiffness.rows(); ++i) {
@@ -155,54 +176,79 @@ Json json_of(const analysis::Event& event, const analysis::Branch& branch,
   return json;
 }
 
-/// The first row whose posture is known says what parts there are.
-std::optional<drawing::Scene> first_scene(const StudyResult& result, const RowScenes& scenes) {
-  if (!scenes.has_postures()) return std::nullopt;
-  for (const auto& branch : result.branches)
-    for (const Sample& row : branch.samples)
-      if (auto scene = scenes.scene_of(row)) return scene;
-  return std::nullopt;
+/// What targets and nodes say, each text once, and its number in every row; null where they say nothing.
+Json status_of(const PageRows& list) {
+  std::vector<std::string> texts;
+  std::vector<std::size_t> numbers;
+  for (const Sample* row : list.rows) {
+    const auto known = std::find(texts.begin(), texts.end(), row->status);
+    numbers.push_back(static_cast<std::size_t>(known - texts.begin()));
+    if (known == texts.end()) texts.push_back(row->status);
+  }
+  if (texts.size() == 1 && texts.front().empty()) return nullptr;
+  return {{"texts", texts}, {"of", numbers}};
+}
+
+Json json_of(const StudyResult& result, const PageRows& list, const RowScenes& scenes,
+             Layouts& layouts) {
+  RowNumbers rows;
+  for (const Sample* row : list.rows) add_row(result, *row, scenes.scene_of(*row), layouts, rows);
+  Json points = Json::array();
+  for (const PagePoint& point : list.points) points.push_back(json_of(point, list, scenes));
+  const bool is_usual =
+      std::all_of(rows.layout.begin(), rows.layout.end(), [](int number) { return number == 0; });
+  return {{"name", list.name},
+          {"form", word_of(list.form)},
+          {"file", list.file},
+          {"rows", list.rows.size()},
+          {"start", list.start},
+          {"values", base64_of(rows.values)},
+          {"points", base64_of(rows.points)},
+          {"springs", base64_of(rows.springs)},
+          {"loads", base64_of(rows.loads)},
+          {"layout", is_usual ? Json(nullptr) : Json(rows.layout)},
+          {"status", status_of(list)},
+          {"events", std::move(points)}};
+}
+
+/// Axes of a map, and the quantity that it was asked for; null for other kinds.
+Json map_of(const PlannedRun& planned) {
+  const auto& map = planned.plan.map;
+  if (planned.plan.kind != StudyKind::map) return nullptr;
+  Json axes = Json::array();
+  for (const analysis::MapAxis& axis : map.axes)
+    axes.push_back(
+        {{"name", axis.name}, {"from", axis.from}, {"to", axis.to}, {"points", axis.points}});
+  return {{"axes", axes}, {"quantity", quantity_of(map)}};
 }
 
 Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& planned,
-             const std::vector<std::string>& files) {
-  Json json = {
-      {"study", result.study},
-      {"run", result.run},
-      {"label", result.label},
-      {"kind", to_string(planned.plan.kind)},
-      {"control", planned.plan.kind == StudyKind::force_deflection ? to_string(planned.plan.control)
-                                                                   : std::string_view{}},
-      {"parameters", planned.parameters},
-      {"start", result.start.found ? "" : result.start.message},
-      {"doubts", result.doubts},
-      {"quantities", Json::array()},
-      {"branches", Json::array()}};
+             const std::vector<std::string>& files, const std::string& equilibria) {
+  const bool is_traced = planned.plan.kind == StudyKind::force_deflection;
+  const PageAxes axes = page_axes_of(planned, result);
+  Json json = {{"study", result.study},
+               {"run", result.run},
+               {"label", result.label},
+               {"kind", to_string(planned.plan.kind)},
+               {"control", is_traced ? to_string(planned.plan.control) : std::string_view{}},
+               {"parameters", planned.parameters},
+               {"varied", planned.varied},
+               {"start", result.start.found ? "" : result.start.message},
+               {"doubts", result.doubts},
+               {"axes", {axes.x, axes.y}},
+               {"map", map_of(planned)},
+               {"quantities", Json::array()},
+               {"branches", Json::array()}};
   for (const auto& q : result.quantities)
     json["quantities"].push_back(
         {{"name", q.name}, {"unit", unit_label(q.unit, result.lambda_unit, the_case.units)}});
-  if (planned.plan.kind == StudyKind::map || planned.plan.kind == StudyKind::workspace) return json;
+  const PageLists page = page_lists_of(planned, result, files, equilibria, the_case.units);
   const RowScenes scenes{planned, result};
-  const auto first = first_scene(result, scenes);
-  if (first) json["mechanism"] = parts_of(*first);
-  for (std::size_t b = 0; b < result.branches.size(); ++b) {
-    const analysis::Branch& branch = result.branches[b];
-    RowNumbers rows;
-    for (const Sample& row : branch.samples)
-      add_row(result, row, first ? scenes.scene_of(row) : std::nullopt,
-              first ? *first : drawing::Scene{}, rows);
-    Json events = Json::array();
-    for (const auto& event : branch.events) events.push_back(json_of(event, branch, scenes));
-    json["branches"].push_back({{"file", b < files.size() ? files[b] : ""},
-                                {"rows", branch.samples.size()},
-                                {"start", branch.start_row},
-                                {"stops", {branch.backward.reason, branch.forward.reason}},
-                                {"values", base64_of(rows.values)},
-                                {"points", base64_of(rows.points)},
-                                {"springs", base64_of(rows.springs)},
-                                {"loads", base64_of(rows.loads)},
-                                {"events", std::move(events)}});
-  }
+  Layouts layouts;
+  for (const PageRows& list : page.lists)
+    json["branches"].push_back(json_of(result, list, scenes, layouts));
+  json["mechanisms"] = Json::array();
+  for (const drawing::Scene& scene : layouts) json["mechanisms"].push_back(parts_of(scene));
   return json;
 }
 
@@ -235,9 +281,10 @@ std::string report_data(const Case& the_case, const std::vector<StudyResult>& re
                {"hash", the_case.hash},
                {"runs", Json::array()}};
   const auto files = branch_files(results);
+  const auto equilibria = equilibria_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)
     if (const PlannedRun* planned = plan_of(the_case, results[i]))
-      json["runs"].push_back(json_of(the_case, results[i], *planned, files[i]));
+      json["runs"].push_back(json_of(the_case, results[i], *planned, files[i], equilibria[i]));
   const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string text;
   text.reserve(plain.size());

@@ -1,39 +1,17 @@
-// The HTML page in a real browser, driven over the devtools protocol: node page_test.mjs CHROMIUM FOLDER [SCREENSHOT]
-// FOLDER holds the results of cases/snap-through/case-toggle.toml, with report.html; scripts/browser-test.sh makes it.
+// The HTML page in a real browser: node page_test.mjs CHROMIUM FOLDER [SCREENSHOTS] [--renew]
+// FOLDER holds the results of the cases toggle, figure, long and dome, each with report.html; scripts/browser-test.sh makes
+// it. SCREENSHOTS: a folder for what was seen, to be looked at. --renew keeps it as what later runs are compared with.
 // Ends with 0 if all holds.
-import {spawn} from "node:child_process";
-import {readFileSync, writeFileSync, mkdtempSync, rmSync} from "node:fs";
-import {tmpdir} from "node:os";
-import {join, resolve} from "node:path";
-import {pathToFileURL} from "node:url";
+import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
+import {join} from "node:path";
+import {openTab, startBrowser} from "./browser.mjs";
+import {differenceFromKept, tolerance} from "./pictures.mjs";
 
-const [chromium, folder, screenshot] = process.argv.slice(2);
-const profile = mkdtempSync(join(tmpdir(), "springfold-browser-"));
-const browser = spawn(chromium, ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--remote-debugging-pipe",
-  `--user-data-dir=${profile}`, "--window-size=1300,1700", "about:blank"], {stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true});
-const end = code => {
-  try { process.kill(-browser.pid, "SIGKILL"); } catch { /* gone already */ }
-  setTimeout(() => { rmSync(profile, {recursive: true, force: true, maxRetries: 5}); process.exit(code); }, 200);
-};
-const limit = setTimeout(() => { console.error("no answer within 60 s"); end(1); }, 60000);
-
-let number = 0, rest = "";
-const waiting = new Map(), complaints = [];
-browser.stdio[4].on("data", data => {
-  const parts = (rest + data).split("\0");
-  rest = parts.pop();
-  for (const part of parts) {
-    const message = JSON.parse(part);
-    if (message.id) { waiting.get(message.id)?.(message); waiting.delete(message.id); }
-    if (message.method === "Runtime.exceptionThrown") complaints.push(message.params.exceptionDetails.exception?.description);
-    if (message.method === "Log.entryAdded" && message.params.entry.level === "error") complaints.push(message.params.entry.text);
-  }
-});
-const ask = (method, params = {}, sessionId) => new Promise((good, bad) => {
-  const id = ++number;
-  waiting.set(id, m => m.error ? bad(new Error(`${method}: ${m.error.message}`)) : good(m.result));
-  browser.stdio[3].write(JSON.stringify({id, method, params, ...(sessionId ? {sessionId} : {})}) + "\0");
-});
+const words = process.argv.slice(2).filter(w => w !== "--renew"), renew = process.argv.includes("--renew");
+const [chromium, folder, screenshots] = words;
+const browser = startBrowser(chromium);
+const finish = async code => { await browser.end(); process.exit(code); };
+const limit = setTimeout(() => { console.error("no answer within 120 s"); finish(1); }, 120000);
 
 let failures = 0;
 const expect = (holds, sentence) => {
@@ -41,90 +19,179 @@ const expect = (holds, sentence) => {
   if (!holds) ++failures;
 };
 
-try {
-  const {targetId} = await ask("Target.createTarget", {url: "about:blank"});
-  const {sessionId} = await ask("Target.attachToTarget", {targetId, flatten: true});
-  const tell = (method, params) => ask(method, params, sessionId);
-  for (const domain of ["Runtime", "Log", "Page"]) await tell(`${domain}.enable`);
-  const value = async expression => {
-    const answer = await tell("Runtime.evaluate", {expression, returnByValue: true});
-    if (answer.exceptionDetails) throw new Error(`${expression}: ${answer.exceptionDetails.text}`);
-    return answer.result.value;
-  };
-  const began = performance.now();
-  await tell("Page.navigate", {url: pathToFileURL(resolve(folder, "report.html")).href});
-  while (!await value("document.querySelectorAll('#values tr').length > 0 && document.readyState === 'complete'"))
-    await new Promise(good => setTimeout(good, 20));
-  console.log(`       interactive after ${Math.round(performance.now() - began)} ms`);
+// The tab that is opened last is in front: only there frames are drawn.
+const empty = await openTab(browser), tab = await openTab(browser);
+const {value, mouse, key, at} = tab;
 
-  // The CSV file of the first branch: what the page must show.
+/** Compares with what is kept; another picture must not pass for it. */
+async function expectPicture(name, selector, other) {
+  const png = await tab.picture(selector);
+  if (screenshots) {
+    mkdirSync(screenshots, {recursive: true});
+    writeFileSync(join(screenshots, `${name}.png`), Buffer.from(png, "base64"));
+  }
+  const share = await differenceFromKept(empty, name, png, renew);
+  expect(share <= tolerance, `${name} looks as it is kept: ${(100 * share).toFixed(2)} % of it differ`);
+  if (!other) return;
+  const wrong = await differenceFromKept(empty, name, other, false);
+  expect(wrong > tolerance, `another posture does not: ${(100 * wrong).toFixed(2)} %`);
+}
+
+/** The CSV file of the first list: what the page must show. */
+async function tableOf(place) {
   const file = await value("document.querySelector('#files a').getAttribute('href')");
-  const [head, ...lines] = readFileSync(join(folder, decodeURIComponent(file)), "utf8").trim().split("\n").map(l => l.split(","));
-  const row = () => value("Number(document.getElementById('row').value)");
-  const shown = name => value(`document.querySelector('#values td[data-quantity=${JSON.stringify(name)}]').dataset.value`);
-  const agrees = async () => {
-    const i = await row();
-    for (const name of ["lambda", "deflection", "force", "knee.x", "knee.y", "energy"]) {
-      const text = lines[i][head.indexOf(name)];
-      if (Number(await shown(name)) !== Number(text)) return `${name}: ${await shown(name)}, not ${text}`;
-    }
-    const place = await value("(({x, y}) => [Number(x), Number(y)])(document.querySelector('#mechanism [data-body=knee]').dataset)");
-    for (const [k, name] of [[0, "knee.x"], [1, "knee.y"]])
-      if (Math.abs(place[k] - Number(lines[i][head.indexOf(name)])) > 1e-9) return `${name} is drawn at ${place[k]}`;
-    return "";
-  };
-  expect(await agrees() === "", "the first row shown has the values and the place of the CSV file");
-  expect(await value("document.querySelectorAll('#mechanism *').length > 20"), "the mechanism is drawn");
+  const [head, ...lines] = readFileSync(join(place, decodeURIComponent(file)), "utf8").trim().split("\n").map(l => l.split(","));
+  return {head, lines, at: (row, name) => lines[row][head.indexOf(name)]};
+}
+const row = () => value("Number(document.getElementById('row').value)");
 
-  const at = async (x, y) => value(`(() => { const r = document.getElementById('diagram').getBoundingClientRect();
-    return [r.left + r.width * ${x}, r.top + r.height * ${y}]; })()`);
-  const mouse = (type, [x, y], more = {}) => tell("Input.dispatchMouseEvent", {type, x, y, button: "left", clickCount: 1, ...more});
-  const before = await row();
-  await mouse("mousePressed", await at(0.3, 0.5));
+/** The row that is shown when all events have been worked off. */
+async function settledRow() {
+  for (let before = NaN;;) {
+    await tab.settle();
+    const now = await row();
+    if (now === before) return now;
+    before = now;
+  }
+}
+
+/** Values shown equal the table's, the body is drawn where its coordinates say; in words what does not hold. */
+async function disagreement(table, names, body) {
+  const i = await settledRow();
+  for (const name of names) {
+    const shown = await value(`document.querySelector('#values td[data-quantity=${JSON.stringify(name)}]').dataset.value`);
+    if (Number(shown) !== Number(table.at(i, name))) return `${name}: ${shown}, not ${table.at(i, name)}`;
+  }
+  const place = await value(`(d => [d.x, d.y, d.z])(document.querySelector('#mechanism [data-body=${body}]').dataset)`);
+  for (const [k, axis] of ["x", "y", "z"].entries())
+    if (place[k] !== undefined && Math.abs(Number(place[k]) - Number(table.at(i, `${body}.${axis}`))) > 1e-9) return `${body}.${axis} is drawn at ${place[k]}`;
+  return "";
+}
+
+async function curve() {
+  const place = join(folder, "toggle"), began = await tab.load(join(place, "report.html"));
+  console.log(`       interactive after ${Math.round(began)} ms`);
+  expect(began < 1000, "the page is interactive within a second");
+  const table = await tableOf(place), names = ["lambda", "deflection", "force", "crank.foot", "rod.slider", "knee.x", "energy"];
+  expect(await disagreement(table, names, "knee") === "", "the first row shown has the values and the place of the CSV file");
+  expect(await value("document.querySelectorAll('#mechanism *').length > 20"), "the mechanism is drawn");
+  const before = await row(), beforePicture = await tab.picture("main");
+  await mouse("mousePressed", await at("#diagram", 0.3, 0.5));
   const rows = new Set();
   for (const x of [0.35, 0.45, 0.55, 0.65, 0.8]) {
-    await mouse("mouseMoved", await at(x, 0.5), {buttons: 1});
+    await mouse("mouseMoved", await at("#diagram", x, 0.5), {buttons: 1});
+    await tab.settle();
     rows.add(await row());
-    const trouble = await agrees();
+    const trouble = await disagreement(table, names, "knee");
     expect(trouble === "", `dragged to row ${await row()}: values and place are those of the CSV file ${trouble}`);
   }
-  await mouse("mouseReleased", await at(0.8, 0.5));
+  await mouse("mouseReleased", await at("#diagram", 0.8, 0.5));
   expect(rows.size >= 3 && !rows.has(before), "dragging moves along the branch");
 
-  const mark = await value(`(() => { const r = document.querySelector('#diagram circle[data-label="LP1"]').getBoundingClientRect();
-    return [r.left + r.width / 2, r.top + r.height / 2]; })()`);
-  await mouse("mousePressed", mark);
-  await mouse("mouseReleased", mark);
-  const lp = lines[await row()];
-  expect(lp[head.indexOf("event")] === "LP1", "a click on LP1 goes to its row");
+  await tab.click(await at('#diagram circle[data-label="LP1"]'));
+  expect(table.at(await row(), "event") === "LP1", "a click on LP1 goes to its row");
   expect((await value("document.getElementById('point').textContent")).includes("has an extremum here"), "its sentence is shown");
-  expect(await agrees() === "", "its values are those of the CSV file");
-  if (screenshot) writeFileSync(screenshot, Buffer.from((await tell("Page.captureScreenshot", {format: "png"})).data, "base64"));
+  expect(await disagreement(table, names, "knee") === "", "its values are those of the CSV file");
+  await expectPicture("limit-point", "main", beforePicture);
+  await tab.tell("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "dark"}]});
+  await expectPicture("limit-point-dark", "main");
+  await tab.tell("Emulation.setEmulatedMedia", {features: []});
 
-  const key = async (name, code = name) => {
-    await tell("Input.dispatchKeyEvent", {type: "keyDown", key: name, code});
-    await tell("Input.dispatchKeyEvent", {type: "keyUp", key: name, code});
-  };
   const here = await row();
   await value("document.getElementById('diagram').focus()");
   await key("ArrowRight");
   expect(await row() === here + 1, "the right arrow goes one row on");
   await key("End");
-  expect(await row() === lines.length - 1, "End goes to the last row");
+  expect(await row() === table.lines.length - 1, "End goes to the last row");
   await key("p", "KeyP");
-  expect(lines[await row()][head.indexOf("event")] !== "", "p goes to a special point");
-  await value(`(() => { const y = document.getElementById('y'); y.value = [...y.options].find(o => o.text === 'energy').value;
-    y.dispatchEvent(new Event('change')); })()`);
+  expect(table.at(await row(), "event") !== "", "p goes to a special point");
+  await tab.choose("y", "energy");
   expect(await value("[...document.querySelectorAll('#diagram > text')].some(t => t.textContent.startsWith('energy'))"), "any quantity can be an axis");
+  await key("b", "KeyB");
+  expect((await value("document.getElementById('posture').textContent")).startsWith("jump J1 from LP1"), "b goes on to the motion of the jump");
+  await key("End");
+  expect((await value("document.getElementById('point').textContent")).includes("Energy released"), "the end of a jump says what it releases");
+  await key("Home");
   await value("document.getElementById('play').click()");
-  await new Promise(good => setTimeout(good, 300));
-  expect(await value("document.getElementById('play').getAttribute('aria-pressed')") !== null, "it plays");
+  await new Promise(good => setTimeout(good, 400));
+  expect(await row() > 0, "it plays");
   expect((await value("document.title")).includes("</title><script>"), "the title is shown as it was written");
   expect(await value("typeof window.injected") === "undefined", "no text of the case was run as a script");
-  expect(complaints.length === 0, `no errors on the console ${complaints.join("; ")}`);
+}
+
+async function map() {
+  const place = join(folder, "figure");
+  await tab.load(join(place, "report.html"));
+  const table = await tableOf(place), names = ["node.x", "node.y", "stiffness", "leg_x.knee", "tool.x"];
+  const rows = new Set();
+  for (const [x, y] of [[0.3, 0.3], [0.6, 0.7], [0.85, 0.4]]) {
+    await mouse("mouseMoved", await at("#diagram", x, y), {button: "none"});
+    await tab.settle();
+    rows.add(await row());
+    const trouble = await disagreement(table, names, "tool");
+    expect(trouble === "", `over node ${await row()} of the map: values and posture are those of the CSV file ${trouble}`);
+  }
+  expect(rows.size === 3, "the mouse over a map chooses nodes");
+  await value("document.getElementById('diagram').focus()");
+  const here = await row();
+  await key("ArrowUp");
+  expect(table.at(await row(), "node.x") === table.at(here, "node.x") && Number(table.at(await row(), "node.y")) > Number(table.at(here, "node.y")),
+         "the arrow up goes to the node above");
+  expect((await value("document.getElementById('key').textContent")).startsWith("stiffness"), "the colours are those of the quantity that was asked for");
+  await expectPicture("map", "main");
+}
+
+async function inSpace() {
+  const place = join(folder, "dome");
+  await tab.load(join(place, "report.html"));
+  const table = await tableOf(place), before = await tab.picture("#mechanism");
+  expect(await disagreement(table, ["lambda"], "apex") === "", "a body in space is drawn where the CSV file says");
+  await key("v", "KeyV");
+  await expectPicture("perspective", "#mechanism", before);
+  const links = () => value("[...document.querySelectorAll('#mechanism polyline')].map(l => l.getAttribute('points')).join()");
+  const straight = await links();
+  await mouse("mousePressed", await at("#mechanism", 0.3, 0.5));
+  await mouse("mouseMoved", await at("#mechanism", 0.5, 0.4), {buttons: 1});
+  await mouse("mouseReleased", await at("#mechanism", 0.5, 0.4));
+  expect(await links() !== straight, "dragging turns a mechanism in space");
+  await key("r", "KeyR");
+  expect(await links() === straight, "r turns it back");
+}
+
+/** Script time per frame while the mouse drags and the wheel zooms, measured by the browser itself [ms]. */
+async function longCurve() {
+  const place = join(folder, "long");
+  await tab.load(join(place, "report.html"));
+  const count = await value("Number(document.getElementById('row').max) + 1");
+  expect(count >= 100000, `a branch of ${count} rows is shown`);
+  const script = async () => (await tab.tell("Performance.getMetrics")).metrics.find(m => m.name === "ScriptDuration").value * 1000;
+  const slowest = async act => {
+    let most = 0;
+    for (let i = 0; i < 25; ++i) {
+      const before = await script();
+      await act(i);
+      await tab.settle();
+      most = Math.max(most, await script() - before);
+    }
+    return most;
+  };
+  await mouse("mousePressed", await at("#diagram", 0.2, 0.6));
+  const drag = await slowest(async i => mouse("mouseMoved", await at("#diagram", 0.2 + 0.025 * i, 0.6), {buttons: 1}));
+  await mouse("mouseReleased", await at("#diagram", 0.8, 0.6));
+  const zoom = await slowest(async i => {
+    const [x, y] = await at("#diagram", 0.5, 0.5);
+    return tab.tell("Input.dispatchMouseEvent", {type: "mouseWheel", x, y, deltaX: 0, deltaY: i < 12 ? -60 : 60});
+  });
+  expect(drag < 50, `dragging: at most ${drag.toFixed(1)} ms of script per frame`);
+  expect(zoom < 50, `zooming: at most ${zoom.toFixed(1)} ms of script per frame`);
+}
+
+try {
+  for (const part of [curve, map, inSpace, longCurve]) await part();
+  expect(browser.complaints.length === 0, `no errors on the console ${browser.complaints.join("; ")}`);
 } catch (error) {
-  console.error(error, complaints);
+  console.error(error, browser.complaints);
   ++failures;
 }
 clearTimeout(limit);
-end(failures === 0 ? 0 : 1);
+await finish(failures === 0 ? 0 : 1);

@@ -207,7 +207,8 @@ TEST_F(PictureMessages, NameAllMistakesAtOnce) {
                     "special point"),
           HasSubstr("case.toml:26:18: picture[1].at[2]: no study \"pull\""),
           HasSubstr("case.toml:26:30: picture[1].at[3]: got 3, need a posture"),
-          HasSubstr("case.toml:27:8: picture[1].view: got \"zz\", need \"xy\", \"xz\" or \"yz\""),
+          HasSubstr("case.toml:27:8: picture[1].view: got \"zz\", need \"xy\", \"xz\", \"yz\" or "
+                    "\"perspective\""),
           HasSubstr("case.toml:28:10: picture[1].colour: got \"red\", need \"stability\""),
           HasSubstr("case.toml:29:12: picture[1].formats[1]: got \"pdf\", need one of \"svg\""),
           HasSubstr("case.toml:30:1: picture[1].color: unknown key")));

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "io/case_files.hpp"
 #include "io/report_data.hpp"
@@ -76,6 +77,84 @@ TEST_F(Report, EveryRowHasItsPostureInTheSameParts) {
       EXPECT_EQ(scene->springs.size(), first->springs.size());
     }
   }
+}
+
+/// A bar on a hinge with a torsion spring, upright under a load of twice its critical one: three equilibria.
+std::string upright_bar_text(const std::string& study) {
+  return R"toml([[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "z", name = "hinge", role = "preloaded", spring = { law = "linear", stiffness = 1 } },
+  { rigid = [0, 1] },
+]
+[[study]]
+name = "study"
+)toml" + study;
+}
+
+TEST_F(Report, EquilibriaOfASearchAreRowsWithPostures) {
+  page_of(upright_bar_text("kind = \"equilibria\"\nload = [0, -2]\n"));
+  const auto run = nlohmann::json::parse(report_data(read, results))["runs"][0];
+  ASSERT_EQ(run["branches"].size(), 1U);
+  const auto& list = run["branches"][0];
+  EXPECT_EQ(list["form"], "points");
+  EXPECT_EQ(list["file"], "equilibria/study-1.csv");
+  EXPECT_EQ(list["rows"], results[0].equilibria->list.size());
+  EXPECT_GE(list["rows"], 3);  // upright, and to both sides: q = 2 sin q
+  EXPECT_EQ(list["events"][0]["label"], "EQ1");
+  EXPECT_EQ(run["mechanisms"].size(), 1U);
+}
+
+TEST_F(Report, NodesOfAMapThatAreNotHeldHaveNoPosture) {
+  page_of(R"toml([[body]]
+name = "tool"
+task_space = "xy"
+pose = [0.5, 0.5]
+[[chain]]
+name = "arm"
+elements = [
+  { joint = "revolute", axis = "z", name = "shoulder", role = "actuated", value = 0, stiffness = 1 },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", name = "elbow", role = "actuated", value = 1.5, stiffness = 1 },
+  { rigid = [1, 0] },
+]
+[[study]]
+name = "reach"
+kind = "map"
+axes = [{ pose = "x", from = 1, to = 3, points = 3 }, { pose = "y", from = 0.5, to = 0.6, points = 2 }]
+)toml");
+  const auto run = nlohmann::json::parse(report_data(read, results))["runs"][0];
+  EXPECT_EQ(run["map"]["axes"][0]["points"], 3);
+  EXPECT_EQ(run["map"]["quantity"], "K_trans_min");
+  const auto& list = run["branches"][0];
+  EXPECT_EQ(list["form"], "nodes");
+  EXPECT_EQ(list["rows"], 6);
+  const RowScenes scenes{read.runs[0], results[0]};
+  const auto& nodes = results[0].branches[0].samples;
+  EXPECT_TRUE(scenes.scene_of(nodes[0]));   // at (1, 0.5), within the arm's reach of 2
+  EXPECT_FALSE(scenes.scene_of(nodes[2]));  // at (3, 0.5)
+  const auto texts = list["status"]["texts"].get<std::vector<std::string>>();
+  EXPECT_EQ(texts[list["status"]["of"][0].get<std::size_t>()], "ok");
+  EXPECT_THAT(texts[list["status"]["of"][2].get<std::size_t>()], HasSubstr("unreachable"));
+}
+
+TEST_F(Report, AreasOnWhichSpringsActHaveOutlines) {
+  read = load_case(SPRINGFOLD_SOURCE_DIR "/cases/shape-springs/case-pyramid.toml");
+  const PlannedRun& planned = read.runs.front();
+  PlannedRun run = planned;
+  run.plan.trace.maximum_points = 3;
+  results.push_back(analysis::run_study(run.mechanism, run.plan));
+  results.back().study = planned.study;
+  const auto page = nlohmann::json::parse(report_data(read, results));
+  const auto& outlines = page["runs"][0]["mechanisms"][0]["outlines"];
+  const auto points = page["runs"][0]["mechanisms"][0]["points"].get<std::size_t>();
+  ASSERT_FALSE(outlines.empty());
+  for (const auto& outline : outlines)
+    for (const auto& corner : outline["corners"]) EXPECT_LT(corner.get<std::size_t>(), points);
 }
 
 }  // namespace

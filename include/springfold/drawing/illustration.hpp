@@ -10,12 +10,18 @@
 
 namespace springfold::drawing {
 
-/// Orthographic: what of the world runs to the right of the picture and what runs up. Unit vectors,
-/// perpendicular.
+/// What of the world runs to the right of the picture and what runs up. Unit vectors, perpendicular.
 struct View {
   model::Vec3<double> right = model::Vec3<double>::UnitX();
   model::Vec3<double> up = model::Vec3<double>::UnitY();
+  /// Distance of the eye from the middle of the mechanism, in sizes of it; 0: far away, so that parallel lines stay
+  /// parallel (orthographic).
+  double eye = 0;
 };
+
+/// From so far a perspective looks at the mechanism, in sizes of it: what is near looks half as large again as what is
+/// far.
+inline constexpr double usual_eye = 2.5;
 
 /// Seen from far away, z up: from the direction at `azimuth` from x towards y and at `elevation` above
 /// the xy plane [rad].
@@ -40,7 +46,8 @@ struct Panel {
 };
 
 struct IllustrationOptions {
-  std::optional<View> view{};  ///< natural_view of the first scene if not given
+  std::optional<View> view{};   ///< natural_view of the first scene if not given
+  bool is_perspective = false;  ///< seen from near; what stays in a plane looks the same
   Colouring colouring = Colouring::stability;
   bool has_names = true;
   std::string title{};

@@ -185,7 +185,7 @@ struct PictureSpec {
   std::string title{};       ///< empty: the case's
   std::vector<int> runs{1};  ///< of every study that is named
   std::vector<PostureSpec> postures{};
-  std::string view{};                       ///< "xy", "xz", "yz"; empty: as drawing::natural_view
+  std::string view{};  ///< "xy", "xz", "yz", "perspective"; empty: as drawing::natural_view
   std::string colour = "stability";         ///< also "force", "energy", "none"
   std::vector<std::string> formats{"svg"};  ///< also "png"
 };

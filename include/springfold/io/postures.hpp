@@ -50,7 +50,7 @@ class RowScenes {
 std::string posture_title(const PlannedRun& planned, const std::string& what);
 
 /// Title and units of the case.
-/// @param view    "xy", "xz", "yz"; otherwise as drawing::natural_view
+/// @param view    "xy", "xz", "yz": these planes; "perspective": natural_view from near; otherwise natural_view
 /// @param colour  "force", "energy", "none"; otherwise stability
 drawing::IllustrationOptions illustration_options(const Case& the_case, const std::string& view,
                                                   const std::string& colour);
