@@ -2,7 +2,7 @@
 // What springfold wrote into the page, as numbers.
 
 /**
- * @typedef {{name: string, unit: string}} Quantity
+ * @typedef {{name: string, unit: string, rounding: number}} Quantity
  * @typedef {{label: string, code: string, row: number, detail: string, sentence: string, motion?: string,
  *            stiffness?: number[][]}} SpecialPoint
  * @typedef {{name: string, form: string, file: string, rows: number, start: number, values: string, points: string,
@@ -130,7 +130,14 @@ function stabilitiesAlong(run, branch) {
   return Array.from({length: branch.rows}, (_, i) => stabilityOf(driven[i], dead[i], constrained[i]));
 }
 
-/** @param {number} value */
-function brief(value) {
-  return Number.isNaN(value) ? "" : String(Number(value.toPrecision(7)));
+/** @param {number} value @param {number} [rounding]  what is no larger is zero */
+function brief(value, rounding) {
+  if (Number.isNaN(value)) return "";
+  return Math.abs(value) <= (rounding || 0) ? "0" : String(Number(value.toPrecision(7)));
+}
+
+/** A value in words.
+ * @param {Run} run @param {WrittenBranch} branch @param {number} row @param {number} column */
+function wordsAt(run, branch, row, column) {
+  return column < 0 ? "" : brief(valueAt(run, branch, row, column), run.quantities[column].rounding);
 }

@@ -7,15 +7,20 @@ const d3 = /** @type {any} */ (window)["d3"];
 /**
  * A list of rows as it is drawn.
  * @typedef {{run: Run, branch: WrittenBranch, number: number, x: Float64Array, y: Float64Array, kinds: string[],
- *            special: Set<number>}} Plot
+ *            special: Uint8Array}} Plot
  * @typedef {{kind: string, plot: Plot, path: string, spots: number[]}} Line
  */
 
 /** @param {Run} run @param {number} number @param {number} xColumn @param {number} yColumn @returns {Plot} */
 function plotOf(run, number, xColumn, yColumn) {
   const branch = run.branches[number];
-  return {run, branch, number, x: valuesAlong(run, branch, xColumn), y: valuesAlong(run, branch, yColumn),
-          kinds: stabilitiesAlong(run, branch), special: new Set(branch.events.map(e => e.row))};
+  const along = (/** @type {number} */ column) => {
+    const q = run.quantities[column], rounding = q ? q.rounding : 0;
+    return valuesAlong(run, branch, column).map(v => Math.abs(v) <= rounding ? 0 : v);
+  };
+  const special = new Uint8Array(branch.rows + 1);
+  for (const event of branch.events) special[event.row] = 1;
+  return {run, branch, number, x: along(xColumn), y: along(yColumn), kinds: stabilitiesAlong(run, branch), special};
 }
 
 class Diagram {
@@ -160,15 +165,19 @@ class Diagram {
     const x = this.line(this.x), y = this.line(this.y), last = plot.branch.rows - 1;
     /** @type {string[]} */ let path = [];
     /** @type {number[]} */ let spots = [];
-    let kind = "", lastX = 0, lastY = 0, step = 1;
+    const {special, kinds} = plot;
+    let kind = "", lastX = 0, lastY = 0;
     const end = () => { if (path.length > 1) lines.push({kind, plot, path: path.join("L"), spots}); path = []; spots = []; };
-    for (let i = 0; i < last; i += step) {
-      step = 1;
-      const ax = x.begin + x.slope * plot.x[i], ay = y.begin + y.slope * plot.y[i];
-      const bx = x.begin + x.slope * plot.x[i + 1], by = y.begin + y.slope * plot.y[i + 1];
+    let ax = NaN, ay = NaN, bx = x.begin + x.slope * plot.x[0], by = y.begin + y.slope * plot.y[0];
+    for (let i = 0; i < last; ++i) {
+      ax = bx;
+      ay = by;
+      bx = x.begin + x.slope * plot.x[i + 1];
+      by = y.begin + y.slope * plot.y[i + 1];
       if (!Number.isFinite(ax + ay + bx + by)) { end(); continue; }
+      const isSpecial = special[i] === 1, comesSpecial = special[i + 1] === 1;
       // A special point belongs to both sides: the row behind it says what follows.
-      const now = plot.kinds[plot.special.has(i) && !plot.special.has(i + 1) ? i + 1 : i];
+      const now = kinds[isSpecial && !comesSpecial ? i + 1 : i];
       if (now !== kind || path.length === 0) {
         end();
         kind = now;
@@ -177,7 +186,7 @@ class Diagram {
         lastX = ax;
         lastY = ay;
       }
-      const ends = i + 1 === last || plot.special.has(i + 1) || plot.kinds[i + 1] !== kind;
+      const ends = i + 1 === last || comesSpecial || kinds[i + 1] !== kind;
       if (!ends && Math.abs(bx - lastX) + Math.abs(by - lastY) < 0.7) continue;
       path.push(`${bx.toFixed(1)},${by.toFixed(1)}`);
       spots.push(bx, by);
@@ -291,6 +300,6 @@ class Diagram {
   /** @param {number} branch @param {number} row */
   isMarked(branch, row) {
     const plot = this.plots[branch];
-    return plot && (plot.branch.form === "points" || plot.special.has(row));
+    return plot && (plot.branch.form === "points" || plot.special[row] === 1);
   }
 }

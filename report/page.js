@@ -125,6 +125,7 @@ class ReportPage {
     this.stop();
     this.run = this.page.runs[number];
     const run = this.run;
+    this.branch = this.row = 0;
     byId("run").value = String(number);
     fill(byId("x"), run.quantities.map(q => q.name));
     fill(byId("y"), run.quantities.map(q => q.name));
@@ -168,7 +169,8 @@ class ReportPage {
     const key = byId("key");
     key.textContent = this.map ? this.map.words()
       : "Solid: stable under dead load. Long dashes: held as driven, unstable under dead load. Short dashes: unstable." +
-        (this.run.branches.some(b => b.form === "jump") ? " Dots: a jump." : "");
+        (this.run.branches.some(b => b.form === "jump") ? " Dots: a jump." : "") +
+        (this.run.branches.some(b => b.form === "points") ? " Marks: blue as solid lines, yellow as long dashes, orange as short ones." : "");
     if (this.map) append(key, "span").className = "ramp";
   }
 
@@ -210,7 +212,7 @@ class ReportPage {
         if (runs.length > 1) append(line, "td", String(run.run));
         for (const name of varied) append(line, "td", brief(run.parameters[name] ?? NaN));
         append(line, "td", branch.name);
-        for (const name of names) append(line, "td", brief(valueAt(run, branch, event.row, columnOf(run, name))));
+        for (const name of names) append(line, "td", wordsAt(run, branch, event.row, columnOf(run, name)));
         append(line, "td", event.detail);
         line.addEventListener("click", () => {
           this.stop();
@@ -261,10 +263,10 @@ class ReportPage {
     for (const event of b.events.filter(e => e.row === this.row)) {
       append(place, "h2", `${event.label}: ${event.detail || event.code}`);
       append(place, "p", event.sentence);
-      const eigenvalues = ["K_eig1", "K_eig2", "K_eig3"].map(n => valueAt(this.run, b, this.row, columnOf(this.run, n)))
-          .filter(v => !Number.isNaN(v)).map(brief);
+      const eigenvalues = ["K_eig1", "K_eig2", "K_eig3"].map(n => wordsAt(this.run, b, this.row, columnOf(this.run, n)))
+          .filter(text => text !== "");
       if (eigenvalues.length) append(place, "p", `Eigenvalues of the stiffness: ${eigenvalues.join(", ")}`);
-      if (event.stiffness) append(place, "p", `Stiffness: ${event.stiffness.map(r => r.map(brief).join("  ")).join(";  ")}`);
+      if (event.stiffness) append(place, "p", `Stiffness: ${event.stiffness.map(r => r.map(v => brief(v)).join("  ")).join(";  ")}`);
       if (!event.motion || !this.view) continue;
       const button = append(place, "button", event.code === "LP" ? "Show the buckling mode" : "Show the motion along the branch");
       button.type = "button";
@@ -289,7 +291,7 @@ class ReportPage {
     }
     this.run.quantities.forEach((_, i) => {
       const value = valueAt(this.run, b, this.row, i), cell = table.rows[i].cells[1];
-      cell.textContent = brief(value);
+      cell.textContent = wordsAt(this.run, b, this.row, i);
       cell.dataset.value = Number.isNaN(value) ? "" : String(value);
     });
   }

@@ -20,5 +20,6 @@ sed '/^expected/d; s/^kind = "snap_through"$/trace = { spacing = 2.5e-5 }/; /^\[
 page toggle "$folder/toggle.toml"
 page long "$folder/long.toml"
 page figure "$here/cases/orthoglide-planar/case-figure-5.toml"
+page platform "$here/cases/rpr-platform/case.toml"
 page dome "$here/cases/n-bar-dome/case.toml"
 timeout -s KILL 150 node "$here/tests/browser/page_test.mjs" chromium "$folder" ${2:+"$2"} ${3:+"$3"}

@@ -9,6 +9,7 @@
 #include "result_access.hpp"
 #include "sha256.hpp"
 #include "springfold/io/postures.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "text.hpp"
 #include "work_folder.hpp"
 
@@ -151,7 +152,7 @@ void draw_case_pictures(const fs::path& folder, const Case& the_case,
     const auto panels = panels_of(spec, the_case, results, outcome.warnings);
     if (panels.empty()) continue;
     auto look = illustration_options(the_case, spec.view, spec.colour);
-    if (!spec.title.empty()) look.title = spec.title;
+    if (!spec.title.empty()) look.title = shown(spec.title);
     draw_picture(folder, spec, files[i], illustrate(panels, look), options, outcome);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "label_layout.hpp"
 #include "motion_figure.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "smooth_line.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -53,9 +54,18 @@ struct Axes {
   bool is_traced = false;  ///< rows lie on curves over arc length
   int hue = 0;             ///< of several quantities: the number of this one
   bool has_start = true;   ///< false: its rows begin where they are found first
+  std::vector<double>
+      sizes{};  ///< of the result's quantities; nothing is rounding where there are none
 
   PlotPoint point(const StudyResult& result, const Branch& branch, std::size_t row) const {
-    return place(value_at(result, branch, row, spec.x), value_at(result, branch, row, y));
+    return place(value(result, branch, row, spec.x), value(result, branch, row, y));
+  }
+
+  double value(const StudyResult& result, const Branch& branch, std::size_t row,
+               const std::string& quantity) const {
+    const auto column = column_of(result, quantity);
+    return column ? shown_in(sizes, *column, value_at(result, branch, row, quantity))
+                  : std::numeric_limits<double>::quiet_NaN();
   }
 
   PlotPoint place(double across, double up) const {
@@ -224,6 +234,8 @@ void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
   const PlannedRun* planned = plan_of(the_case, result);
   Axes axes{.spec = spec, .units = the_case.units, .y = spec.y};
   axes.has_start = planned == nullptr || planned->plan.kind != analysis::StudyKind::critical_load;
+  // On a logarithmic axis rounding is seen for what it is.
+  if (!spec.look.x_log && !spec.look.y_log) axes.sizes = quantity_sizes(result);
   axes.is_traced = planned != nullptr &&
                    (planned->plan.kind == analysis::StudyKind::force_deflection ||
                     analysis::is_of_critical_points(planned->plan.kind)) &&

@@ -26,7 +26,9 @@ struct AxisRange {
       const double factor = high > low ? std::pow(high / low, 0.05) : 1.05;
       return {low / factor, high * factor, true};
     }
-    const double room = 0.05 * (high > low ? high - low : std::max(std::abs(low), 1e-3));
+    // Nothing but zeros: ticks of any size would be wrong but those around 0.
+    if (low == 0 && high == 0) return {-1, 1};
+    const double room = 0.05 * (high > low ? high - low : std::abs(low));
     return {low - room, high + room};
   }
 };

@@ -8,6 +8,7 @@
 #include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/run.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "springfold/io/start_text.hpp"
 #include "text.hpp"
 
@@ -195,7 +196,7 @@ drawing::IllustrationOptions illustration_options(const Case& the_case, const st
                                                   const std::string& colour) {
   using Vec = model::Vec3<double>;
   drawing::IllustrationOptions options;
-  options.title = the_case.title;
+  options.title = shown(the_case.title);
   options.force_unit = the_case.units.force;
   options.energy_unit = the_case.units.force + "·" + the_case.units.length;
   options.colouring = colour == "force"    ? drawing::Colouring::force

@@ -9,6 +9,7 @@
 
 #include "map_figure.hpp"
 #include "nothing.hpp"
+#include "quantity_sizes.hpp"
 #include "report_lists.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
@@ -239,9 +240,13 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
                {"map", map_of(planned)},
                {"quantities", Json::array()},
                {"branches", Json::array()}};
-  for (const auto& q : result.quantities)
-    json["quantities"].push_back(
-        {{"name", q.name}, {"unit", unit_label(q.unit, result.lambda_unit, the_case.units)}});
+  const std::vector<double> sizes = quantity_sizes(result);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const analysis::Quantity& q = result.quantities[i];
+    json["quantities"].push_back({{"name", q.name},
+                                  {"unit", unit_label(q.unit, result.lambda_unit, the_case.units)},
+                                  {"rounding", shown_below(sizes[i])}});
+  }
   const PageLists page = page_lists_of(planned, result, files, equilibria, the_case.units);
   const RowScenes scenes{planned, result};
   Layouts layouts;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quantity_sizes.hpp"
 #include "report_data.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -19,7 +20,8 @@ using analysis::StudyResult;
 
 constexpr int page_digits = 6;  // of numbers in sentences
 
-RowsForm form_of(const PlannedRun& planned) {
+RowsForm form_of(const PlannedRun& planned, const analysis::Branch& branch) {
+  if (branch.samples.size() == 1) return RowsForm::points;
   const auto& map = planned.plan.map;
   if (planned.plan.kind == StudyKind::map && map.axes.size() > 1) return RowsForm::nodes;
   return planned.plan.kind == StudyKind::workspace ? RowsForm::points : RowsForm::curve;
@@ -34,7 +36,7 @@ void add_branches(const PlannedRun& planned, const StudyResult& result,
                               : "branch " + std::to_string(b + 1) +
                                     (branch.origin.empty() ? "" : " from " + branch.origin),
                   .file = b < files.size() ? files[b] : "",
-                  .form = form_of(planned),
+                  .form = form_of(planned, branch),
                   .start = branch.start_row};
     for (const Sample& row : branch.samples) list.rows.push_back(&row);
     for (const analysis::Event& event : branch.events)
@@ -132,7 +134,7 @@ void add_states(const StudyResult& result, PageLists& page) {
 }
 
 /// Does the quantity change by more than rounding along any list?
-bool varies(const StudyResult& result, std::string_view name) {
+bool varies(const StudyResult& result, const std::vector<double>& sizes, std::string_view name) {
   const auto column = column_of(result, name);
   if (!column) return false;
   constexpr double rounding = 1e-9;  // of its largest value
@@ -141,12 +143,37 @@ bool varies(const StudyResult& result, std::string_view name) {
     for (const Sample& row : branch.samples) {
       const double value = *column < row.values.size() ? row.values[*column] : NAN;
       if (!std::isfinite(value)) continue;
+      if (shown_in(sizes, *column, value) == 0) {
+        low = std::min(low, 0.0);
+        high = std::max(high, 0.0);
+        continue;
+      }
       low = std::min(low, value);
       high = std::max(high, value);
     }
     if (high - low > rounding * std::max(std::abs(low), std::abs(high))) return true;
   }
   return false;
+}
+
+/// The coordinate of the study's body in which the equilibria differ most.
+std::string pose_of(const PlannedRun& planned, const StudyResult& result) {
+  const std::string& body =
+      planned.mechanism.bodies[static_cast<std::size_t>(planned.plan.body - 1)].name;
+  std::string widest;
+  double most = -1;
+  for (std::size_t i = 0; i < result.quantities.size(); ++i) {
+    const std::string& name = result.quantities[i].name;
+    if (!name.starts_with(body + ".") || name.find('.', body.size() + 1) != std::string::npos)
+      continue;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const analysis::Equilibrium& at : result.equilibria->list) {
+      low = std::min(low, at.sample.values[i]);
+      high = std::max(high, at.sample.values[i]);
+    }
+    if (high - low > most) most = high - low, widest = name;
+  }
+  return widest;
 }
 
 }  // namespace
@@ -178,9 +205,10 @@ PageLists page_lists_of(const PlannedRun& planned, const StudyResult& result,
 }
 
 PageAxes page_axes_of(const PlannedRun& planned, const StudyResult& result) {
+  const std::vector<double> sizes = quantity_sizes(result);
   const auto first = [&](std::initializer_list<std::string> names) {
     for (const std::string& name : names)
-      if (varies(result, name)) return name;
+      if (varies(result, sizes, name)) return name;
     return std::string{};
   };
   const auto& map = planned.plan.map;
@@ -190,12 +218,13 @@ PageAxes page_axes_of(const PlannedRun& planned, const StudyResult& result) {
     return {map.axes[0].name,
             first({"critical_load", "stiffness", "K_trans_min", "K_rot_min", "energy"})};
   if (analysis::is_of_critical_points(planned.plan.kind) &&
-      varies(result, planned.plan.critical.parameter))
+      varies(result, sizes, planned.plan.critical.parameter))
     return {planned.plan.critical.parameter, first({"lambda", "force", "energy"})};
-  if (result.equilibria) return {"", "energy"};
+  if (result.equilibria) return {pose_of(planned, result), "energy"};
   const std::string x = first({"deflection", "path", "size", "lambda", "s"});
   if (x == "deflection") return {x, first({"force", "lambda", "energy"})};
-  return {x, first({"force", x == "lambda" ? "energy" : "lambda", "energy", "width", "s"})};
+  return {x,
+          first({"force", x == "lambda" ? "energy" : "lambda", "energy", "K_eig1", "width", "s"})};
 }
 
 }  // namespace springfold::io

@@ -141,9 +141,13 @@ double column_value(const analysis::StudyResult& result, const analysis::SnapSta
   return column && *column < state.values.size() ? state.values[*column] : nothing;
 }
 
-double shown_against(double value, double scale) {
+double shown_below(double scale) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  return std::abs(value) <= rounding * scale ? 0 : value;
+  return rounding * scale;
+}
+
+double shown_against(double value, double scale) {
+  return std::abs(value) <= shown_below(scale) ? 0 : value;
 }
 
 double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,

@@ -32,6 +32,9 @@ inline const std::string saddle_prefix = "saddle.";
 double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
                     std::string_view name);
 
+/// What is no larger is rounding beside the scale.
+double shown_below(double scale);
+
 /// The number for people: 0 where it is nothing but rounding beside the scale.
 double shown_against(double value, double scale);
 

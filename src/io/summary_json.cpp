@@ -8,6 +8,7 @@
 #include "result_access.hpp"
 #include "result_tables.hpp"
 #include "springfold/io/results.hpp"
+#include "sweep_points.hpp"
 #include "sweep_tables.hpp"
 
 namespace springfold::io {
@@ -270,6 +271,32 @@ Json sweeps_json(const Case& the_case, const std::vector<StudyResult>& results) 
   return list;
 }
 
+/// Special points over the parameters: every point of every run with all columns.
+Json sweep_points_json(const std::vector<SweepPoints>& sweeps,
+                       const std::vector<std::string>& files) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    Json runs = Json::array();
+    for (const SweepPoints::Run& run : sweeps[i].runs) {
+      Json json = {{"run", run.planned->run}, {"parameters", Json::object()}};
+      for (const std::string& name : sweeps[i].parameters)
+        json["parameters"][name] = varied_value(run.planned, name);
+      json["points"] = Json::object();
+      for (std::size_t p = 0; p < sweeps[i].labels.size(); ++p)
+        if (const auto& place = run.places[p])
+          json["points"][sweeps[i].labels[p]] =
+              by_quantity(*run.result, place->branch->samples[place->row].values);
+      runs.push_back(std::move(json));
+    }
+    list.push_back({{"study", sweeps[i].study},
+                    {"file", files[i]},
+                    {"parameters", sweeps[i].parameters},
+                    {"labels", sweeps[i].labels},
+                    {"runs", std::move(runs)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const Case& the_case, const std::vector<StudyResult>& results) {
@@ -289,6 +316,9 @@ std::string summary_json(const Case& the_case, const std::vector<StudyResult>& r
       summary["runs"].push_back(json_of(results[i], plan_of(the_case, results[i]), the_case.units,
                                         files[i], equilibria[i]));
   if (!the_case.sweeps.empty()) summary["sweeps"] = sweeps_json(the_case, results);
+  const std::vector<SweepPoints> sweeps = sweep_points_of(the_case, results);
+  if (!sweeps.empty())
+    summary["sweep_points"] = sweep_points_json(sweeps, sweep_points_files(the_case, sweeps));
   summary["comparisons"] = Json::array();
   for (const auto& comparison : compare(the_case.expected, results))
     summary["comparisons"].push_back(comparison_json(comparison));

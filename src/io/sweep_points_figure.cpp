@@ -6,6 +6,7 @@
 #include "result_access.hpp"
 #include "stability_parts.hpp"
 #include "sweep_points.hpp"
+#include "sweep_tracks.hpp"
 
 namespace springfold::io {
 namespace {
@@ -25,21 +26,30 @@ bool is_shown(const PlotCurves& curves, int run) {
          std::find(curves.runs.begin(), curves.runs.end(), run) != curves.runs.end();
 }
 
-/// The point of this number in all runs, by the parameter.
-std::vector<SweepMark> marks_of(const SweepPoints& sweep, const PlotCurves& curves,
-                                std::size_t point, const PlotSpec& spec,
+/// The runs that are shown, by the parameter.
+std::vector<const SweepPoints::Run*> runs_of(const SweepPoints& sweep, const PlotCurves& curves,
+                                             const std::string& parameter) {
+  std::vector<const SweepPoints::Run*> runs;
+  for (const SweepPoints::Run& run : sweep.runs)
+    if (is_shown(curves, run.planned->run)) runs.push_back(&run);
+  std::stable_sort(runs.begin(), runs.end(), [&](const auto* a, const auto* b) {
+    return varied_value(a->planned, parameter) < varied_value(b->planned, parameter);
+  });
+  return runs;
+}
+
+/// The points of a track in all runs.
+std::vector<SweepMark> marks_of(const std::vector<const SweepPoints::Run*>& runs,
+                                const SweepTrack& track, const PlotSpec& spec,
                                 const std::string& quantity) {
   std::vector<SweepMark> marks;
-  for (const SweepPoints::Run& run : sweep.runs) {
-    if (!is_shown(curves, run.planned->run)) continue;
-    const double parameter = varied_value(run.planned, parameter_of(spec));
-    const auto& place = run.places[point];
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double parameter = varied_value(runs[r]->planned, parameter_of(spec));
+    const auto& place = track.points[r] ? runs[r]->places[*track.points[r]] : std::nullopt;
     const double up =
-        place ? value_at(*run.result, *place->branch, place->row, quantity) : std::nan("");
+        place ? value_at(*runs[r]->result, *place->branch, place->row, quantity) : std::nan("");
     marks.push_back({parameter, {spec.x_factor * parameter, spec.y_factor * up}});
   }
-  std::stable_sort(marks.begin(), marks.end(),
-                   [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
   return marks;
 }
 
@@ -58,17 +68,27 @@ std::vector<CurvePart> joined(const std::vector<SweepMark>& marks) {
   return parts;
 }
 
-/// The points of one label: marks, joined where nothing else varies.
-void add_point(const SweepPoints& sweep, const PlotCurves& curves, std::size_t point,
-               const PlotSpec& spec, const std::string& quantity, const std::string& label,
-               Figure& figure) {
-  const std::vector<SweepMark> marks = marks_of(sweep, curves, point, spec, quantity);
+/// Where several parameters vary neighbours are no neighbours: the points of one label.
+std::vector<SweepTrack> labelled(const SweepPoints& sweep,
+                                 const std::vector<const SweepPoints::Run*>& runs) {
+  std::vector<SweepTrack> tracks;
+  for (std::size_t i = 0; i < sweep.labels.size(); ++i) {
+    tracks.push_back({.name = sweep.labels[i], .code = sweep.codes[i]});
+    for (const SweepPoints::Run* run : runs)
+      tracks.back().points.push_back(run->places[i] ? std::optional{i} : std::nullopt);
+  }
+  return tracks;
+}
+
+/// The points of one track: marks, joined where nothing else varies.
+void add_track(const std::vector<SweepMark>& marks, const std::string& code,
+               const std::string& label, bool is_joined, Figure& figure) {
   FigureCurve curve{.label = {label}, .hue = static_cast<int>(figure.curves.size()) + 1};
-  if (sweep.parameters.size() == 1) curve.parts = joined(marks);
+  if (is_joined) curve.parts = joined(marks);
   bool is_named = !curve.parts.empty();
   for (const SweepMark& mark : marks) {
     if (!is_finite(mark.at)) continue;
-    figure.marks.push_back({sweep.codes[point], is_named ? "" : label, mark.at});
+    figure.marks.push_back({code, is_named ? "" : label, mark.at});
     is_named = true;
   }
   if (curve.parts.empty()) return;
@@ -101,11 +121,14 @@ void add_sweep_points(const Case& the_case, const PlotSpec& spec,
       if (figure.y_title.text.empty())
         figure.y_title = ordinate_title(spec, *sweep.runs.front().result, the_case.units);
       const std::string of_study = spec.curves.size() > 1 ? sweep.study + ": " : "";
+      const auto runs = runs_of(sweep, curves, parameter_of(spec));
+      const bool is_joined = sweep.parameters.size() == 1;
+      const auto tracks = is_joined ? tracks_of(sweep, runs) : labelled(sweep, runs);
       for (const std::string& quantity : quantities)
-        for (std::size_t i = 0; i < sweep.labels.size(); ++i)
-          add_point(sweep, curves, i, spec, quantity,
-                    of_study + sweep.labels[i] + (quantities.size() > 1 ? ", " + quantity : ""),
-                    figure);
+        for (const SweepTrack& track : tracks)
+          add_track(marks_of(runs, track, spec, quantity), track.code,
+                    of_study + track.name + (quantities.size() > 1 ? ", " + quantity : ""),
+                    is_joined, figure);
     }
 }
 

@@ -1,5 +1,5 @@
 // The HTML page in a real browser: node page_test.mjs CHROMIUM FOLDER [SCREENSHOTS] [--renew]
-// FOLDER holds the results of the cases toggle, figure, long and dome, each with report.html; scripts/browser-test.sh makes
+// FOLDER holds the results of the cases toggle, figure, dome, platform and long, each with report.html; scripts/browser-test.sh makes
 // it. SCREENSHOTS: a folder for what was seen, to be looked at. --renew keeps it as what later runs are compared with.
 // Ends with 0 if all holds.
 import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
@@ -158,6 +158,22 @@ async function inSpace() {
   expect(await links() === straight, "r turns it back");
 }
 
+/** Every run of every study, by the choice of runs: whatever it has is shown, and nothing is complained of. */
+async function allRuns(name) {
+  await tab.load(join(folder, name, "report.html"));
+  const runs = await value("document.getElementById('run').options.length");
+  let shown = 0;
+  for (let i = 0; i < runs; ++i) {
+    await value(`(() => { const s = document.getElementById('run'); s.value = '${i}'; s.dispatchEvent(new Event('change')); })()`);
+    await tab.settle();
+    const lists = await value("document.getElementById('branch').options.length");
+    const marks = await value("document.querySelectorAll('#diagram .curve, #diagram circle.special').length");
+    if (lists === 0 || (marks > 0 && await value("document.querySelectorAll('#mechanism *').length > 5"))) ++shown;
+  }
+  expect(runs > 1 && shown === runs, `${shown} of ${runs} runs of ${name} are shown`);
+  expect(browser.complaints.length === 0, `without complaints ${browser.complaints.join("; ")}`);
+}
+
 /** Script time per frame while the mouse drags and the wheel zooms, measured by the browser itself [ms]. */
 async function longCurve() {
   const place = join(folder, "long");
@@ -187,7 +203,7 @@ async function longCurve() {
 }
 
 try {
-  for (const part of [curve, map, inSpace, longCurve]) await part();
+  for (const part of [curve, map, inSpace, () => allRuns("platform"), longCurve]) await part();
   expect(browser.complaints.length === 0, `no errors on the console ${browser.complaints.join("; ")}`);
 } catch (error) {
   console.error(error, browser.complaints);

@@ -133,6 +133,12 @@ TEST_F(CasePictures, ShowTextsOfTheCaseAsText) {
   EXPECT_THAT(drawn("bait.svg"), HasSubstr(">" + shown + ": EP2<")) << "name of the study";
 }
 
+TEST_F(CasePictures, WriteOutWhatIsNoVisibleCharacterOfATitle) {
+  draw(with("name = \"two\"\nat = \"push/EP2\"\ntitle = \"one\\ntwo\\u0007\""));
+  EXPECT_THAT(drawn("two.svg"), HasSubstr(R"(>one\ntwo\x07<)"));
+  EXPECT_THAT(drawn("two.svg"), Not(HasSubstr("\uFFFD")));
+}
+
 TEST_F(CasePictures, OfTheGuessAreDrawnWhereNothingCouldBeSolved) {
   const auto outcome = draw(cli::too_short() + "[[picture]]\nname = \"wanted\"\nat = \"guess\"\n");
   EXPECT_THAT(about_pictures(outcome.warnings), IsEmpty());

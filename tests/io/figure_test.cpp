@@ -95,7 +95,27 @@ TEST(FiguresOf, ShowOneFigurePerStudyWhenTheCaseAsksForNone) {
   ASSERT_THAT(figure.curves[0].parts, SizeIs(3))
       << "stable, unstable_part between the folds, stable_part";
   EXPECT_EQ(figure.curves[0].parts[1].stability, unstable_part);
-  EXPECT_THAT(figure.marks, SizeIs(6)) << "two folds and a start each, no ends";
+  EXPECT_THAT(figure.marks, SizeIs(5)) << "two folds each and the start of both, no ends";
+}
+
+TEST(FiguresOf, SayThatValuesOfTheSizeOfRoundingAreZero) {
+  auto results = sample::two_results();
+  results.resize(1);
+  double sign = 1;
+  for (analysis::Sample& row : results[0].branches[0].samples) {
+    row.values[5] = 1;                       // point.x [m]: the size of lengths
+    row.values[6] = (sign = -sign) * 1e-17;  // point.y [m]
+  }
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .x = "deflection", .y = "point.y"}};
+  the_case.plots[0].curves = {{.study = "push from Q2", .runs = {1}}};
+  std::vector<std::string> problems;
+  const auto figures = figures_of(the_case, results, problems);
+  ASSERT_THAT(figures, SizeIs(1));
+  for (const CurvePart& part : figures[0].curves[0].parts)
+    for (const PlotPoint& at : part.line) EXPECT_EQ(at.second, 0);
+  EXPECT_EQ(figures[0].low.second, -1);
+  EXPECT_EQ(figures[0].high.second, 1);
 }
 
 TEST(FiguresOf, ApplyFactorsLabelsAndTheChoiceOfRuns) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "case_files.hpp"
@@ -154,8 +155,11 @@ TEST_F(SweepPointsTest, AreNotJoinedAcrossARunWithoutThem) {
   for (const double k : {0.0, 0.005, 0.01, 0.015}) add_run(k);
   std::erase_if(results[1].branches[0].events, [](const auto& e) { return e.label == "LP1"; });
   const Figure drawn = figure({.x = "parameter.Kv"});
-  ASSERT_THAT(drawn.curves[0].parts, SizeIs(1));
-  EXPECT_EQ(drawn.curves[0].parts[0].line.front().first, 0.01);
+  const auto behind = std::find_if(drawn.curves.begin(), drawn.curves.end(),
+                                   [](const FigureCurve& c) { return c.label.text == "LP1"; });
+  ASSERT_NE(behind, drawn.curves.end());
+  ASSERT_THAT(behind->parts, SizeIs(1));
+  EXPECT_EQ(behind->parts[0].line.front().first, 0.01);
   EXPECT_EQ(std::count_if(drawn.marks.begin(), drawn.marks.end(),
                           [](const FigureMark& mark) { return mark.code == "LP"; }),
             3 + 4);
@@ -167,6 +171,62 @@ TEST_F(SweepPointsTest, AreNotJoinedWhereSomethingElseVariesToo) {
   const Figure drawn = figure({.x = "parameter.Kv"});
   EXPECT_THAT(drawn.curves, IsEmpty());
   EXPECT_THAT(drawn.marks, SizeIs(4));
+}
+
+/// Points on the lines lambda = line(k): a run has those with a line, labelled in their order.
+class SweepTracks : public SweepPointsTest {
+ protected:
+  void add_lines(double k, const std::vector<double>& lambdas) {
+    add_run(k);
+    analysis::StudyResult& result = results.back();
+    analysis::Branch& branch = result.branches[0];
+    branch.events.clear();
+    for (std::size_t i = 0; i < lambdas.size(); ++i) {
+      branch.events.push_back({.kind = analysis::EventKind::limit_point,
+                               .label = "LP" + std::to_string(i + 1),
+                               .row = i});
+      for (const std::size_t column : {1, 2, 3}) branch.samples[i].values[column] = lambdas[i];
+    }
+  }
+};
+
+TEST_F(SweepTracks, APointKeepsItsLineWhereAPairAppearsBeforeIt) {
+  add_lines(0.0, {5.0});
+  add_lines(0.1, {5.1});
+  add_lines(0.2, {1.0, 1.4, 5.2});
+  add_lines(0.3, {0.8, 1.6, 5.3});
+  const Figure drawn = figure({.x = "parameter.Kv", .y = "lambda"});
+  ASSERT_THAT(drawn.curves, SizeIs(3));
+  EXPECT_EQ(drawn.curves[0].label.text, "LP1/LP3");
+  EXPECT_THAT(drawn.curves[0].parts.at(0).line,
+              ElementsAre(PlotPoint{0.0, 5.0}, PlotPoint{0.1, 5.1}, PlotPoint{0.2, 5.2},
+                          PlotPoint{0.3, 5.3}));
+  EXPECT_EQ(drawn.curves[1].label.text, "LP1");
+  EXPECT_THAT(drawn.curves[1].parts.at(0).line,
+              ElementsAre(PlotPoint{0.2, 1.0}, PlotPoint{0.3, 0.8}));
+}
+
+TEST_F(SweepTracks, APointKeepsItsLineWhereAPairBeforeItVanishes) {
+  add_lines(0.0, {1.0, 1.4, 5.0, 7.0});
+  add_lines(0.1, {5.1, 7.1});
+  const Figure drawn = figure({.x = "parameter.Kv", .y = "lambda"});
+  ASSERT_THAT(drawn.curves, SizeIs(2));
+  EXPECT_EQ(drawn.curves[0].label.text, "LP3/LP1");
+  EXPECT_EQ(drawn.curves[1].label.text, "LP4/LP2");
+  EXPECT_THAT(drawn.marks, SizeIs(6)) << "the pair has marks and no line";
+}
+
+TEST_F(SweepPointsTest, AreInTheSummaryWithAllColumns) {
+  for (const double k : {0.0, 0.01}) add_run(k);
+  const auto summary = nlohmann::json::parse(summary_json(the_case, results));
+  const auto& runs = summary["sweep_points"][0]["runs"];
+  EXPECT_EQ(runs[1]["parameters"]["Kv"], 0.01);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& row = results[i].branches[0].samples[results[i].branches[0].events[0].row];
+    ASSERT_EQ(results[i].branches[0].events[0].label, "LP1");
+    EXPECT_EQ(runs[i]["points"]["LP1"].size(), results[i].quantities.size());
+    EXPECT_EQ(runs[i]["points"]["LP1"]["force"], row.values[3]);
+  }
 }
 
 TEST_F(SweepPointsTest, ThatLieOnEachOtherShareALine) {

@@ -1,0 +1,17 @@
+// How large the quantities of a run are, so that rounding can be told from values. Private to io.
+#pragma once
+
+#include <vector>
+
+#include "springfold/analysis/result.hpp"
+
+namespace springfold::io {
+
+/// Per quantity what its rounding is measured by: the largest value of its unit in the run, and at least that of what
+/// it is made of (a moment: force times length; an angle: 1 rad). Against it, shown_against tells what is zero.
+std::vector<double> quantity_sizes(const analysis::StudyResult& result);
+
+/// The same for a result whose sizes are known; the value itself where there are none.
+double shown_in(const std::vector<double>& sizes, std::size_t column, double value);
+
+}  // namespace springfold::io
