@@ -5,6 +5,7 @@
 
 #include "compared_quantity.hpp"
 #include "comparison_text.hpp"
+#include "fitted_table.hpp"
 #include "nothing.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
@@ -50,6 +51,35 @@ std::vector<std::string> groups_of(const std::vector<Comparison>& comparisons) {
   return groups;
 }
 
+std::string source_number(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
+
+/// A row, and further ones for the words of its name that have no room. Sources stand below, each once.
+void add_rows(const Comparison& comparison, std::vector<std::string>& sources,
+              std::vector<std::vector<std::string>>& rows) {
+  constexpr std::size_t name_width = 26;  // so that the numbers fit behind it
+  std::vector<std::string> cells = comparison_cells(comparison);
+  if (std::string& source = cells.back(); !source.empty()) {
+    const auto known = std::find(sources.begin(), sources.end(), source);
+    const auto number = static_cast<std::size_t>(known - sources.begin());
+    if (known == sources.end()) sources.push_back(source);
+    source = source_number(number);
+  }
+  const std::vector<std::string> name = wrapped(shown(cells.front()), name_width);
+  for (std::size_t i = 1; i < name.size(); ++i) rows.push_back({name[i - 1]});
+  if (!name.empty()) cells.front() = name.back();
+  rows.push_back(std::move(cells));
+}
+
+/// In lines that fit a terminal, the first one after `lead`, the others below its text.
+std::string hanging(std::string lead, const std::string& words) {
+  std::string text;
+  for (const auto& line : wrapped(words, table_width - lead.size())) {
+    text += lead + shown(line) + "\n";
+    lead.assign(lead.size(), ' ');
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<Comparison> compare(const Expectations& expected,
@@ -71,12 +101,13 @@ std::string comparison_table(const std::vector<Comparison>& comparisons,
   constexpr Align l = Align::left, r = Align::right;
   // One table for all groups, so that their columns stand under each other.
   std::vector<std::vector<std::string>> rows = {
-      {"value", "ours", "reference", "difference", "tolerance", "", "source"}};
+      {"value", "ours", "reference", "difference", "tolerance", "", "from"}};
   std::vector<std::pair<std::size_t, std::string>> headings;  // before which row
+  std::vector<std::string> sources;
   for (const auto& group : groups_of(comparisons)) {
     headings.emplace_back(rows.size(), group);
     for (const auto& comparison : comparisons)
-      if (comparison.expected.group == group) rows.push_back(comparison_cells(comparison));
+      if (comparison.expected.group == group) add_rows(comparison, sources, rows);
   }
 
   std::string text = "Compared with reference values\n\n";
@@ -93,14 +124,11 @@ std::string comparison_table(const std::vector<Comparison>& comparisons,
     text += table.substr(at, end - at);
     at = end;
   }
+  if (!sources.empty()) text += "\n  Sources\n";
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    text += hanging("  " + source_number(i) + " ", sources[i]);
   if (!expected.notes.empty()) text += "\n  Notes\n";
-  for (const auto& note : expected.notes) {
-    std::string lead = "  - ";
-    for (const auto& line : wrapped(note, 96)) {
-      text += lead + shown(line) + "\n";
-      lead = "    ";
-    }
-  }
+  for (const auto& note : expected.notes) text += hanging("  - ", note);
   return text;
 }
 

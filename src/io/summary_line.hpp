@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "fitted_table.hpp"
 #include "springfold/io/shown_text.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 
@@ -13,13 +15,21 @@ inline constexpr int summary_digits = 10;
 inline constexpr std::size_t summary_indent = 4;
 inline constexpr std::size_t summary_label_width = 14;
 
-/// "    pose          text".
+/// "    pose          text". What has no room in a line of a terminal goes on below the text.
 inline std::string summary_line(std::string_view label, const std::string& text) {
   std::string padded{label};
   padded.resize(std::max(padded.size(), summary_label_width), ' ');
-  std::string whole = std::string(summary_indent, ' ') + padded + shown(text);
+  std::string lead = std::string(summary_indent, ' ') + padded;
+  const std::string words = shown(text);
+  std::string whole = lead + words;
   whole.erase(whole.find_last_not_of(' ') + 1);
-  return whole + "\n";
+  if (width_of(whole) <= table_width) return whole + "\n";
+  std::string lines;
+  for (const std::string& line : wrapped(words, table_width - width_of(lead))) {
+    lines += lead + line + "\n";
+    lead.assign(lead.size(), ' ');
+  }
+  return lines;
 }
 
 /// The words of an unresolved point, so that it is seen: "UNRESOLVED: ...". Details may say it already.

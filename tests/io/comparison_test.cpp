@@ -1,6 +1,8 @@
 // Expected values of a case: how a point is picked, and what may be compared there.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "case_files.hpp"
 #include "io/compared_quantity.hpp"
 #include "springfold/analysis/run.hpp"
@@ -177,6 +179,31 @@ TEST(MatrixEntries, NameTheBodyWhereThereAreSeveral) {
   two.bodies = {{"a", model::TaskSpace::xy, Vector::Zero(2)},
                 {"b", model::TaskSpace::xy, Vector::Zero(2)}};
   EXPECT_EQ(matrix_entries(two)[2].name, "K.a.x.b.x");
+}
+
+TEST(ComparisonTable, FitsATerminalWithLongNamesAndNamesEachSourceOnce) {
+  const std::string name =
+      "the load at which the second of all modes appears, in parts of the first";
+  std::vector<Comparison> comparisons;
+  for (const char* source : {"a closed form", "another program", "a closed form"})
+    comparisons.push_back({.expected = {.name = name,
+                                        .expected = -0.123456789012,
+                                        .tolerance = 1e-10,
+                                        .source = source},
+                           .ours = -0.12345678901,
+                           .holds = true});
+  const std::string table = comparison_table(comparisons, {});
+  std::istringstream lines{table};
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  const auto count = [&table](const std::string& text) {
+    std::size_t times = 0;
+    for (std::size_t at = 0; (at = table.find(text, at)) != std::string::npos; ++at) ++times;
+    return times;
+  };
+  EXPECT_EQ(count("[1]"), 3U);  // two values and the source itself
+  EXPECT_EQ(count("[2]"), 2U);
+  EXPECT_EQ(count("a closed form"), 1U);
+  EXPECT_EQ(count("parts of the"), 3U);
 }
 
 TEST_F(Expected, AreShownInOneTableWithTheCaseTheSourceAndTheFaults) {

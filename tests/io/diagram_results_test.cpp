@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "io/figure.hpp"
 #include "io/label_layout.hpp"
 #include "io/result_access.hpp"
 #include "io/result_tables.hpp"
 #include "io/sample_results.hpp"
+#include "io/summary_line.hpp"
 #include "springfold/io/results.hpp"
 
 namespace springfold::io {
@@ -72,8 +74,25 @@ TEST(SummaryOfADiagram, SaysHowManyEquilibriaWereFoundAndTraced) {
   const std::string table = summary_table(one_run(), {result});
   EXPECT_THAT(table, HasSubstr("lambda = 0.5: at least 2 other equilibria found, all traced"));
   EXPECT_THAT(table, HasSubstr("lambda = 1: at least 3 other equilibria found, 1 traced; 4 "
-                               "further out of range, not traced"));
+                               "further out\n                  of range, not traced"));
   EXPECT_THAT(table, HasSubstr("branch 3      found by the search at lambda = 1"));
+}
+
+TEST(SummaryLine, GoesOnBelowItsTextWhereATerminalHasNoRoom) {
+  std::string words;
+  for (int i = 0; i < 40; ++i) words += "word" + std::to_string(i) + " ";
+  const std::string text = summary_line("label", words);
+  std::istringstream lines{text};
+  std::string together;
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_LE(line.size(), table_width);
+    const std::size_t lead = summary_indent + summary_label_width;
+    EXPECT_EQ(line.substr(0, lead), count == 0 ? "    label         " : std::string(lead, ' '));
+    together += line.substr(lead) + " ";
+  }
+  EXPECT_GT(count, 1);
+  EXPECT_EQ(together, words);
 }
 
 TEST(SummaryOfADiagram, SaysWhereBranchesBeginAndWhatIsLeftOut) {
