@@ -4,6 +4,7 @@
 
 #include "critical_summary.hpp"
 #include "fitted_table.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "summary_line.hpp"
 #include "text.hpp"
@@ -43,12 +44,15 @@ std::string control_lines(const StudyResult& result, const UnitLabels& units) {
     rows[0].push_back(result.quantities[i].name + with_unit(result, i, units));
     align.push_back(Align::right);
   }
+  const std::vector<double> sizes = quantity_sizes(result);
   std::size_t targets = 0;
   for (const auto& sample : branch.samples) {
     if (!sample.event.empty() || ++targets > most_targets) continue;
     auto& row = rows.emplace_back();
     for (const std::size_t i : columns)
-      row.push_back(std::isnan(sample.values[i]) ? "-" : rounded(sample.values[i], summary_digits));
+      row.push_back(std::isnan(sample.values[i])
+                        ? "-"
+                        : rounded(shown_in(sizes, i, sample.values[i]), summary_digits));
     row.push_back(sample.status);
   }
   align.push_back(Align::left);
@@ -69,8 +73,9 @@ std::string control_lines(const StudyResult& result, const UnitLabels& units) {
 }
 
 /// Least and greatest value of a quantity over the nodes, and where.
+/// @param sizes  of the result's quantities
 std::vector<std::string> range_row(const StudyResult& result, std::size_t column, std::size_t axes,
-                                   const UnitLabels& units) {
+                                   const std::vector<double>& sizes, const UnitLabels& units) {
   const auto& samples = result.branches.front().samples;
   const analysis::Sample *least = nullptr, *greatest = nullptr;
   for (const auto& sample : samples) {
@@ -86,8 +91,8 @@ std::vector<std::string> range_row(const StudyResult& result, std::size_t column
     return text + ")";
   };
   return {result.quantities[column].name + with_unit(result, column, units),
-          rounded(least->values[column], 7), place(*least), rounded(greatest->values[column], 7),
-          place(*greatest)};
+          rounded(shown_in(sizes, column, least->values[column]), 7), place(*least),
+          rounded(shown_in(sizes, column, greatest->values[column]), 7), place(*greatest)};
 }
 
 std::string map_lines(const PlannedRun& planned, const StudyResult& result,
@@ -98,6 +103,7 @@ std::string map_lines(const PlannedRun& planned, const StudyResult& result,
     grid += (grid.empty() ? "" : ", ") + axis.name + " from " + rounded(axis.from, 6) + " to " +
             rounded(axis.to, 6) + " in " + std::to_string(axis.points);
   std::string text = summary_line("grid", grid) + stop_lines(result.branches.front());
+  const std::vector<double> sizes = quantity_sizes(result);
   std::vector<std::vector<std::string>> rows{{"", "least", "", "greatest"}};
   for (std::size_t i = 0; i < result.quantities.size(); ++i) {
     const std::string& name = result.quantities[i].name;
@@ -107,7 +113,7 @@ std::string map_lines(const PlannedRun& planned, const StudyResult& result,
                           name == "velocity_max" || name == "condition" ||
                           name == "critical_load" || name == "index_force" || name == "iterations";
     if (!is_shown) continue;
-    if (auto row = range_row(result, i, map.axes.size(), units); !row.empty())
+    if (auto row = range_row(result, i, map.axes.size(), sizes, units); !row.empty())
       rows.push_back(std::move(row));
   }
   for (const auto& doubt : result.doubts) text += summary_line("UNRESOLVED", doubt);

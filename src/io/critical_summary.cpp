@@ -5,6 +5,7 @@
 
 #include "design_summary.hpp"
 #include "fitted_table.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "summary_line.hpp"
 #include "text.hpp"
@@ -25,12 +26,14 @@ std::string point_table(const StudyResult& result, const Branch& branch,
   std::vector<std::string> columns{parameter};
   for (const char* name : {"lambda", "deflection", "force"})
     if (column_of(result, name)) columns.emplace_back(name);
+  const std::vector<double> sizes = quantity_sizes(result);
   std::vector<std::vector<std::string>> rows{{"points"}};
   rows[0].insert(rows[0].end(), columns.begin(), columns.end());
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back(std::vector<std::string>{event.label});
     for (const std::string& name : columns)
-      row.push_back(number_cell(value_at(result, branch, event.row, name)));
+      row.push_back(number_cell(shown_in(sizes, column_of(result, name).value_or(sizes.size()),
+                                         value_at(result, branch, event.row, name))));
     const bool unresolved = event.kind == analysis::EventKind::unresolved;
     row.push_back(unresolved ? unresolved_text(event.detail) : event.detail);
   }

@@ -6,6 +6,8 @@
 #include "fitted_table.hpp"
 #include "jump_access.hpp"
 #include "outline.hpp"
+#include "point_summary.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
@@ -19,8 +21,6 @@ namespace springfold::io {
 namespace {
 using analysis::Branch;
 using analysis::StudyResult;
-
-const std::string blank_label(summary_label_width, ' ');
 
 /// Columns of the mechanism's bodies ("tool.x") or actuator commands ("leg.drive.rho").
 std::vector<std::string> pose_names(const model::Mechanism& mechanism, const StudyResult& result) {
@@ -84,55 +84,6 @@ std::string way_lines(const Case& the_case, const StudyResult& result) {
                              ", d/ds " + rates_text(the_case, result, start.ways[i].rates));
   }
   return text;
-}
-
-/// Empty where the quantity is not defined, as in the tables.
-std::string cell(double value) { return std::isnan(value) ? "" : rounded(value, summary_digits); }
-
-/// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
-std::string index_text(const StudyResult& result, const Branch& branch,
-                       const analysis::Event& event, std::string_view name) {
-  using analysis::EventKind;
-  const bool is_ordinary =
-      event.kind == EventKind::user_value || event.kind == EventKind::end_of_range;
-  const bool has_neighbours = event.row > 0 && event.row + 1 < branch.samples.size();
-  std::size_t first = event.row, second = event.row;
-  if (has_two_rows(branch, event))
-    second = event.row + 1;
-  else if (!is_ordinary && has_neighbours)
-    first = event.row - 1, second = event.row + 1;
-  const double before = value_at(result, branch, first, name);
-  const double after = value_at(result, branch, second, name);
-  if (before == after || std::isnan(after)) return cell(before);
-  return (std::isnan(before) ? "?" : rounded(before, summary_digits)) + " > " +
-         rounded(after, summary_digits);
-}
-
-/// The special points as a table; only the columns that the run has.
-std::string point_lines(const StudyResult& result, const Branch& branch) {
-  if (branch.events.empty()) return summary_line("points", "none");
-  std::vector<std::string> columns;
-  for (const char* name : {"lambda", "deflection", "force"})
-    if (column_of(result, name)) columns.emplace_back(name);
-  std::vector<std::vector<std::string>> rows = {{"points"}};
-  rows.front().insert(rows.front().end(), columns.begin(), columns.end());
-  std::vector<std::string> indices = {"index"};
-  for (const char* name : {"index_force", "index_driven"})
-    if (column_of(result, name)) indices.emplace_back(name);
-  rows.front().insert(rows.front().end(), indices.begin(), indices.end());
-  for (const auto& event : branch.events) {
-    auto& row = rows.emplace_back();
-    row.push_back(event.label);
-    for (const auto& name : columns) row.push_back(cell(value_at(result, branch, event.row, name)));
-    const bool is_unresolved = event.kind == analysis::EventKind::unresolved;
-    for (const auto& name : indices) row.push_back(index_text(result, branch, event, name));
-    row.push_back(is_unresolved ? unresolved_text(event.detail) : event.detail);
-  }
-  std::vector<Align> align(1 + columns.size() + indices.size(), Align::right);
-  align.front() = Align::left;
-  align.push_back(Align::left);
-  rows.front().front().resize(blank_label.size() - 2, ' ');
-  return fitted(rows, align, summary_indent);
 }
 
 std::string stop_line(std::string_view label, const analysis::Stop& stop) {
@@ -220,7 +171,8 @@ std::string arcs_text(const analysis::VerifiedArcs& arcs) {
 }
 
 /// One branch, and the numbers of others of which the same is said.
-std::string branch_lines(const StudyResult& result, const std::vector<std::size_t>& numbers) {
+std::string branch_lines(const StudyResult& result, const std::vector<std::size_t>& numbers,
+                         const std::vector<double>& sizes) {
   const Branch& branch = result.branches[numbers.front() - 1];
   std::string text;
   if (result.branches.size() > 1)
@@ -234,9 +186,15 @@ std::string branch_lines(const StudyResult& result, const std::vector<std::size_
   text += summary_line("curve", counted(static_cast<int>(branch.samples.size()), "point") + ", " +
                                     counted(static_cast<int>(refused), "refused or cut step"));
   if (branch.arcs) text += summary_line("", arcs_text(*branch.arcs));
-  text += point_lines(result, branch);
+  text += point_lines(result, branch, sizes);
   if (branch.origin.empty()) text += stop_line("first row", branch.backward);
-  return text + stop_line("last row", branch.forward);
+  text += stop_line("last row", branch.forward);
+  for (std::size_t i = 1; i < numbers.size(); ++i)  // its mirror ends at the opposite limit
+    if (const auto& other = result.branches[numbers[i] - 1];
+        other.forward.reason != branch.forward.reason)
+      text +=
+          summary_line("", "of branch " + std::to_string(numbers[i]) + ": " + other.forward.reason);
+  return text;
 }
 
 /// "stable" columns of all equilibria that a search found, the lowest potential first.
@@ -245,15 +203,17 @@ std::string equilibria_table(const Case& the_case, const StudyResult& result) {
   if (const PlannedRun* planned = plan_of(the_case, result))
     for (const auto& name : pose_names(planned->mechanism, result)) columns.push_back(name);
   std::vector<std::vector<std::string>> rows = {{"equilibria"}};
-  rows.front().front().resize(blank_label.size() - 2, ' ');
+  rows.front().front().resize(summary_label_width - 2, ' ');
   rows.front().insert(rows.front().end(), columns.begin(), columns.end());
+  const std::vector<double> sizes = quantity_sizes(result);
   for (const auto& e : result.equilibria->list) {
     auto& row = rows.emplace_back();
     row.push_back(e.label);
     for (const auto& name : columns) {
       const auto column = column_of(result, name);
-      const double value = name == "potential" ? e.potential : e.sample.values[column.value()];
-      row.push_back(cell(value));
+      row.push_back(point_number(name == "potential"
+                                     ? e.potential
+                                     : shown_in(sizes, *column, e.sample.values[column.value()])));
     }
     row.push_back(e.note.empty() ? (e.is_start ? "the start" : "") : e.note);
   }
@@ -316,7 +276,8 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
   text += way_lines(the_case, result);
   text += caution_lines(result);
   text += stiffness_lines(result);
-  for (const auto& numbers : alike_branches(result)) text += branch_lines(result, numbers);
+  const std::vector<double> sizes = quantity_sizes(result);
+  for (const auto& numbers : alike_branches(result)) text += branch_lines(result, numbers, sizes);
   return text + jump_lines(result, the_case.units) +
          diagram_lines(result, plan_of(the_case, result));
 }

@@ -46,6 +46,27 @@ TEST(AlikeBranches, AreThoseWhoseSpecialPointsAgree) {
   EXPECT_THAT(summary_table(sample::two_runs(), {result}), HasSubstr("branches 1 and 2"));
 }
 
+TEST(AlikeBranches, MayEndAtOppositeLimitsWhichIsSaid) {
+  auto result = sample::two_results()[0];
+  result.branches.push_back(result.branches[0]);
+  result.branches[0].forward.reason = "hinge reaches its upper limit";
+  result.branches[1].forward.reason = "hinge reaches its lower limit";
+  EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1, 2)));
+  const std::string table = summary_table(sample::two_runs(), {result});
+  EXPECT_THAT(table, HasSubstr("last row      hinge reaches its upper limit\n"));
+  EXPECT_THAT(table, HasSubstr("of branch 2: hinge reaches its lower limit\n"));
+  result.branches[1].forward.reason = "elbow reaches its upper limit";
+  EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
+}
+
+TEST(PointTables, SayThatRoundingIsZero) {
+  auto result = sample::two_results()[0];
+  auto& values = result.branches[0].samples[result.branches[0].events[0].row].values;
+  values[2] = 3e-17;  // deflection [m], beside lengths about 1
+  const std::string table = summary_table(sample::two_runs(), {result});
+  EXPECT_THAT(table, testing::Not(HasSubstr("e-17")));
+}
+
 TEST(FittedTable, HasNoLineBeyondTheTerminalAndKeepsEveryCell) {
   std::vector<std::vector<std::string>> rows{{"name"}, {"one"}};
   std::vector<Align> align{Align::left};

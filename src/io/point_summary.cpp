@@ -1,0 +1,71 @@
+#include "point_summary.hpp"
+
+#include <cmath>
+
+#include "fitted_table.hpp"
+#include "quantity_sizes.hpp"
+#include "result_access.hpp"
+#include "summary_line.hpp"
+#include "text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::Branch;
+using analysis::StudyResult;
+
+/// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
+std::string index_text(const StudyResult& result, const Branch& branch,
+                       const analysis::Event& event, std::string_view name) {
+  using analysis::EventKind;
+  const bool is_ordinary =
+      event.kind == EventKind::user_value || event.kind == EventKind::end_of_range;
+  const bool has_neighbours = event.row > 0 && event.row + 1 < branch.samples.size();
+  std::size_t first = event.row, second = event.row;
+  if (has_two_rows(branch, event))
+    second = event.row + 1;
+  else if (!is_ordinary && has_neighbours)
+    first = event.row - 1, second = event.row + 1;
+  const double before = value_at(result, branch, first, name);
+  const double after = value_at(result, branch, second, name);
+  if (before == after || std::isnan(after)) return point_number(before);
+  return (std::isnan(before) ? "?" : rounded(before, summary_digits)) + " > " +
+         rounded(after, summary_digits);
+}
+
+}  // namespace
+
+std::string point_number(double value) {
+  return std::isnan(value) ? "" : rounded(value, summary_digits);
+}
+
+std::string point_lines(const StudyResult& result, const Branch& branch,
+                        const std::vector<double>& sizes) {
+  if (branch.events.empty()) return summary_line("points", "none");
+  std::vector<std::string> columns;
+  for (const char* name : {"lambda", "deflection", "force"})
+    if (column_of(result, name)) columns.emplace_back(name);
+  std::vector<std::vector<std::string>> rows = {{"points"}};
+  rows.front().insert(rows.front().end(), columns.begin(), columns.end());
+  std::vector<std::string> indices = {"index"};
+  for (const char* name : {"index_force", "index_driven"})
+    if (column_of(result, name)) indices.emplace_back(name);
+  rows.front().insert(rows.front().end(), indices.begin(), indices.end());
+  for (const auto& event : branch.events) {
+    auto& row = rows.emplace_back();
+    row.push_back(event.label);
+    for (const auto& name : columns)
+      row.push_back(point_number(shown_in(sizes, column_of(result, name).value_or(sizes.size()),
+                                          value_at(result, branch, event.row, name))));
+    const bool is_unresolved = event.kind == analysis::EventKind::unresolved;
+    for (const auto& name : indices) row.push_back(index_text(result, branch, event, name));
+    row.push_back(is_unresolved ? unresolved_text(event.detail) : event.detail);
+  }
+  std::vector<Align> align(1 + columns.size() + indices.size(), Align::right);
+  align.front() = Align::left;
+  align.push_back(Align::left);
+  rows.front().front().resize(summary_label_width - 2, ' ');
+  return fitted(rows, align, summary_indent);
+}
+
+}  // namespace springfold::io
