@@ -255,6 +255,9 @@ std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas
   Scene scene = scene_of(figure, canvas);
   std::vector<PlacedLabel> labels;
   const auto keep = [&](const FigureText& text, const Candidate& best, bool is_curve_label) {
+    if (std::any_of(scene.labels.begin(), scene.labels.end(),
+                    [&best](const Box& other) { return best.box.overlaps(other, 0); }))
+      return;  // two texts on each other: neither could be read
     scene.labels.push_back(best.box);
     labels.push_back(placed(text, best));
     labels.back().is_curve_label = is_curve_label;

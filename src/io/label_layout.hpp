@@ -18,7 +18,8 @@ struct PlacedLabel {
   PlotPoint leader_from{}, leader_to{};
 };
 
-/// Labels of all marks, then of all curves. Crowded figures get the least bad places.
+/// Labels of all marks, then of all curves. In crowded figures they may lie on curves; those that have no place but on
+/// another label are left out.
 std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas);
 
 }  // namespace springfold::io

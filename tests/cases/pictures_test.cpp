@@ -61,7 +61,11 @@ TEST(Pictures, EveryCaseDrawsAsItIsGivenAndItsWordsCanBeRead) {
   for (const fs::path& file : library()) {
     const Case the_case = load_case(file);
     const drawing::Panel panel = guess_panel(the_case.runs.front(), "guess");
-    EXPECT_THAT(unreadable_words(drawing::illustrate({panel}, {})), IsEmpty()) << file;
+    for (const bool is_perspective : {false, true})
+      EXPECT_THAT(
+          unreadable_words(drawing::illustrate({panel}, {.is_perspective = is_perspective})),
+          IsEmpty())
+          << file;
   }
 }
 

@@ -260,5 +260,20 @@ TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
   EXPECT_EQ(labels[0].text.text, "LP1, LP2");
 }
 
+TEST(PlaceLabels, LeaveOutWhatHasNoPlaceButOnAnother) {
+  Figure figure{.low = {0, 0}, .high = {1, 1}};
+  constexpr int many = 120;
+  for (int i = 0; i < many; ++i)
+    figure.marks.push_back(
+        {"LP", "LP" + std::to_string(100 + i), {0.4 + 0.02 * (i % 12), 0.4 + 0.02 * (i / 12)}});
+  const auto labels = place_labels(figure, {});
+  EXPECT_GT(labels.size(), 20U);
+  EXPECT_LT(labels.size(), static_cast<std::size_t>(many));
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(overlap(labels[i], labels[j]))
+          << labels[i].text.text << " on " << labels[j].text.text;
+}
+
 }  // namespace
 }  // namespace springfold::io
