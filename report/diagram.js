@@ -23,6 +23,13 @@ function plotOf(run, number, xColumn, yColumn) {
   return {run, branch, number, x: along(xColumn), y: along(yColumn), kinds: stabilitiesAlong(run, branch), special};
 }
 
+/** Numbers of ticks in as few digits as they have, 0 where only rounding is left.
+ * @param {any} scale @returns {(value: number) => string} */
+function ticksOf(scale) {
+  const [low, high] = scale.domain(), rounding = 1e-9 * Math.abs(high - low);
+  return value => String(Math.abs(value) < rounding ? 0 : Number(value.toPrecision(12)));
+}
+
 class Diagram {
   /** @param {SVGSVGElement} svg @param {(branch: number, row: number) => void} choose */
   constructor(svg, choose) {
@@ -198,8 +205,8 @@ class Diagram {
 
   redraw() {
     if (!this.run) return;
-    this.xAxis.call(d3.svg.axis().scale(this.x).orient("bottom").ticks(6));
-    this.yAxis.call(d3.svg.axis().scale(this.y).orient("left").ticks(6));
+    this.xAxis.call(d3.svg.axis().scale(this.x).orient("bottom").ticks(6).tickFormat(ticksOf(this.x)));
+    this.yAxis.call(d3.svg.axis().scale(this.y).orient("left").ticks(6).tickFormat(ticksOf(this.y)));
     /** @type {Line[]} */ const lines = [];
     for (const plot of this.others) this.addLines(plot, lines);
     for (const plot of this.plots) this.addLines(plot, lines);
