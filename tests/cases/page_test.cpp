@@ -66,15 +66,21 @@ double number_at(const Json& run, const std::vector<double>& row, const std::str
 
 using Place = model::Vec3<double>;
 
+/// The parts of a row; nullptr where it has no posture.
+const Json* parts_of_row(const Json& run, const Json& list, std::size_t row) {
+  const int layout = list["layout"].is_null() ? 0 : list["layout"][row].get<int>();
+  return layout < 0 ? nullptr : &run["mechanisms"][static_cast<std::size_t>(layout)];
+}
+
 /// Points of a row of a list, as they stand in the page; none where the row has no posture.
 std::vector<Place> points_in(const Json& run, const Json& list, const std::vector<double>& all,
                              std::size_t row) {
   std::size_t first = 0, d = 0, count = 0;
   for (std::size_t i = 0; i <= row; ++i) {
     first += d * count;
-    const int layout = list["layout"].is_null() ? 0 : list["layout"][i].get<int>();
-    d = layout < 0 ? 0 : run["mechanisms"][layout]["dimension"].get<std::size_t>();
-    count = layout < 0 ? 0 : run["mechanisms"][layout]["points"].get<std::size_t>();
+    const Json* parts = parts_of_row(run, list, i);
+    d = parts == nullptr ? 0 : (*parts)["dimension"].get<std::size_t>();
+    count = parts == nullptr ? 0 : (*parts)["points"].get<std::size_t>();
   }
   std::vector<Place> points(count, Place::Zero());
   for (std::size_t i = 0; i < count; ++i)
@@ -120,8 +126,9 @@ void expect_places(const Json& run, const PlannedRun& planned, const analysis::S
         EXPECT_TRUE(points.empty()) << where;
         continue;
       }
-      const Json& mechanism =
-          run["mechanisms"][list["layout"].is_null() ? 0 : list["layout"][row].get<int>()];
+      const Json* parts = parts_of_row(run, list, row);
+      ASSERT_NE(parts, nullptr) << where;
+      const Json& mechanism = *parts;
       ++counts.rows;
       const double size = drawing::size_of(*scene);
       // The chains, joint by joint, end where their bodies are.
