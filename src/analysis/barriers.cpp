@@ -164,7 +164,7 @@ void search_all(StateBook& book, const SnapSettings& settings) {
   const StateSearch options{.starts = settings.transitions->starts,
                             .seed = settings.seed,
                             .modes = std::numeric_limits<int>::max(),
-                            .drives = true,
+                            .drives = std::numeric_limits<int>::max(),
                             .maximum = most_states};
   book.search(options);
   join_by_strings(book);

@@ -69,12 +69,13 @@ bool stays_below(const Landscape& landscape, const Ground& from, const Vector& s
 
 /// Takes a step y along the modes no farther than second order describes the energy, which has a scale of its own in
 /// every part of a large mechanism.
-/// @param reach  longest step that is trusted; grows and shrinks
+/// @param energy  of the state, then of the next one
+/// @param reach   longest step that is trusted; grows and shrinks
 std::optional<Vector> trusted(const Landscape& landscape, const Ground& at, const Modes& modes,
-                              const Vector& y, double& reach) {
+                              const Vector& y, double& energy, double& reach) {
   constexpr int halvings = 30;
   constexpr double poor = 0.25, good = 0.05;  // errors, relative to the terms of the energy
-  const double longest = reach_of(landscape, at.x), energy = landscape.energy(at.x);
+  const double longest = reach_of(landscape, at.x);
   reach = std::min(reach, longest);
   for (int h = 0; h < halvings; ++h) {
     const double size = y.norm();
@@ -88,6 +89,7 @@ std::optional<Vector> trusted(const Landscape& landscape, const Ground& at, cons
     const double rounding = 1e-13 * std::max(1.0, std::abs(energy));
     if (error <= poor * terms + rounding) {
       if (error <= good * terms) reach = std::min(longest, 2 * std::max(reach, step.norm()));
+      energy = e;
       return x;
     }
     reach = step.norm() / 2;
@@ -293,12 +295,12 @@ Descent descend(const Landscape& landscape, Vector x) {
   return Walk(landscape, std::move(x)).down();
 }
 
-std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along) {
+std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along, double highest) {
   constexpr int rounds = 240;
   constexpr double kick = 0.02;
   const Vector from = x;
-  double reach = kick;
-  for (int k = 0; k < rounds; ++k) {
+  double reach = std::numeric_limits<double>::infinity(), energy = landscape.energy(x);
+  for (int k = 0; k < rounds && energy <= highest; ++k) {
     const auto at = landscape.ground(x);
     if (!at || at->hessian.size() == 0 || is_away(landscape, x, from)) return std::nullopt;
     const Modes modes = modes_of(*at);
@@ -320,7 +322,7 @@ std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector alon
     }
     if (along.size() == 0 && y.norm() < nearly_there && modes.curvatures[0] < 0)
       return rest_near(landscape, x);
-    const auto next = trusted(landscape, *at, modes, y, reach);
+    const auto next = trusted(landscape, *at, modes, y, energy, reach);
     if (!next) return std::nullopt;
     x = *next;
   }

@@ -1,6 +1,8 @@
 // Ways down, and up to saddles, in a landscape. Private to analysis.
 #pragma once
 
+#include <limits>
+
 #include "landscape.hpp"
 
 namespace springfold::analysis {
@@ -36,7 +38,9 @@ struct Descent {
 Descent descend(const Landscape& landscape, Vector x);
 
 /// Goes uphill along one mode and downhill along all others: to a saddle (eigenvector following).
-/// @param along  direction of the moving unknowns that is followed first; empty: the softest mode
-std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along);
+/// @param along    direction of the moving unknowns that is followed first; empty: the softest mode
+/// @param highest  energy at which it is given up
+std::optional<RestState> climb(const Landscape& landscape, Vector x, Vector along,
+                               double highest = std::numeric_limits<double>::infinity());
 
 }  // namespace springfold::analysis

@@ -59,17 +59,20 @@ std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, con
 
 Driven drive(const Landscape& landscape, const RestState& from, const Vector& along,
              const DriveLimits& limits) {
-  constexpr double first = 1e-3, shortest = 1e-4, longest = 0.1, arrived = 1e-7;
+  constexpr double first = 1e-3, shortest = 1e-4, longest = 0.1;
+  constexpr double arrived = 1e-2;  // of a step: what follows is at rest to second order of that
   /// The work of the force between two states is the change of the energy, by the trapezoidal rule to this part.
   constexpr double poor = 0.1, good = 0.02;
   constexpr int most = 400;
   Driven result;
-  Reached here{.energy = from.energy, .x = from.x};
+  Reached here{.energy = from.energy, .x = from.x}, last = here;
   double length = first;
   for (int k = 0; k < most && here.amplitude < limits.farthest; ++k) {
     const double amplitude = here.amplitude + length;
-    const auto next = pushed(landscape, from.x, along, here.x,
-                             {.amplitude = amplitude, .arrived = arrived, .is_resting = true});
+    const double ahead = here.amplitude > 0 ? length / (here.amplitude - last.amplitude) : 0;
+    const auto next =
+        pushed(landscape, from.x, along, here.x + ahead * (here.x - last.x),
+               {.amplitude = amplitude, .arrived = arrived * length, .is_resting = true});
     const double energy =
         next ? landscape.energy(next->x) : std::numeric_limits<double>::quiet_NaN();
     const double work = -(here.force + (next ? next->force : 0)) / 2 * length;
@@ -90,6 +93,7 @@ Driven drive(const Landscape& landscape, const RestState& from, const Vector& al
       return result;
     }
     if (error <= good * size) length = std::min(2 * length, longest);
+    last = here;
     here = {amplitude, next->force, energy, next->x};
   }
   return result;

@@ -78,7 +78,10 @@ class Jumper {
 
  private:
   StateSearch search_below(double energy) const {
-    return {.starts = settings_.starts, .seed = settings_.seed, .drives = true, .bound = energy};
+    return {.starts = settings_.starts,
+            .seed = settings_.seed,
+            .drives = StateSearch{}.modes,
+            .bound = energy};
   }
 
   /// A graph of all states asks only whether there is more than one landing: ways up are taken from what is known to be

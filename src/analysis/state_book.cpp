@@ -97,12 +97,14 @@ bool StateBook::climb_from(std::size_t minimum, const StateSearch& options) {
   const auto at = landscape_.ground_on(from.x, from.piece);
   if (!at || at->hessian.size() == 0) return true;
   const SymmetricEigen modes = symmetric_eigen(at->hessian);
+  // On its way to a saddle a climb may lie above the valley, but not by as much as the valley rises.
+  const double highest = options.bound + (options.bound - from.energy);
   for (Index i = 0; i < std::min<Index>(options.modes, at->hessian.rows()); ++i)
     for (const double sign : {1.0, -1.0}) {
       const Vector along = sign * (at->motions * modes.vectors.col(i));
-      if (const auto saddle = climb(landscape_, from.x, along)) take(*saddle, options);
+      if (const auto saddle = climb(landscape_, from.x, along, highest)) take(*saddle, options);
     }
-  if (options.drives) drive_from(from, *at, options);
+  if (options.drives > 0) drive_from(from, *at, options);
   return true;
 }
 
@@ -117,7 +119,7 @@ void StateBook::drive_from(const RestState& from, const Ground& at, const StateS
   const Box box = box_of_states();
   const auto& moving = landscape_.moving();
   // In closed chains many coordinates move as few others do: the first ones, those of joints, are enough.
-  const Index most = 2 * std::min<Index>(options.modes, at.motions.cols());
+  const Index most = std::min<Index>(options.drives, at.motions.cols());
   std::vector<Vector> taken;  // along the motions
   for (std::size_t i = 0; i < moving.size() && std::ssize(taken) < most; ++i) {
     Vector along = at.motions.row(static_cast<Index>(i)).transpose();

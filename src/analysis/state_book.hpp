@@ -13,8 +13,8 @@ struct StateSearch {
   int starts = 16;         ///< random first states; every second one is led to a saddle
   std::uint64_t seed = 1;  ///< of these
   int modes = 6;           ///< softest modes along which every minimum is left uphill, both ways
-  bool drives = false;  ///< coordinates of every minimum are driven, both ways, up to two per mode
-  int maximum = 2000;   ///< the search ends when it has found as many states
+  int drives = 0;  ///< coordinates of every minimum that are driven, both ways; no more than modes
+  int maximum = 2000;  ///< the search ends when it has found as many states
   /// Minima as high as this are not left uphill: what is beside them lies higher still.
   double bound = std::numeric_limits<double>::infinity();
 };
