@@ -12,7 +12,10 @@ namespace springfold::continuation {
 namespace {
 
 /// Steps shorter than this share of the longest are those of a narrow place.
-constexpr double short_step = 0.005;
+constexpr double short_step = 0.1;
+
+/// Beside a branch that is nearer than this, tangents are too rough for a model that is continued.
+constexpr double too_near = 1e-6;
 
 /// Branches that are so many times farther apart than rounding moves a point are told apart by every step.
 constexpr double well_apart = 1000;
@@ -29,31 +32,32 @@ struct PointRange {
   std::size_t first = 0, last = 0;  ///< points
 };
 
-std::vector<PointRange> stretches_of_short_steps(const Walker& walker, const Curve& curve) {
-  const double limit = short_step * walker.options.step.maximum;
-  std::vector<PointRange> found;
-  for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    if (!(curve.points[i].s - curve.points[i - 1].s < limit)) continue;
-    const bool continues =
-        !found.empty() && curve.points[i - 1].s - curve.points[found.back().last].s < 5 * limit;
-    if (!continues) found.push_back({i - 1, i});
-    found.back().last = i;
-  }
-  return found;
-}
-
 std::optional<Separation> separation(const Walker& walker, const Curve& curve, std::size_t i) {
   const CurvePoint &p = curve.points[i], &other = curve.points[i > 0 ? i - 1 : i + 1];
   const WatchedStep arc(walker, p, std::abs(p.s - other.s));
   return separation_at(arc, p);
 }
 
-bool is_hidden(const Walker& walker, const Curve& curve, const PointRange& stretch) {
-  for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
-    const auto s = separation(walker, curve, i);
-    if (!s || !(s->distance > well_apart * s->blur)) return true;
+bool is_hidden(const Walker& walker, const Curve& curve, std::size_t i) {
+  const auto s = separation(walker, curve, i);
+  return !s || !(s->distance > std::max(well_apart * s->blur, too_near));
+}
+
+/// Points that short steps lead to or from, beside another branch; up to their neighbours.
+std::vector<PointRange> hidden_stretches(const Walker& walker, const Curve& curve) {
+  const double limit = short_step * walker.options.step.maximum;
+  const std::size_t count = curve.points.size();
+  const auto is_short = [&](std::size_t i) {  // the step to point i
+    return i > 0 && i < count && curve.points[i].s - curve.points[i - 1].s < limit;
+  };
+  std::vector<PointRange> found;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (count < 2 || !(is_short(i) || is_short(i + 1)) || !is_hidden(walker, curve, i)) continue;
+    const std::size_t first = i > 0 ? i - 1 : 0, last = std::min(i + 1, count - 1);
+    if (found.empty() || first > found.back().last) found.push_back({first, last});
+    found.back().last = last;
   }
-  return false;
+  return found;
 }
 
 /// The stored point nearest to s.
@@ -115,8 +119,8 @@ bool is_smooth_across(const Walker& walker, const Curve& curve, const PointRange
 
 void check_narrow_places(const Walker& walker, Curve& curve) {
   if (walker.problem.structured() || !walker.options.branch_points) return;
-  for (const PointRange& stretch : stretches_of_short_steps(walker, curve)) {
-    if (!is_hidden(walker, curve, stretch) || is_smooth_across(walker, curve, stretch)) continue;
+  for (const PointRange& stretch : hidden_stretches(walker, curve)) {
+    if (is_smooth_across(walker, curve, stretch)) continue;
     const CurvePoint &a = curve.points[stretch.first], &b = curve.points[stretch.last];
     Hit hit{.kind = HitKind::unresolved,
             .name =
