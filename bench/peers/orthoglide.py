@@ -22,33 +22,37 @@ def compare_orthoglides(c):
     folder = c.place("orthoglide")
     coarse = c.tracer.trace(problem, folder, 0.01, 1000000, "nothing")
     length = c.tracer.curve(coarse).length
+    # The program measures the same arc in units of its own, those of the response at the start.
+    c.program.trace(problem, folder, 0.01, 1000000)
+    own_length = c.program.curve(folder).length
     say("(a) Planar Orthoglide at Q2, 10 unknowns: CPU seconds of the whole process (medians)\n")
     say(f"  {'':22} {'points':>6} {'AUTO-07p':>10} {'springfold':>11} {'ratio':>7} {'spacing':>9} "
         f"{'ratio':>7}")
     sizes = {1000: 7, 10000: 3, 100000: 1} if c.quick else {1000: 15, 10000: 9, 100000: 5}
     times = {}
     for points, repetitions in sizes.items():
-        times.update(orthoglide_at(c, problem, folder, length, points, repetitions))
+        times.update(orthoglide_at(c, problem, folder, length, own_length, points, repetitions))
     orthoglide_slopes(c, times, list(sizes))
-    start_up(c, folder, problem, length)
+    start_up(c, folder, problem, own_length)
     branch_point(c)
 
 
-def orthoglide_at(c, problem, folder, length, points, repetitions):
+def orthoglide_at(c, problem, folder, length, own_length, points, repetitions):
     """Three contestants: AUTO, springfold with as many steps, springfold with long steps and as
     many points between them."""
-    step, most = length / points, 2 * points
+    most = 2 * points
     tasks = {}
     for setting, _, _ in SETTINGS:
         ours = c.program if setting == "default" else c.tracer
+        own_step = (own_length if setting == "default" else length) / points
         spaced = c.place(f"orthoglide-spacing-{setting}")
-        tasks["AUTO", setting] = lambda s=setting: c.auto.trace(problem, folder, step, most, s)
+        tasks["AUTO", setting] = lambda s=setting: c.auto.trace(problem, folder, length / points, most, s)
         if setting == "short":  # springfold's lines are as short already
             continue
         tasks["steps", setting] = (
-            lambda s=setting, o=ours: o.trace(problem, folder, step, most, s))
-        tasks["spacing", setting] = (lambda s=setting, o=ours, f=spaced: o.trace(
-            problem, f, LONG_STEP, most, s, spacing=step))
+            lambda s=setting, o=ours, d=own_step: o.trace(problem, folder, d, most, s))
+        tasks["spacing", setting] = (lambda s=setting, o=ours, f=spaced, d=own_step: o.trace(
+            problem, f, LONG_STEP, most, s, spacing=d))
     runs = alternate(repetitions, tasks)
     times = {}
     for setting, words, _ in SETTINGS:

@@ -5,6 +5,7 @@
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
+#include "held_twice.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -36,8 +37,8 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, Piece piece)
     if (!linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
     const auto tangent = tangent_at(at, problem.metric(), {Vector::Zero(x.size()), 1});
     if (!tangent) return std::nullopt;
-    return member->evaluator
-        ->force_rate({.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece})
+    return member->evaluator()
+        .force_rate({.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece})
         .value;
   };
 }
@@ -50,7 +51,7 @@ continuation::StateFunction column_of(const CaseCurves& curves, const Member& me
   const auto value_at = [name = point.hit.name, piece = point.hit.point.piece](
                             const Member& at, const Vector& x, double lambda) {
     const QuantityDefinition& q = *at.quantity(name);
-    return at.evaluator->value(q, {.x = x, .lambda = lambda, .piece = piece}) / q.scale;
+    return at.evaluator().value(q, {.x = x, .lambda = lambda, .piece = piece}) / q.scale;
   };
   double wanted = value_at(member, point.hit.point.x, point.hit.point.lambda);
   for (const Mark& mark : member.study.marks)  // the mark itself, not what was located
@@ -66,24 +67,49 @@ continuation::StateFunction column_of(const CaseCurves& curves, const Member& me
 
 }  // namespace
 
+std::string early_ends(const Branch& branch) {
+  std::string text;
+  for (const Stop& stop : {branch.forward, branch.backward})
+    if (!stop.complete && text.find(stop.reason) == std::string::npos)
+      text += (text.empty() ? "; it stopped early: " : ", and: ") + stop.reason;
+  return text;
+}
+
+void refuse_start(const BasePath& path, StartReport& report) {
+  report.found = false;
+  report.message = path.problem;
+  report.where = path.where;
+  report.advice = path.advice;
+}
+
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer) {
   BasePath path;
   const PathProblem& problem = *member.problem;
-  const Evaluator& evaluator = *member.evaluator;
+  const Evaluator& evaluator = member.evaluator();
   const CurvePoint start = member.start();
+  if (const auto outside = outside_start(member.study, evaluator, member.quantities(), start)) {
+    path.problem = outside->text;
+    path.where = "until." + outside->quantity;
+    path.advice = outside_advice;
+    return path;
+  }
   const continuation::TraceOptions options = options_of(member.study.trace);
   continuation::Rays rays = rays_from(problem, start.x, start.lambda, start.piece, options);
   if (rays.rays.size() != 2 || !rays.complete) {
     path.problem = "the start is not an ordinary point of a curve";
+    if (!holds_twice(problem, member.study, start)) return path;
+    path.problem = held_twice;
+    path.where = "control";
+    path.advice = held_twice_advice;
     return path;
   }
   if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
     std::swap(rays.rays[0], rays.rays[1]);
-  const auto events = events_of(member.study, evaluator, member.quantities);
+  const auto events = events_of(member.study, evaluator, member.quantities());
   int points = 0;
   const auto observe = [&](const CurvePoint& p) { return !observer || observer(++points, p.s); };
   const auto follow = [&](const continuation::Ray& ray) {
-    auto ended = ended_at_start(member.study, evaluator, member.quantities, start, ray);
+    auto ended = ended_at_start(member.study, evaluator, member.quantities(), start, ray);
     return ended ? *ended : trace(problem, start.x, start.lambda, ray, events, options, observe);
   };
   const Curve forward = follow(rays.rays[0]);
@@ -93,8 +119,8 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   BranchSource source{.backward = backward, .forward = forward};
   source.forward_stop = stop_of(forward);
   source.backward_stop = forward_only ? source.forward_stop : stop_of(backward);
-  std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities, problem)};
-  label_events(rows, 0, member.quantities);
+  std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
+  label_events(rows, 0, member.quantities());
   path.branch = std::move(rows.front().branch);
   for (const Event& event : path.branch.events) {
     const double s = path.branch.samples[event.row].values.front();

@@ -19,7 +19,14 @@ struct BasePath {
   std::vector<SpecialPoint> points{};  ///< in the order of the branch
   continuation::Curve forward{};       ///< the engine's curve towards growing lambda
   std::string problem{};               ///< why there is no path; empty: there is one
+  std::string where{}, advice{};       ///< as StartReport has them, with `problem`
 };
+
+/// "; it stopped early: " and why, of a path that ended before the limits of the study; otherwise nothing.
+std::string early_ends(const Branch& branch);
+
+/// There is no path: the start is none.
+void refuse_start(const BasePath& path, StartReport& report);
 
 /// The branch through the start, both ways or only the one in which lambda grows. Special points that end it
 /// are left out.

@@ -10,6 +10,7 @@
 #include "merged_hits.hpp"
 #include "row_indices.hpp"
 #include "switch_words.hpp"
+#include "vanishing_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -193,9 +194,14 @@ std::optional<std::string> singular_chain(const Entry& before, const Entry& entr
   return std::nullopt;
 }
 
-/// Why a trace could not go on, if the closures say so.
-Stop explained(Stop stop, const Entry& end, const Entry& other, const PathProblem& problem) {
+/// Why a trace could not go on, if the closures or the springs say so. What the engine took it for is in the step log.
+Stop explained(Stop stop, const Entry& end, const Entry& other, const Curve& curve,
+               const PathProblem& problem) {
   if (stop.complete) return stop;
+  if (const auto length = vanishing_length(problem, curve, end.point)) {
+    const bool is_stuck = curve.stop == StopReason::step_too_small;
+    return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
+  }
   if (const auto why = nears_kinematic_singularity(problem, end.point, other.point))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, end.point, other.point))
@@ -232,8 +238,10 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
   entries.insert(entries.end(), std::make_move_iterator(behind.begin()),
                  std::make_move_iterator(behind.end()));
   count_turns(entries, branch.start_row, problem);
-  branch.backward = explained(source.backward_stop, entries.front(), entries.back(), problem);
-  branch.forward = explained(source.forward_stop, entries.back(), entries.front(), problem);
+  branch.backward =
+      explained(source.backward_stop, entries.front(), entries.back(), backward, problem);
+  branch.forward =
+      explained(source.forward_stop, entries.back(), entries.front(), forward, problem);
   const auto add = [&rows](Event event, int junction) {
     rows.branch.events.push_back(std::move(event));
     rows.junctions.push_back(junction);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "settle_units.hpp"
 #include "springfold/core/scaling.hpp"
 #include "start.hpp"
 
@@ -43,16 +44,29 @@ continuation::CurvePoint Member::start() const {
   return start;
 }
 
-const QuantityDefinition* Member::quantity(const std::string& name) const {
-  const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [&](const auto& q) { return q.name == name; });
-  return found == quantities.end() ? nullptr : &*found;
+const std::vector<QuantityDefinition>& Member::quantities() const {
+  if (quantities_.empty())
+    quantities_ = quantities_of(study, setup.system, setup.scales, setup.lambda_scale,
+                                lambda_unit_of(study, setup.system));
+  return quantities_;
 }
 
-Study as_curve(const Study& study) {
-  Study curve = study;
+const Evaluator& Member::evaluator() const {
+  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(*problem, study, setup.scales);
+  return *evaluator_;
+}
+
+const QuantityDefinition* Member::quantity(const std::string& name) const {
+  const auto& list = quantities();
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& q) { return q.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+Study as_curve(Study study) {
+  Study curve = std::move(study);
   curve.kind = StudyKind::force_deflection;
-  const std::string& name = study.critical.parameter;
+  const std::string& name = curve.critical.parameter;
   std::erase_if(curve.until, [&](const Limit& limit) { return limit.quantity == name; });
   std::erase_if(curve.marks, [&](const Mark& mark) { return mark.quantity == name; });
   return curve;
@@ -67,13 +81,14 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter)
   base_ = make(value_ / scale_, nullptr);
 }
 
-std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near) const {
+/// @param spare  not asked for any more: its system is used
+std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* spare) const {
   const CaseFamily& cases = *study_.critical.cases;
   const double value = near == nullptr ? value_ : scale_ * mu;
-  const Variant variant = cases.at({{parameter_, value}});
+  Variant variant = cases.at({{parameter_, value}});
   auto member = std::make_unique<Member>();
   member->mu = mu;
-  member->study = as_curve(variant.study);
+  member->study = as_curve(std::move(variant.study));
   std::optional<ParameterFamily> along;
   if (member->study.control == ControlMode::parameter) {
     const auto lambda = number_of(cases, member->study.parameter);
@@ -87,9 +102,16 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near) const {
   }
   Setup& setup = member->setup;
   setup = set_up(variant.mechanism, member->study, along ? &*along : nullptr,
-                 near == nullptr ? nullptr : &near->setup);
+                 near == nullptr ? nullptr : &near->setup,
+                 spare == nullptr ? nullptr : &spare->setup.system);
   if (near == nullptr) {
     member->first = find_start(setup, member->study, member->report);
+    // The units that the curve is traced in, which those of neighbours keep.
+    if (member->report.found) {
+      const ParameterFamily* path = along ? &*along : nullptr;
+      settle_units(variant.mechanism, member->study, path, member->first, setup);
+      reach_range(variant.mechanism, member->study, path, member->first, setup);
+    }
   } else {
     if (setup.lambda_scale != near->setup.lambda_scale) {
       if (along) return nullptr;
@@ -103,51 +125,100 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near) const {
   setup.rule.t_start = member->first.z.segment(body.t, body.count);
   setup.rule.rho_start = member->first.inputs.rho;
   hold_free_part(member->study, member->first, setup);
-  member->problem = std::make_unique<PathProblem>(setup.system, setup.rule);
-  member->evaluator = std::make_unique<Evaluator>(*member->problem, member->study, setup.scales);
-  member->quantities = quantities_of(member->study, setup.system, setup.scales, setup.lambda_scale,
-                                     lambda_unit_of(member->study, setup.system));
+  // The member keeps the system, and its place.
+  const std::shared_ptr<const statics::System> own(std::shared_ptr<void>{}, &setup.system);
+  member->problem = std::make_unique<PathProblem>(own, setup.rule);
   return member;
 }
 
 /// The start of a neighbour is the first guess. Commands that are not tied are those of the first member.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
-  Study how = member.study;
-  how.start.attempts = 1;
-  const bool keeps = !study_.critical.tied && how.start.solve == StartSolve::actuators;
-  if (keeps) how.start.solve = StartSolve::pose;
-  statics::StartProblem problem = start_problem(member.setup, how);
-  const Vector guess = problem.z;
-  if (near.first.z.size() != guess.size()) return false;
-  problem.z = near.first.z;
-  if (how.start.solve != StartSolve::pose) {
-    const auto& body = member.setup.system.body_slices[static_cast<std::size_t>(how.body - 1)];
-    problem.z.segment(body.t, body.count) = guess.segment(body.t, body.count);
+  StartOptions how = member.study.start;
+  how.attempts = 1;
+  const bool keeps = !study_.critical.tied && how.solve == StartSolve::actuators;
+  if (keeps) how.solve = StartSolve::pose;
+  statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
+  if (near.first.z.size() != problem.z.size()) return false;
+  problem.foresight = foresight(member.mu, near);
+  const auto& body =
+      member.setup.system.body_slices[static_cast<std::size_t>(member.study.body - 1)];
+  if (how.solve != StartSolve::pose) {
+    const Vector given = problem.z.segment(body.t, body.count);
+    problem.z = near.first.z;
+    problem.z.segment(body.t, body.count) = given;
+    if (problem.foresight.z.size() > 0) problem.foresight.z.segment(body.t, body.count) = given;
+  } else {
+    problem.z = near.first.z;
   }
   if (keeps) problem.inputs.rho = base_->first.inputs.rho;
-  if (how.start.solve == StartSolve::actuators) problem.inputs.rho = near.first.inputs.rho;
+  if (how.solve == StartSolve::actuators)
+    problem.inputs.rho = near.first.inputs.rho;
+  else
+    problem.foresight.rho.resize(0);
   problem.is_neighbour = true;
   member.first = first_equilibrium(member.setup.system, problem);
   member.report.found = member.first.status == statics::StartStatus::found;
   return member.report.found;
 }
 
+/// By the polynomial through up to four members around mu. Where they stand close together it would magnify their
+/// rounding: none nearer to another than half its distance from mu is taken.
+statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
+  constexpr std::size_t most = 4;
+  std::vector<const Member*> nodes{&near};
+  while (nodes.size() < most) {
+    const Member* next = nullptr;
+    const auto take_nearer = [&](const Member& member) {
+      const double away = std::abs(member.mu - mu);
+      if (next != nullptr && away >= std::abs(next->mu - mu)) return;
+      const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
+        return std::abs(other->mu - member.mu) <= 0.5 * away;
+      });
+      if (apart) next = &member;
+    };
+    take_nearer(*base_);
+    for (const auto& member : recent_) take_nearer(*member);
+    if (next == nullptr) break;
+    nodes.push_back(next);
+  }
+  statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
+                              .rho = Vector::Zero(near.first.inputs.rho.size()),
+                              .factors = near.first.factors};
+  for (const Member* member : nodes) {
+    double weight = 1;
+    for (const Member* other : nodes)
+      if (other != member) weight *= (mu - other->mu) / (member->mu - other->mu);
+    if (member->first.z.size() != expected.z.size() ||
+        member->first.inputs.rho.size() != expected.rho.size())
+      return {.factors = near.first.factors};
+    expected.z += weight * member->first.z;
+    expected.rho += weight * member->first.inputs.rho;
+  }
+  return expected;
+}
+
 const Member* CaseCurves::at(double mu) const {
   if (!base_ || !base_->report.found || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
   const Member* near = base_.get();
-  for (auto i = recent_.begin(); i != recent_.end(); ++i) {
+  for (auto i = recent_.end(); i != recent_.begin();) {
+    --i;
     if ((*i)->mu == mu) {
-      recent_.splice(recent_.begin(), recent_, i);
-      return recent_.front().get();
+      std::rotate(i, i + 1, recent_.end());
+      return recent_.back().get();
     }
     if (std::abs((*i)->mu - mu) < std::abs(near->mu - mu)) near = i->get();
   }
-  auto made = make(mu, near);
+  std::unique_ptr<Member> oldest;
+  if (recent_.size() >= members_kept) {
+    const auto old = recent_.begin() + (recent_.front().get() == near ? 1 : 0);
+    oldest = std::move(*old);
+    recent_.erase(old);
+  }
+  auto made = make(mu, near, oldest.get());
   if (!made) return nullptr;
-  recent_.push_front(std::move(made));
-  if (recent_.size() > members_kept) recent_.pop_back();
-  return recent_.front().get();
+  recent_.push_back(std::move(made));
+  return recent_.back().get();
 }
 
 continuation::Family CaseCurves::family() const {

@@ -1,7 +1,6 @@
 // The curve of a study for every value of one of the case's parameters. Private to analysis.
 #pragma once
 
-#include <list>
 #include <memory>
 #include <string>
 
@@ -21,15 +20,20 @@ struct Member {
   StartReport report{};
   statics::FirstEquilibrium first{};
   std::unique_ptr<PathProblem> problem{};
-  std::unique_ptr<Evaluator> evaluator{};
-  std::vector<QuantityDefinition> quantities{};
 
   continuation::CurvePoint start() const;
+  /// Columns and what evaluates them: made when they are asked for, which most members never are.
+  const std::vector<QuantityDefinition>& quantities() const;
+  const Evaluator& evaluator() const;
   const QuantityDefinition* quantity(const std::string& name) const;
+
+ private:
+  mutable std::unique_ptr<Evaluator> evaluator_{};
+  mutable std::vector<QuantityDefinition> quantities_{};
 };
 
 /// The study as a curve that is traced, whatever its kind: limits and marks of `parameter` left out.
-Study as_curve(const Study& study);
+Study as_curve(Study study);
 
 /// Members share the scales of the first one, the case's own. Starts of the others are found from the nearest
 /// one that is known; where the settings do not tie them, commands stay those of the first.
@@ -50,15 +54,16 @@ class CaseCurves {
                                            const Piece& piece);
 
  private:
-  std::unique_ptr<Member> make(double mu, const Member* near) const;
+  std::unique_ptr<Member> make(double mu, const Member* near, Member* spare = nullptr) const;
   bool solve_near(Member& member, const Member& near) const;
+  statics::Foresight foresight(double mu, const Member& near) const;
 
   Study study_;
   std::size_t parameter_ = 0;
   std::string name_{};
   double value_ = 0, scale_ = 1;
   std::unique_ptr<Member> base_{};
-  mutable std::list<std::unique_ptr<Member>> recent_{};
+  mutable std::vector<std::unique_ptr<Member>> recent_{};  ///< the one asked for last behind
 };
 
 }  // namespace springfold::analysis

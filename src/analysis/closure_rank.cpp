@@ -16,8 +16,9 @@ struct ClosureRank {
   std::vector<Index> rows{};  ///< of the closures among the unknowns of the statics
 };
 
+/// @param along  with lambda among what moves
 std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, double lambda,
-                                   const Piece& piece) {
+                                   const Piece& piece, bool along = true) {
   continuation::Linearisation at;
   if (!linearise(problem, x, lambda, piece, at)) return std::nullopt;
   const statics::System& layout = problem.layout();
@@ -33,7 +34,7 @@ std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, 
   for (Index i = 0; i < m; ++i)  // rows of closures are columns of wrenches
     J.row(i).head(J.cols() - 1) =
         product(at, Vector::Unit(x.size(), rank.rows[static_cast<std::size_t>(i)]))(motions);
-  J.rightCols(1) = at.dF_dlambda(rank.rows);
+  J.rightCols(1) = along ? at.dF_dlambda(rank.rows) : Vector(Vector::Zero(m));
   if (layout.redundant > 0) {  // what they say twice counts once
     Vector z, r;
     statics::Workspace work;
@@ -141,19 +142,41 @@ std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
   return found;
 }
 
+namespace {
+
+/// How far beside a point its surroundings are looked at, and below which share of the largest a
+/// singular value of a solved point is rounding.
+constexpr double look_beside = 1e-2, rounded_rank = 1e-9;
+
+/// A direction that is nothing special to the closures.
+Vector any_direction(Index size) { return Vector::LinSpaced(size, 0.7, 1.3).normalized(); }
+
+}  // namespace
+
+bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point) {
+  const Vector any = any_direction(point.x.size());
+  for (const double h : {0.0, -look_beside, look_beside}) {
+    const auto rank = rank_at(problem, point.x + h * any, point.lambda, point.piece, false);
+    if (!rank || rank->smallest > rounded_rank * rank->largest) return false;
+  }
+  return true;
+}
+
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point) {
-  constexpr double beside = 1e-2, drop = 1e-3;
+  constexpr double drop = 1e-3;
   const bool along = point.tangent.dx.size() > 0;
-  const double singular = along ? 1e-4 : 1e-9;  // a point on a curve is located less exactly
+  const double singular =
+      along ? 1e-4 : rounded_rank;  // a point on a curve is located less exactly
   const auto here = rank_at(problem, point.x, point.lambda, point.piece);
   if (!here || here->smallest > singular * here->largest) return std::nullopt;
-  const Vector any = Vector::LinSpaced(point.x.size(), 0.7, 1.3).normalized();
+  const Vector any = any_direction(point.x.size());
   const Vector dx = along ? point.tangent.dx : any;
   const double dlambda = along ? point.tangent.dlambda : 0;
-  for (const double h : {-beside, beside}) {
+  for (const double h : {-look_beside, look_beside}) {
     const auto there = rank_at(problem, point.x + h * dx, point.lambda + h * dlambda, point.piece);
-    if (!there || here->smallest > drop * there->smallest) return std::nullopt;
+    const bool is_low_too = there && there->smallest <= rounded_rank * there->largest;
+    if (!there || is_low_too || here->smallest > drop * there->smallest) return std::nullopt;
   }
   return "kinematic singularity: the closures of " + words_for(problem.layout(), here->null) +
          " lose rank together, a part of their wrenches is not determined here, and other modes of "

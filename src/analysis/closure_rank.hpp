@@ -16,6 +16,10 @@ inline constexpr double same_rank = 1e-7;
 /// closure without columns: its rank is 0.
 Index rank_of(const Matrix& J, double share);
 
+/// The closures as equations for everything but lambda are dependent at the point and beside it, so wherever the mechanism
+/// goes: they ask more of the joints than these can give.
+bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point);
+
 /// The closures as equations for everything that moves on the path, lambda included, have a lower rank
 /// here than on both sides along the tangent (without one: beside it): a kinematic singularity. A part of the wrenches is then
 /// not determined by statics, and equilibria with all its values form a line that no branch follows.

@@ -47,9 +47,11 @@ void run_curve(const CaseCurves& curves, const Study& study, const Observer& obs
   const auto point =
       std::find_if(path.points.begin(), path.points.end(),
                    [&](const SpecialPoint& p) { return p.label == study.critical.point; });
-  std::string why = path.problem;
-  if (why.empty() && point == path.points.end())
-    why = "the curve has no " + study.critical.point + "; its special points: " + list_of(path);
+  if (!path.problem.empty()) return refuse_start(path, result.start);
+  std::string why;
+  if (point == path.points.end())
+    why = "the curve has no " + study.critical.point + "; its special points: " + list_of(path) +
+          early_ends(path.branch);
   std::optional<continuation::CriticalStart> start;
   if (why.empty()) start = critical_start(curves, base, *point, why);
   if (!start) {

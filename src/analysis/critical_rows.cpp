@@ -63,8 +63,8 @@ void count_without_vanishing(const Member& member, const continuation::CurvePoin
   const auto count = static_cast<double>((spectrum.array() < -vanishing * largest).count() -
                                          member.problem->closures());
   using Kind = QuantityDefinition::Kind;
-  for (std::size_t i = 0; i < member.quantities.size(); ++i) {
-    const Kind kind = member.quantities[i].kind;
+  for (std::size_t i = 0; i < member.quantities().size(); ++i) {
+    const Kind kind = member.quantities()[i].kind;
     const bool same = kind == Kind::index_force && member.study.control == ControlMode::load;
     if (kind == Kind::index || same) values[i] = count;
   }
@@ -80,7 +80,7 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
             const Member* member = curves.at(p.mu);
             if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
             const QuantityDefinition& q = *member->quantity(quantity);
-            return (member->evaluator->value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
+            return (member->evaluator().value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
           },
           action};
 }
@@ -124,7 +124,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
 
 std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
   std::vector<Quantity> columns;
-  for (const auto& q : curves.base().quantities) columns.push_back({q.name, q.unit});
+  for (const auto& q : curves.base().quantities()) columns.push_back({q.name, q.unit});
   columns.push_back({curves.name(), Unit::none});
   return columns;
 }
@@ -183,7 +183,7 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
     const Member* member = curves.at(rows[i].point.mu);
     if (member == nullptr) continue;
     auto point = CaseCurves::point_of(rows[i].point, followed.start.piece);
-    Sample sample{member->evaluator->values(member->quantities, point),
+    Sample sample{member->evaluator().values(member->quantities(), point),
                   piece_text(member->setup.system, followed.start.piece), ""};
     if (followed.start.kind == continuation::CriticalKind::limit_point ||
         followed.start.kind == continuation::CriticalKind::branch_point)

@@ -170,7 +170,7 @@ class Design {
       if (one.name == "constant.mean") mean = one.after;
     DesignPath path(search_.requirements().designs(), search_.values(found.changes));
     path.trace(observer_);
-    const auto& quantities = path.base().quantities;
+    const auto& quantities = path.base().quantities();
     const auto along =
         static_cast<std::size_t>(path.base().quantity(wanted.along) - quantities.data());
     const auto of =
@@ -212,7 +212,7 @@ class Design {
   }
 
   void add_columns(const Member& base) {
-    for (const QuantityDefinition& q : base.quantities)
+    for (const QuantityDefinition& q : base.quantities())
       result_.quantities.push_back({q.name, q.unit});
     for (const DesignParameter& parameter : study_.design.parameters)
       result_.quantities.push_back({parameter.name, Unit::none});

@@ -81,7 +81,7 @@ std::string DesignPath::doubt() const {
 }
 
 std::size_t DesignPath::column(const std::string& name) const {
-  return static_cast<std::size_t>(base().quantity(name) - base().quantities.data());
+  return static_cast<std::size_t>(base().quantity(name) - base().quantities().data());
 }
 
 Measure DesignPath::with_rates(
@@ -114,13 +114,13 @@ std::optional<Measure> DesignPath::at_point(const SpecialPoint& point,
 
 std::optional<Measure> DesignPath::at_value(const std::string& name, const std::string& along,
                                             double value) const {
-  const QuantityDefinition& quantity = base().quantities[column(along)];
-  const double at_start = base().evaluator->value(quantity, base().start());
+  const QuantityDefinition& quantity = base().quantities()[column(along)];
+  const double at_start = base().evaluator().value(quantity, base().start());
   if (std::abs(at_start - value) <= at_start_itself * std::max(quantity.scale, std::abs(value)))
     return this->at_start(name);
   for (const SpecialPoint& point : path_.points) {
     if (point.kind != EventKind::user_value || point.hit.name != along) continue;
-    const double there = base().evaluator->value(quantity, point.hit.point);
+    const double there = base().evaluator().value(quantity, point.hit.point);
     constexpr double same = 1e-8;  // marks are located far better, and lie farther apart
     if (std::abs(there - value) <= same * std::max(quantity.scale, std::abs(value)))
       return at_point(point, name);

@@ -9,9 +9,9 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
   const bool dead = settings.stability == StabilityOf::dead_load;
   switch (point.kind) {
     case EventKind::limit_point:
-      return only_turns || !of_force || dead;
+      return dead || !of_force;
     case EventKind::corner_limit_point:
-      return only_turns || dead || point.hit.kind == continuation::HitKind::corner;
+      return dead || point.hit.kind == continuation::HitKind::corner;
     case EventKind::branch_point:
     case EventKind::branching_kink:
     case EventKind::unresolved:
@@ -20,7 +20,7 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
       const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
       if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
         return false;
-      const auto column = static_cast<std::size_t>(index - member.quantities.data());
+      const auto column = static_cast<std::size_t>(index - member.quantities().data());
       return path.branch.samples[point.row + 1].values[column] > 0;
     }
     default:

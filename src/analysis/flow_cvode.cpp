@@ -144,8 +144,10 @@ class Integrator {
     double t = 0;
     for (flow_.steps = 0; flow_.steps < options_.most_steps; ++flow_.steps) {
       if (options_.goes_on && flow_.steps % now_and_then == 0 && !options_.goes_on()) return;
+      const double before = t;
       const int flag = CVode(cvode, far, y, &t, CV_ONE_STEP);
       if (flag < 0) return;
+      if (data_.has_masses()) look_within(cvode, y, before, t);
       const Vector state = view(y);
       flow_.time = t;
       flow_.dissipated = state[state.size() - 1];
@@ -173,6 +175,48 @@ class Integrator {
     return true;
   }
 
+  /// Largest speeds of masses and of what only turns.
+  struct Speeds {
+    double moving = 0, turning = 0;
+  };
+  Speeds speeds_at(const Vector& y) {
+    data_.put(y);
+    Speeds largest;
+    for (const MassPoint& mass : data_.motion->masses(data_.x)) {
+      double& speed = mass.has_speed ? largest.moving : largest.turning;
+      speed = std::max(speed, (mass.jacobian * data_.speeds(y)).norm());
+    }
+    return largest;
+  }
+
+  /// The largest speed lies between steps: the integrator's polynomial of the last one is searched, in parts first, then
+  /// beside the fastest one by the golden section.
+  void look_within(void* cvode, N_Vector y, double from, double to) {
+    constexpr int parts = 8, sections = 40;
+    constexpr double may_be_largest = 0.98, golden = 0.6180339887498949;
+    const auto inside = owned(made(N_VClone(y)), N_VDestroy);
+    const auto speed = [&](double t) {
+      if (CVodeGetDky(cvode, t, 0, inside.get()) != 0) return 0.0;
+      const double found = speeds_at(view(inside.get())).moving;
+      flow_.peak_speed = std::max(flow_.peak_speed, found);
+      return found;
+    };
+    double best = 0, at = to;
+    for (int i = 1; i <= parts; ++i) {
+      const double t = from + (to - from) * i / parts, found = speed(t);
+      if (found > best) best = found, at = t;
+    }
+    if (best < may_be_largest * flow_.peak_speed) return;
+    double a = std::max(from, at - (to - from) / parts), b = std::min(to, at + (to - from) / parts);
+    for (int i = 0; i < sections; ++i) {
+      const double left = b - golden * (b - a), right = a + golden * (b - a);
+      if (speed(left) > speed(right))
+        b = right;
+      else
+        a = left;
+    }
+  }
+
   /// @returns false at rest
   bool observe(const Vector& y) {
     const auto rate = data_.rate(y);
@@ -186,14 +230,9 @@ class Integrator {
     }
     double speed = rate->rate.lpNorm<Eigen::Infinity>();
     if (data_.has_masses()) {
-      speed = 0;
-      double turning = 0;
-      for (const MassPoint& mass : data_.motion->masses(data_.x)) {
-        double& largest = mass.has_speed ? speed : turning;
-        largest = std::max(largest, (mass.jacobian * data_.speeds(y)).norm());
-      }
-      flow_.peak_speed = std::max(flow_.peak_speed, speed);
-      speed = std::max(speed, turning);
+      const Speeds largest = speeds_at(y);
+      flow_.peak_speed = std::max(flow_.peak_speed, largest.moving);
+      speed = std::max(largest.moving, largest.turning);
     } else {
       flow_.peak_speed = std::max(flow_.peak_speed, speed);
     }

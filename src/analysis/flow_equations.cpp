@@ -3,6 +3,7 @@
 
 #include "flow.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -27,9 +28,7 @@ std::optional<Evaluated> evaluate(const Landscape& landscape, const Vector& x, c
   Evaluated at;
   Vector b;
   const Terrain& terrain = landscape.terrain();
-  if (!terrain.problem.residual(x, terrain.lambda, piece, at.r) ||
-      !terrain.problem.derivatives(x, terrain.lambda, piece, at.A, b))
-    return std::nullopt;
+  if (!terrain.problem.equations(x, terrain.lambda, piece, at.r, at.A, b)) return std::nullopt;
   return at;
 }
 
@@ -54,9 +53,11 @@ struct Balanced {
 };
 std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& p,
                                 const Vector& q) {
-  const Matrix Z = kernel_of(J);
+  const RowQr rows(J);
+  const bool plain = rows.independent();
+  const Matrix Z = plain ? rows.kernel() : kernel_of(J);
   Balanced result{Vector::Zero(W.rows()), Vector::Zero(J.rows())};
-  if (J.rows() > 0) result.a = least_squares(J, q);
+  if (J.rows() > 0) result.a = plain ? rows.least_norm(q) : least_squares(J, q);
   if (Z.cols() > 0) {
     const Matrix reduced = Z.transpose() * W * Z;
     const Vector values = symmetric_eigenvalues(reduced);
@@ -64,7 +65,8 @@ std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& 
     result.a += Z * solve_definite(reduced, Vector(Z.transpose() * (p - W * result.a)));
   }
   if (J.rows() > 0) {
-    result.nu = least_squares(J.transpose(), p - W * result.a);
+    const Vector rest = p - W * result.a;
+    result.nu = plain ? rows.multipliers(rest) : least_squares(J.transpose(), rest);
   }
   return result;
 }

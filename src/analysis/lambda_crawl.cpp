@@ -1,7 +1,9 @@
 #include "lambda_crawl.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "settle_units.hpp"
 #include "springfold/continuation/response.hpp"
 #include "springfold/core/scaling.hpp"
 
@@ -17,6 +19,10 @@ constexpr double much_steeper = 16;
 /// Over so many units of arc length, 160 of the longest default steps, before the unit is taken to be too small.
 constexpr double long_way = 16;
 
+/// Where x stands still at the start its response says nothing: the unit comes from the first critical load, and the others
+/// may be orders of magnitude away. After a long way it grows by this factor, no farther than a finite range asks for.
+constexpr double next_unit = 16;
+
 double length_in(const Vector& weights, const Vector& dx) {
   return std::sqrt(dx.cwiseAbs2().dot(weights));
 }
@@ -24,7 +30,9 @@ double length_in(const Vector& weights, const Vector& dx) {
 }  // namespace
 
 void LambdaCrawl::begin(const continuation::Direction& tangent) {
-  slope_at_start_ = length_in(weights_, tangent.dx) / std::abs(tangent.dlambda);
+  constexpr double rounding = 1e-12;
+  const double slope = length_in(weights_, tangent.dx) / std::abs(tangent.dlambda);
+  slope_at_start_ = slope > rounding ? slope : 0;
   counting_ = false;
 }
 
@@ -42,13 +50,21 @@ bool LambdaCrawl::sees(const continuation::CurvePoint& point) {
   }
   const double dx = length_in(weights_, point.x - last_.x),
                dlambda = std::abs(point.lambda - last_.lambda);
-  if (!(dx < alone * dlambda) || !(dx > 0)) {
+  const bool trivial = !(slope_at_start_ > 0);
+  if (!(dx < alone * dlambda) || (!trivial && !(dx > 0))) {
     count_from(point);
     return false;
   }
   by_x_ += dx;
   by_lambda_ += dlambda;
   last_ = point;
+  if (trivial) {
+    const double wanted =
+        std::isfinite(range_) ? power_of_two_near(range_ / longest_straight_way) : 1;
+    if (by_lambda_ >= longest_straight_way)
+      factor_ = std::max(1.0, std::min({largest_, next_unit, wanted}));
+    return factor_ > 1;
+  }
   if (by_lambda_ < long_way || by_x_ > slope_at_start_ / much_steeper * by_lambda_) return false;
   factor_ =
       std::min(largest_, power_of_two_near(continuation::slopes_in_a_unit * by_lambda_ / by_x_));

@@ -17,8 +17,9 @@ inline constexpr double largest_change_of_lambda_unit = 0x1p32;
 class LambdaCrawl {
  public:
   /// @param largest  factor that is still allowed
-  LambdaCrawl(const PathProblem& problem, double largest)
-      : weights_{problem.metric()}, largest_{largest} {}
+  /// @param range    of lambda that is asked for, in its unit; infinity: none
+  LambdaCrawl(const PathProblem& problem, double largest, double range)
+      : weights_{problem.metric()}, largest_{largest}, range_{range} {}
 
   /// @param tangent  at the start: a curve that is as steep there as later (a trivial branch) is left alone
   void begin(const continuation::Direction& tangent);
@@ -33,7 +34,7 @@ class LambdaCrawl {
   void count_from(const continuation::CurvePoint& point);
 
   Vector weights_{};
-  double largest_ = 1;
+  double largest_ = 1, range_;
   double slope_at_start_ = 0;  ///< |dx| over |dlambda|
   bool counting_ = false;
   continuation::CurvePoint last_{};

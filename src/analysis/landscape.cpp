@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -62,18 +63,23 @@ bool Landscape::close(Vector& x) const {
   if (!piece) return false;
   Matrix A;
   Vector r, b;
+  RowQr rows;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < rounds; ++k) {
-    if (!terrain_.problem.residual(x, terrain_.lambda, *piece, r)) return false;
+    const bool first = k == 0;  // seldom closed: both at once are cheaper than one after the other
+    if (!(first ? terrain_.problem.equations(x, terrain_.lambda, *piece, r, A, b)
+                : terrain_.problem.residual(x, terrain_.lambda, *piece, r)))
+      return false;
     const Vector gap = r(multipliers_);
     const double size = gap.lpNorm<Eigen::Infinity>();
     if (size <= closed * std::max(1.0, x(moving_).lpNorm<Eigen::Infinity>())) return true;
     // Rounding is reached where a small gap does not shrink any more.
     if (size < 1e3 * closed && size > last / 2) return true;
     last = size;
-    if (!terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
+    if (!first && !terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
     const Matrix J = A(multipliers_, moving_);
-    Vector step = -least_squares(J, gap);
+    rows.compute(J);
+    Vector step = -(rows.independent() ? rows.least_norm(gap) : least_squares(J, gap));
     const double length = step.lpNorm<Eigen::Infinity>();
     if (length > longest) step *= longest / length;
     x(moving_) += step;
@@ -94,17 +100,17 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
   Matrix A;
   Vector r, b;
   const auto evaluate = [&] {
-    return terrain_.problem.residual(at.x, terrain_.lambda, piece, r) &&
-           terrain_.problem.derivatives(at.x, terrain_.lambda, piece, A, b);
+    return terrain_.problem.equations(at.x, terrain_.lambda, piece, r, A, b);
   };
   if (!evaluate()) return std::nullopt;
   at.gradient = r(moving_);
   at.closing = A(multipliers_, moving_);
-  at.motions = kernel_of(at.closing);
+  const RowQr rows(at.closing);
+  at.motions = rows.independent() ? rows.kernel() : kernel_of(at.closing);
   at.slope = at.motions.transpose() * at.gradient;
   if (!multipliers_.empty()) {
-    const Matrix G = A(moving_, multipliers_);
-    at.x(multipliers_) = -least_squares(G, at.gradient);
+    at.x(multipliers_) = -(rows.independent() ? rows.multipliers(at.gradient)
+                                              : least_squares(at.closing.transpose(), at.gradient));
     if (!evaluate()) return std::nullopt;
   }
   const Matrix H = A(moving_, moving_);

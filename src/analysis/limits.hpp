@@ -27,6 +27,9 @@ std::optional<std::string> limit_passed(const Study& study, const Evaluator& eva
                                         const std::vector<QuantityDefinition>& quantities,
                                         const continuation::CurvePoint& point);
 
+/// What to do about a start outside of the limits.
+inline constexpr const char* outside_advice = "try limits that include the start, or another start";
+
 /// A limit that a start violates: "lambda = 0 at the start, outside of its limits 1 to 2"; nothing within
 /// the range. `quantity` names the limit.
 struct OutsideStart {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -54,6 +55,8 @@ using Turns = std::vector<Turn>;
 class PathProblem {
  public:
   PathProblem(statics::System system, PathRule rule);
+  /// The same with a system that others use too.
+  PathProblem(std::shared_ptr<const statics::System> system, PathRule rule);
 
   Index size() const { return size_; }
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const;
@@ -135,7 +138,8 @@ class PathProblem {
                            Vector& dg_dlambda) const;
   std::string shape_switch_name(const statics::Switch& s, Index j) const;
 
-  statics::System system_;
+  std::shared_ptr<const statics::System> kept_;
+  const statics::System& system_;  ///< *kept_
   PathRule rule_;
   Index t_ = 0, d_ = 0, size_ = 0;  ///< size_: of y
   Index plain_size_ = 0;            ///< of v, the unknowns with rotation vectors

@@ -84,7 +84,7 @@ std::optional<double> slope_at(const Member& member, const CurvePoint& point,
   if (control != ControlMode::pose && control != ControlMode::mixed) return tangent->dlambda;
   CurvePoint along = point;
   along.tangent = *tangent;
-  return member.evaluator->force_rate(along).told();
+  return member.evaluator().force_rate(along).told();
 }
 
 std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path,
@@ -92,7 +92,8 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
   LeastSlope least{.value = HUGE_VAL};
   const QuantityDefinition* column = member.quantity(quantity);
   const auto beyond = [&](const CurvePoint& point) {
-    return std::isfinite(end) && column != nullptr && member.evaluator->value(*column, point) > end;
+    return std::isfinite(end) && column != nullptr &&
+           member.evaluator().value(*column, point) > end;
   };
   for (const Stretch& stretch : stretches_of(path.forward)) {
     const auto& points = stretch.points;

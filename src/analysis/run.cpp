@@ -6,9 +6,11 @@
 
 #include "branch_rows.hpp"
 #include "branches.hpp"
+#include "case_curves.hpp"
 #include "closure_rank.hpp"
 #include "cpu_time.hpp"
 #include "equilibria.hpp"
+#include "held_twice.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "parameter_rules.hpp"
@@ -174,6 +176,17 @@ void refuse_contradiction(const Evaluator& evaluator, const CurvePoint& start,
       "would have to give way";
 }
 
+/// Every point of the path holds what the joints hold: no curve is determined.
+void refuse_held_twice(const Evaluator& evaluator, const Study& study, const CurvePoint& start,
+                       StartReport& report) {
+  if (study.kind != StudyKind::force_deflection || !holds_twice(evaluator.problem(), study, start))
+    return;
+  report.found = false;
+  report.message = held_twice;
+  report.where = "control";
+  report.advice = held_twice_advice;
+}
+
 void report_range(const Study& study, const Evaluator& evaluator,
                   const std::vector<QuantityDefinition>& quantities, const CurvePoint& start,
                   StartReport& report) {
@@ -182,7 +195,7 @@ void report_range(const Study& study, const Evaluator& evaluator,
   if (!outside) return;
   report.outside = outside->text;
   report.where = "until." + outside->quantity;
-  report.advice = "try limits that include the start, or another start";
+  report.advice = outside_advice;
 }
 
 /// The same study of commands with its first target alone.
@@ -265,12 +278,13 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   CurvePoint start = start_point(problem, setup, begun.first);
   count_negative(problem, start);
   refuse_contradiction(evaluator, start, result.start);
+  refuse_held_twice(evaluator, study, start, result.start);
   if (!result.start.found) return 1;
   report_tangent(evaluator, start, begun.first.z, result.start);
   report_range(study, evaluator, quantities, start, result.start);
   report_start(evaluator, start, result.start);
   RowBudget budget;
-  LambdaCrawl crawl(problem, largest);
+  LambdaCrawl crawl(problem, largest, range_of_lambda(study, setup));
   const Tracing tracing{problem, study, evaluator, quantities, begun.observer, setup.lambda_scale,
                         budget,  crawl};
   if (study.kind == StudyKind::equilibrium) {
@@ -327,9 +341,25 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
   return result;
 }
 
-std::optional<StartReport> solve_start(const model::Mechanism& given, const Study& study,
+namespace {
+
+/// The study as its first curve is traced. Where the start moves with a parameter that the study varies, only limits on
+/// lambda say something of all starts.
+Study first_curve_of(const Study& study) {
+  if (!is_of_critical_points(study.kind)) return study;
+  Study curve = as_curve(study);
+  if (study.kind != StudyKind::critical_curve && study.kind != StudyKind::sensitivity)
+    std::erase_if(curve.until, [](const Limit& limit) { return limit.quantity != "lambda"; });
+  return curve;
+}
+
+}  // namespace
+
+std::optional<StartReport> solve_start(const model::Mechanism& given, const Study& of,
                                        const ParameterFamily* family) {
-  assert(problems_in(study, given).empty());
+  assert(problems_in(of, given).empty());
+  const bool can_trace = of.control != ControlMode::parameter || family != nullptr;
+  const Study study = can_trace ? first_curve_of(of) : of;
   if (study.kind == StudyKind::control) return run_control(given, first_target(study), {}).start;
   if (is_of_commands(study.kind)) return std::nullopt;
   StartReport report;
@@ -345,6 +375,7 @@ std::optional<StartReport> solve_start(const model::Mechanism& given, const Stud
   CurvePoint start = start_point(problem, setup, first);
   count_negative(problem, start);
   refuse_contradiction(evaluator, start, report);
+  refuse_held_twice(evaluator, study, start, report);
   if (!report.found) return report;
   report_tangent(evaluator, start, first.z, report);
   report_range(study, evaluator, quantities, start, report);

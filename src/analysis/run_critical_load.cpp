@@ -66,7 +66,11 @@ class LoadsOverParameter {
       else if (!first.why.empty())
         doubt(mu, first.why);
       fill(done, piece ? piece->falling.end : mu);
-      if (piece) add(std::move(*piece));
+      if (piece) {
+        fill_back(pieces_.empty() ? done : std::max(done, pieces_.back().growing.end),
+                  piece->falling.end);
+        add(std::move(*piece));
+      }
       if (!pieces_.empty()) done = std::max(done, pieces_.back().growing.end);
     }
     if (std::ssize(pieces_) >= most_pieces) doubt(done, "there are more pieces than are followed");
@@ -126,6 +130,22 @@ class LoadsOverParameter {
       from = std::max(mu, piece->growing.end);
       add(std::move(*piece));
     }
+  }
+
+  /// The same from behind: what comes first just before a piece begins lies within no value of the range either.
+  void fill_back(double from, double to) {
+    std::vector<LoadPiece> found;
+    while (to - from > at_degeneracy * width_ &&
+           std::ssize(pieces_) + std::ssize(found) < most_pieces) {
+      const double mu = to - next_piece * width_;
+      const FirstUnwanted& first = first_at(mu);
+      auto piece = first.point ? piece_of(*first.point, mu, from, to) : std::nullopt;
+      if (!piece) break;
+      to = std::min(mu, piece->falling.end);
+      found.push_back(std::move(*piece));
+    }
+    std::for_each(found.rbegin(), found.rend(),
+                  [this](LoadPiece& piece) { add(std::move(piece)); });
   }
 
   void add(LoadPiece piece) {

@@ -140,18 +140,14 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       result.start = base.report;
       if (!base.report.found) return;
       result.lambda_unit = lambda_unit_of(base.study, base.setup.system);
-      for (std::size_t i = 0; i < base.quantities.size(); ++i) {
-        const auto& q = base.quantities[i];
+      for (std::size_t i = 0; i < base.quantities().size(); ++i) {
+        const auto& q = base.quantities()[i];
         result.quantities.push_back({q.name, q.unit});
         if (q.kind == QuantityDefinition::Kind::lambda) lambda = columns.size();
         if (is_rated(q, base.setup.system)) columns.push_back(i);
       }
       path = base_path(base, false, observer);
-      if (!path.problem.empty()) {
-        result.start.found = false;
-        result.start.message = path.problem;
-        return;
-      }
+      if (!path.problem.empty()) return refuse_start(path, result.start);
       for (const SpecialPoint& point : path.points) laws.emplace_back(point);
     }
     if (own->value() == 0)
@@ -159,7 +155,7 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
     const CaseCurves& curves = *own;
     const Member& base = curves.base();
     for (const std::size_t i : columns)
-      result.quantities.push_back({name_of(base.quantities[i].name, parameter), Unit::none});
+      result.quantities.push_back({name_of(base.quantities()[i].name, parameter), Unit::none});
     std::string lost;
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const SpecialPoint& point = path.points[k];

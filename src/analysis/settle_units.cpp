@@ -170,4 +170,31 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
                setup);
 }
 
+double range_of_lambda(const Study& study, const Setup& setup) {
+  double range = std::numeric_limits<double>::infinity();
+  for (const Limit& limit : study.until)
+    if (limit.quantity == "lambda")
+      range = std::min(range, (limit.high - limit.low) / setup.lambda_scale);
+  return range;
+}
+
+void reach_range(const model::Mechanism& mechanism, const Study& study,
+                 const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
+  constexpr double rounding = 1e-12;
+  const double longer = range_of_lambda(study, setup) / longest_straight_way;
+  if (!(longer > 1) || !std::isfinite(longer)) return;
+  Setup begun = setup;
+  begin_at(study, first, begun);
+  const PathProblem problem(begun.system, begun.rule);
+  const CurvePoint start = start_point(problem, begun, first);
+  continuation::Linearisation at;
+  if (!linearise(problem, start.x, start.lambda, start.piece, at)) return;
+  const continuation::Direction along{Vector::Zero(start.x.size()), 1};
+  const auto tangent = tangent_at(at, problem.metric(), along);
+  if (!tangent) return;
+  const double dx = std::sqrt(tangent->dx.cwiseAbs2().dot(problem.metric()));
+  if (dx <= rounding * std::abs(tangent->dlambda))
+    enlarge_lambda_unit(mechanism, study, family, power_of_two_near(longer), first, setup);
+}
+
 }  // namespace springfold::analysis

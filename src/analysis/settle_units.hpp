@@ -34,4 +34,15 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
                          const ParameterFamily* family, double factor,
                          statics::FirstEquilibrium& first, Setup& setup);
 
+/// Where x stands still at the start its response says nothing, and the unit of lambda comes from the first critical load.
+/// The others may be orders of magnitude away: then the unit grows until a finite range is so many units long.
+void reach_range(const model::Mechanism& mechanism, const Study& study,
+                 const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup);
+
+/// Units of lambda along a straight branch; beyond, the next larger unit is taken.
+inline constexpr double longest_straight_way = 64;
+
+/// Length of the range of lambda that is asked for, in its unit; infinity: none is.
+double range_of_lambda(const Study& study, const Setup& setup);
+
 }  // namespace springfold::analysis

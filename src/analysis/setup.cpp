@@ -8,6 +8,7 @@
 #include "spring_origins.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/scaling.hpp"
+#include "springfold/statics/prepare_again.hpp"
 #include "units.hpp"
 
 namespace springfold::analysis {
@@ -165,10 +166,13 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
 namespace {
 
 Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const Study& study,
-                const ParameterFamily* family, const Units& units, const Setup* like) {
+                const ParameterFamily* family, const Units& units, const Setup* like,
+                statics::System* spare) {
   Setup setup;
   setup.scales = scales;
-  setup.system = statics::prepare(dimensionless(mechanism, setup.scales));
+  model::Mechanism own = dimensionless(mechanism, setup.scales);
+  setup.system = spare != nullptr ? statics::prepare(std::move(own), std::move(*spare))
+                                  : statics::prepare(own);
   const auto b = static_cast<std::size_t>(study.body - 1);
   const model::TaskSpace space = setup.system.mechanism.bodies[b].task_space;
   Vector z = statics::guess(setup.system);
@@ -206,16 +210,16 @@ Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const S
 }  // namespace
 
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
-             const Setup* like) {
+             const Setup* like, statics::System* spare) {
   const Scales own = like != nullptr ? like->scales : scales_for(mechanism, study.constant_load);
-  return set_up_in(own, mechanism, study, family, {own.force, {}}, like);
+  return set_up_in(own, mechanism, study, family, {own.force, {}}, like, spare);
 }
 
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
              const Units& units) {
   Scales scales = scales_for(mechanism, study.constant_load);
   scales.force = units.force;
-  return set_up_in(scales, mechanism, study, family, units, nullptr);
+  return set_up_in(scales, mechanism, study, family, units, nullptr, nullptr);
 }
 
 }  // namespace springfold::analysis

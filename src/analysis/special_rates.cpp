@@ -49,7 +49,8 @@ StateValues column_values(std::vector<std::size_t> columns) {
              const Member& member, const continuation::CurvePoint& point) -> std::optional<Vector> {
     Vector values(static_cast<Index>(columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i)
-      values[static_cast<Index>(i)] = member.evaluator->value(member.quantities[columns[i]], point);
+      values[static_cast<Index>(i)] =
+          member.evaluator().value(member.quantities()[columns[i]], point);
     return values;
   };
 }

@@ -105,19 +105,23 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
 }  // namespace
 
 statics::StartProblem start_problem(const Setup& setup, const Study& study) {
+  return start_problem(setup, study.body, study.start);
+}
+
+statics::StartProblem start_problem(const Setup& setup, Index number, const StartOptions& options) {
   statics::StartProblem problem;
-  problem.body = study.body;
-  problem.attempts = study.start.attempts;
-  problem.seed = study.start.seed;
+  problem.body = number;
+  problem.attempts = options.attempts;
+  problem.seed = options.seed;
   problem.z = statics::guess(setup.system);
   problem.inputs = {setup.system.commands, setup.rule.W_start, setup.rule.load_start};
-  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(number - 1)];
   const model::TaskSpace space =
-      setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space;
-  if (study.start.pose.size() > 0)
+      setup.system.mechanism.bodies[static_cast<std::size_t>(number - 1)].task_space;
+  if (options.pose.size() > 0)
     problem.z.segment(body.t, body.count) =
-        study.start.pose.cwiseQuotient(pose_scales(space, setup.scales));
-  switch (study.start.solve) {
+        options.pose.cwiseQuotient(pose_scales(space, setup.scales));
+  switch (options.solve) {
     case StartSolve::pose:
       problem.unknowns = statics::StartUnknowns::pose;
       break;

@@ -14,6 +14,8 @@ statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, Sta
 
 /// The first state, what is given and what is looked for.
 statics::StartProblem start_problem(const Setup& setup, const Study& study);
+/// @param body  of the study
+statics::StartProblem start_problem(const Setup& setup, Index body, const StartOptions& options);
 
 /// A start that was held by a wrench stays held in the directions that the study leaves free.
 void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup);

@@ -6,12 +6,19 @@
 namespace springfold::analysis {
 namespace {
 
-/// Does the spring of a switch store energy in a state? Those of shapes do.
+/// Does the spring of a switch store energy in a state?
 bool stores_energy(const Frozen& frozen, const Vector& x, const statics::Switch& at) {
-  if (at.of_shape()) return true;
-  const statics::CoordinateSpring& spring = frozen.problem().layout().springs[at.spring];
-  const double c = frozen.unknowns(x)[spring.coordinate];
-  return std::abs(spring.law.energy(spring.law.segment_at(c), c)) > 0;
+  const statics::System& system = frozen.problem().layout();
+  const Vector z = frozen.unknowns(x);
+  const auto stores = [](const model::CompiledSpring& law, double c) {
+    return std::abs(law.energy(law.segment_at(c), c)) > 0;
+  };
+  if (!at.of_shape()) {
+    const statics::CoordinateSpring& spring = system.springs[at.spring];
+    return stores(spring.law, z[spring.coordinate]);
+  }
+  const double alpha = shape_state(system, at.spring, z, frozen.problem().inputs(0)).value;
+  return stores(system.shapes[at.spring].law, alpha);
 }
 
 }  // namespace

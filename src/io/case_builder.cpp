@@ -5,6 +5,7 @@
 #include "case_hints.hpp"
 #include "compared_quantity.hpp"
 #include "figure.hpp"
+#include "flat_shapes.hpp"
 #include "hold_draft.hpp"
 #include "jump_access.hpp"
 #include "memory_limits.hpp"
@@ -190,6 +191,7 @@ class Builder {
       add_model_problem(text, draft_->mechanism, numbers, study, planned.run, problems_);
     if (problems_.size() != before) return false;
     check_planes(draft_->mechanism, numbers, planned.mechanism, study.when(planned.run), problems_);
+    check_flat_folds(draft_->mechanism, planned.mechanism, study.when(planned.run), problems_);
     check_names(planned, i);
     for (const std::string& text : analysis::problems_in(planned.plan, planned.mechanism)) {
       const bool has_better_place = text.find(": no quantity ") != std::string::npos;

@@ -86,7 +86,10 @@ SpringDraft read_formula_law(const SpringReader& reader) {
     refuse("u is also an index or a name of the template, which needs another name");
   const std::string bound = node->bindings ? with_bindings(*text, *node->bindings) : *text;
   LawFormula law = read_law_formula(bound, "u");
-  if (!law.problem.empty()) refuse(law.problem);
+  if (!law.problem.empty()) {  // what was read of it is no formula
+    refuse(law.problem);
+    return draft;
+  }
   draft.formula = std::move(law.formula);
   std::vector<NumberId> ids;
   for (const auto& [step, part] : law.numbers) {
@@ -100,7 +103,7 @@ SpringDraft read_formula_law(const SpringReader& reader) {
     ids.push_back(reader.numbers.add(definition, {Range::finite, ""}));
     draft.numbers.emplace_back(step, ids.back());
   }
-  if (law.problem.empty()) require_usable(reader, draft, std::move(ids));
+  require_usable(reader, draft, std::move(ids));
   return draft;
 }
 

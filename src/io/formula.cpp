@@ -87,6 +87,7 @@ std::string problem_of(const FormulaWord& word, const std::vector<std::string>& 
   if (word.called) {
     if (contains(variables, word.name) || is_formula_word(word.name))
       return "\"" + word.name + "\" is no function; a product needs *";
+    if (word.name == "pow") return std::string{"no function \"pow\"; "} + power_is_written;
     return "no function \"" + word.name + "\"" + suggestion(word.name, function_names());
   }
   if (is_function) return "the function \"" + word.name + "\" needs its argument in parentheses";
@@ -193,6 +194,7 @@ FormulaBook::Added FormulaBook::add(const std::string& text) {
   for (const unsigned char c : text)
     if (c < 0x20 || c > 0x7e || c == '"' || c == '\'')
       return {{}, "formulas have letters, digits and + - * / ^ ( ) , . < > = ! & | ? : only"};
+  if (text.find("**") != std::string::npos) return {{}, power_is_written};
   if (has_assignment(text)) return {{}, "\"=\" has no meaning here"};
 
   std::set<std::string> names;

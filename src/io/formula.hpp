@@ -17,6 +17,9 @@ bool is_identifier(std::string_view name);
 /// Names that formulas keep for themselves: pi, deg and the functions.
 bool is_formula_word(std::string_view name);
 
+/// What is said where a formula has **, or calls pow.
+inline constexpr const char* power_is_written = "a power is written ^, as in u^3";
+
 /// All formulas of a case, compiled once, over one list of variables.
 /// Numbers are written with '.', whatever the locale.
 class FormulaBook {

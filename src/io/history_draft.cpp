@@ -78,6 +78,12 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
            " one after the other");
 }
 
+/// The names of the other studies.
+std::vector<std::string> names_without(std::vector<std::string> names, std::size_t own) {
+  names.erase(names.begin() + static_cast<std::ptrdiff_t>(own));
+  return names;
+}
+
 }  // namespace
 
 const std::vector<std::string>& history_keys() {
@@ -125,10 +131,15 @@ void connect_histories(const MechanismDraft& mechanism, std::vector<StudyDraft>&
     const NamedPlace& from = study.history.from;
     if (from.name.empty()) continue;
     const auto found = std::find(names.begin(), names.end(), from.name);
-    if (found == names.end() || &studies[static_cast<std::size_t>(found - names.begin())] == &study)
+    const auto own = static_cast<std::size_t>(&study - studies.data());
+    if (found == names.begin() + static_cast<std::ptrdiff_t>(own))
+      problems.add(from.place, from.key,
+                   "got \"" + from.name + "\", the study itself, need the name of another study" +
+                       known_names(names_without(names, own)));
+    else if (found == names.end())
       problems.add(from.place, from.key,
                    "got \"" + from.name + "\", need the name of another study" +
-                       suggestion(from.name, names));
+                       suggestion(from.name, names_without(names, own)));
     else
       study.history.study = static_cast<std::size_t>(found - names.begin());
   }

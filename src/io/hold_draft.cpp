@@ -146,7 +146,7 @@ std::string held_drive(const HistoryDraft& history, const MechanismDraft& mechan
   const analysis::Study& study = planned.plan;
   const auto hold = std::find_if(history.holds.begin(), history.holds.end(),
                                  [&study](const HoldDraft& h) { return h.body == study.body; });
-  if (hold == history.holds.end() || study.kind != StudyKind::force_deflection) return {};
+  if (hold == history.holds.end() || study.kind != analysis::StudyKind::force_deflection) return {};
   std::string held, since;
   bool also_free = false;
   const bool drives_all = study.control == analysis::ControlMode::pose;

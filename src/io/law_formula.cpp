@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "characters.hpp"
+#include "formula.hpp"
 
 namespace springfold::io {
 namespace {
@@ -63,6 +64,7 @@ class Parser {
   std::string unexpected() {
     skip_blanks();
     if (at_ >= text_.size()) return "it ends too early";
+    if (at_ > 0 && text_[at_ - 1] == '*' && text_[at_] == '*') return power_is_written;
     std::size_t end = at_ + 1;
     while (end < text_.size() && is_word(text_[at_]) && is_word(text_[end])) ++end;
     return "unexpected \"" + text_.substr(at_, end - at_) + "\"" +
@@ -254,7 +256,7 @@ class Parser {
       return add(Operation::divide, total, add(Operation::number, 0, 0, count));
     }
     const std::size_t needed = name == "atan2" ? 2 : 1;
-    if (steps.size() != needed)
+    if (steps.size() != needed && name != "pow")
       fail((steps.size() < needed ? "too few arguments for \"" : "too many arguments for \"") +
            name + "\"");
     if (!ok()) return 0;
@@ -266,7 +268,8 @@ class Parser {
     }
     const auto found = smooth_functions().find(name);
     if (found != smooth_functions().end()) return add(found->second, steps[0]);
-    fail("no function \"" + name + "\"");
+    fail("no function \"" + name + "\"" +
+         (name == "pow" ? std::string{"; "} + power_is_written : ""));
     return 0;
   }
 

@@ -129,7 +129,10 @@ std::string nearest(std::string_view got, const std::vector<std::string>& known)
 
 std::string suggestion(std::string_view got, const std::vector<std::string>& known) {
   const std::string near = nearest(got, known);
-  if (!near.empty()) return ", did you mean \"" + near + "\"?";
+  return near.empty() ? known_names(known) : ", did you mean \"" + near + "\"?";
+}
+
+std::string known_names(const std::vector<std::string>& known) {
   if (known.empty()) return {};
   constexpr std::size_t most = 40;
   std::string list;

@@ -55,6 +55,9 @@ class Problems {
 /// `, did you mean "spring"?`, or `; known here: at, rotate` if none is near.
 std::string suggestion(std::string_view got, const std::vector<std::string>& known);
 
+/// `; known here: at, rotate`; nothing where none is known.
+std::string known_names(const std::vector<std::string>& known);
+
 /// "a", "b" or "c": the allowed words of a choice.
 std::string choices(const std::vector<std::string>& words);
 

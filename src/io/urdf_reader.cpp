@@ -5,6 +5,7 @@
 
 #include "robot.hpp"
 #include "springfold/io/import_urdf.hpp"
+#include "xml_places.hpp"
 
 #if SPRINGFOLD_HAS_URDF
 #include <console_bridge/console.h>
@@ -166,6 +167,11 @@ Robot read_urdf(const std::string& bytes, const std::string& file, Problems& pro
   UrdfMessages messages;
   const auto model = urdf::parseURDF(bytes);
   if (!model || !model->getRoot()) {
+    const auto broken = broken_xml(bytes, file);  // urdfdom does not say where
+    if (broken) {
+      problems.add(broken->place, "", "no URDF: " + broken->what);
+      return {};
+    }
     problems.add({file, 0, 0}, "",
                  "no URDF: " + (messages.error.empty() ? "nothing can be read" : messages.error) +
                      ", need a robot of links and joints");

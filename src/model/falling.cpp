@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <vector>
 
 namespace springfold::model {
 namespace {
@@ -87,34 +89,66 @@ std::vector<double> sample_places(const DeformationRange& range) {
   return places;
 }
 
+/// From `inside`, where the slope is negative, over the places on one side to where it no longer is;
+/// `end` where it stays so.
+/// Between neighbouring places the slope changes its sign at most once.
+template <class Slope, class Places>
+double end_of_fall(const Slope& slope, double inside, const Places& places, double end) {
+  for (const double place : places) {
+    const double there = slope(place);
+    if (!std::isfinite(there)) return inside;
+    if (there >= 0) {
+      const double zero = sign_change(slope, std::min(place, inside), std::max(place, inside));
+      return std::abs(zero) <= epsilon * std::abs(inside) ? 0 : zero;
+    }
+    inside = place;
+  }
+  return end;
+}
+
+/// The stretch around `inside` on which the slope is negative.
+template <class Slope>
+DeformationRange stretch_around(const Slope& slope, double inside,
+                                const std::vector<double>& places, const DeformationRange& range) {
+  const auto here = std::lower_bound(places.begin(), places.end(), inside);
+  const auto above = std::upper_bound(places.begin(), places.end(), inside);
+  return {end_of_fall(slope, inside, std::vector(std::make_reverse_iterator(here), places.rend()),
+                      range.low),
+          end_of_fall(slope, inside, std::vector(above, places.end()), range.high)};
+}
+
 }  // namespace
 
-std::optional<double> falls_at(const PolynomialSpring& law) {
+std::optional<DeformationRange> falling_stretch(const PolynomialSpring& law) {
   const Coefficients slope = derivative_of(law.coefficients), bend = derivative_of(slope);
   if (slope.empty()) return std::nullopt;
   const double far = 2 * bound_of(slope);
   const double low = std::isfinite(law.range.low) ? law.range.low : std::min(-far, law.range.high);
   const double high = std::isfinite(law.range.high) ? law.range.high : std::max(far, low);
-  for (const double u : turning_places(bend, low, high))
-    if (value_of(slope, u) < -rounding_of(slope, u)) return u;
+  const std::vector<double> places = turning_places(bend, low, high);
+  const auto value = [&slope](double u) { return value_of(slope, u); };
+  for (const double u : places)
+    if (value(u) < -rounding_of(slope, u)) return stretch_around(value, u, places, law.range);
   return std::nullopt;
 }
 
-std::optional<double> falls_at(const FormulaSpring& law) {
+std::optional<DeformationRange> falling_stretch(const FormulaSpring& law) {
   const auto jet = [&law](double u) { return evaluate(law.formula, u); };
+  const auto slope = [&jet](double u) { return jet(u).slope; };
   // A stiffness this small against its neighbours is one of rounding.
   constexpr double rounding = 1e-12;
-  const auto falls = [&](double u, double near) { return jet(u).slope < -rounding * near; };
+  const auto falls = [&](double u, double near) { return slope(u) < -rounding * near; };
   const std::vector<double> places = sample_places(law.range);
+  const auto around = [&](double u) { return stretch_around(slope, u, places, law.range); };
   Jet<double> last{};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Jet<double> here = jet(places[i]);
     const double near = i > 0 && std::isfinite(last.slope) ? std::abs(last.slope) : 0;
-    if (std::isfinite(here.slope) && falls(places[i], near)) return places[i];
+    if (std::isfinite(here.slope) && falls(places[i], near)) return around(places[i]);
     if (i > 0 && last.bend < 0 && here.bend > 0) {
       const double least =
           sign_change([&](double u) { return jet(u).bend; }, places[i - 1], places[i]);
-      if (falls(least, std::max(near, std::abs(here.slope)))) return least;
+      if (falls(least, std::max(near, std::abs(here.slope)))) return around(least);
     }
     last = here;
   }

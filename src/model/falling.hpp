@@ -7,11 +7,12 @@
 
 namespace springfold::model {
 
-/// A deformation within its range at which the polynomial falls: exact, also for an endless range.
-std::optional<double> falls_at(const PolynomialSpring& law);
+/// A stretch of deformations within its range on which the polynomial falls; endless where it does not end.
+/// Exact, also for an endless range.
+std::optional<DeformationRange> falling_stretch(const PolynomialSpring& law);
 
-/// A deformation within its range at which the formula falls. Looked for at many places and at the least
+/// A stretch of deformations within its range on which the formula falls. Looked for at many places and at the least
 /// stiffness between them: what is found is sure, a narrow dip may be missed.
-std::optional<double> falls_at(const FormulaSpring& law);
+std::optional<DeformationRange> falling_stretch(const FormulaSpring& law);
 
 }  // namespace springfold::model

@@ -16,6 +16,16 @@ using Problems = std::vector<std::string>;
 
 const std::string hint = "; give falling = true if it is meant so";
 
+/// "between deformations of -0.5 and 0.5", "at every deformation".
+std::string stretch_text(const DeformationRange& stretch) {
+  const bool begins = std::isfinite(stretch.low), ends = std::isfinite(stretch.high);
+  const std::string low = rounded(stretch.low, 6), high = rounded(stretch.high, 6);
+  if (begins && ends) return "between deformations of " + low + " and " + high;
+  return begins ? "above a deformation of " + low
+         : ends ? "below a deformation of " + high
+                : "at every deformation";
+}
+
 /// Collects the broken rules of one law.
 struct Rules {
   Problems& problems;
@@ -45,9 +55,9 @@ struct Rules {
   template <class Law>
   void rising(const Law& law) const {
     if (law.falling || !problems.empty()) return;
-    if (const auto u = falls_at(law))
-      problems.push_back("falls at a deformation of " + rounded(*u, 6) + ", need a law that rises" +
-                         hint + ", or a range within which it rises");
+    if (const auto stretch = falling_stretch(law))
+      problems.push_back("falls " + stretch_text(*stretch) + ", need a law that rises" + hint +
+                         ", or a range within which it rises");
   }
 
   void operator()(const LinearSpring& s) const {

@@ -8,6 +8,7 @@
 
 #include "kinsol_newton.hpp"
 #include "minimum_norm.hpp"
+#include "solve_beside.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
 #include "stage_newton.hpp"
@@ -15,121 +16,9 @@
 namespace springfold::statics {
 namespace {
 
-/// Which entries of (z, rho) are unknown and which rows of the residual must vanish.
-struct Selection {
-  std::vector<Index> unknowns{};  ///< numbers >= system.size are commands
-  std::vector<Index> rows{};
-};
-
-Selection selection_of(const System& system, const StartProblem& problem) {
-  Selection s;
-  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
-  const auto of_body = [&](Index i) { return i >= body.t && i < body.t + body.count; };
-  const bool pose_given = problem.unknowns != StartUnknowns::pose;
-  for (Index i = 0; i < system.size; ++i) {
-    if (!(pose_given && of_body(i))) s.unknowns.push_back(i);
-    if (!(problem.unknowns == StartUnknowns::wrench && of_body(i))) s.rows.push_back(i);
-  }
-  if (problem.unknowns == StartUnknowns::commands)
-    for (Index i = 0; i < problem.inputs.rho.size(); ++i) s.unknowns.push_back(system.size + i);
-  return s;
-}
-
-struct State {
-  Vector z{};
-  Inputs inputs{};
-};
-
-/// The equilibrium equations in the selected unknowns; springs in the segments of the state itself.
-class Equations {
- public:
-  Equations(const System& system, const StartProblem& problem)
-      : system_{system}, selection_{selection_of(system, problem)} {}
-
-  Vector pack(const State& state) const {
-    Vector y(static_cast<Index>(selection_.unknowns.size()));
-    for (Index i = 0; i < y.size(); ++i) {
-      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
-      y[i] = k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size];
-    }
-    return y;
-  }
-
-  void unpack(const Vector& y, State& state) const {
-    for (Index i = 0; i < y.size(); ++i) {
-      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
-      (k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size]) = y[i];
-    }
-  }
-
-  bool is_wrench(Index unknown) const {
-    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
-    return k < system_.size && system_.is_wrench[static_cast<std::size_t>(k)];
-  }
-
-  bool is_pose(Index unknown) const {
-    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
-    return k >= system_.first_pose && k < system_.size;
-  }
-
-  bool residual(const State& state, Vector& r) {
-    const bool finite = equilibrium_residual(system_, piece_at(system_, state.z, state.inputs.rho),
-                                             state.z, state.inputs, work_, full_);
-    r = full_(selection_.rows);
-    return finite;
-  }
-
-  /// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
-  bool solved(const State& state, double tolerance) {
-    Vector r;
-    if (!residual(state, r)) return false;
-    double gap = 0, force = 0, size = 1, wrench = 1;
-    for (Index i = 0; i < r.size(); ++i) {
-      const Index row = selection_.rows[static_cast<std::size_t>(i)];
-      double& worst = system_.is_wrench[static_cast<std::size_t>(row)] ? gap : force;
-      worst = std::max(worst, std::abs(r[i]));
-    }
-    for (Index i = 0; i < system_.size; ++i) {
-      double& largest = system_.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
-      largest = std::max(largest, std::abs(state.z[i]));
-    }
-    return gap <= tolerance * size && force <= tolerance * std::max(size, wrench);
-  }
-
-  bool jacobian(const State& state, Matrix& J) {
-    const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z, state.inputs.rho),
-                                           state.z, state.inputs, work_, full_, A_, &dR_drho_);
-    Matrix wide(A_.rows(), A_.cols() + dR_drho_.cols());
-    wide << A_, dR_drho_;
-    J = wide(selection_.rows, selection_.unknowns);
-    return finite;
-  }
-
-  /// The closure equations alone and their derivatives by the unknowns `columns`.
-  bool closures(const State& state, const std::vector<Index>& columns, Vector& e, Matrix& J) {
-    Matrix all;
-    if (!jacobian(state, all)) return false;
-    std::vector<Index> rows;
-    for (std::size_t i = 0; i < selection_.rows.size(); ++i)
-      if (system_.is_wrench[static_cast<std::size_t>(selection_.rows[i])])
-        rows.push_back(static_cast<Index>(i));
-    Vector r = full_(selection_.rows);
-    e = r(rows);
-    J = all(rows, columns);
-    return true;
-  }
-
- private:
-  const System& system_;
-  Selection selection_;
-  Workspace work_;
-  Vector full_;
-  Matrix A_, dR_drho_;
-};
-
 /// Closes the chains by minimum-norm Newton steps of bounded length on the closure equations.
 /// @param move_bodies  false: the guessed poses stay, only the chains move
-bool assemble(Equations& equations, bool move_bodies, State& state) {
+bool assemble(StartEquations& equations, bool move_bodies, StartState& state) {
   constexpr double longest = 0.3;
   std::vector<Index> moving;
   const Index count = equations.pack(state).size();
@@ -153,7 +42,7 @@ bool assemble(Equations& equations, bool move_bodies, State& state) {
 }
 
 /// Wrenches that balance the springs best for the given coordinates (least squares).
-void estimate_wrenches(Equations& equations, State& state) {
+void estimate_wrenches(StartEquations& equations, StartState& state) {
   Vector r;
   Matrix J;
   Vector y = equations.pack(state);
@@ -171,32 +60,9 @@ void estimate_wrenches(Equations& equations, State& state) {
   equations.unpack(y, state);
 }
 
-/// Newton without safeguards to the last digits.
-double polish(Equations& equations, State& state, int& iterations) {
-  Vector r;
-  Matrix J;
-  double best = std::numeric_limits<double>::infinity();
-  State best_state = state;
-  for (int i = 0; i < 12; ++i) {
-    const bool finite = equations.residual(state, r);
-    const double size = r.lpNorm<Eigen::Infinity>();
-    if (!finite || !(size < best)) break;
-    const bool stagnates = size > 0.5 * best;
-    best = size;
-    best_state = state;
-    if (stagnates || size == 0 || !equations.jacobian(state, J)) break;
-    const Vector step = Lu(J).solve(r);
-    if (!step.allFinite()) break;
-    equations.unpack(equations.pack(state) - step, state);
-    ++iterations;
-  }
-  state = best_state;
-  return best;
-}
-
 /// KINSOL from a guess, then Newton; returns the residual.
-double solve_from(Equations& equations, State& state, int& iterations) {
-  State trial = state;
+double solve_from(StartEquations& equations, StartState& state, int& iterations) {
+  StartState trial = state;
   const SquareSystem square{equations.pack(state).size(),
                             [&](const Vector& y, Vector& r) {
                               equations.unpack(y, trial);
@@ -212,7 +78,7 @@ double solve_from(Equations& equations, State& state, int& iterations) {
   return polish(equations, state, iterations);
 }
 
-void perturb(Equations& equations, State& state, int attempt, std::mt19937_64& random) {
+void perturb(StartEquations& equations, StartState& state, int attempt, std::mt19937_64& random) {
   const double size = std::min(1.5, 0.02 * std::pow(1.6, attempt));
   Vector y = equations.pack(state);
   for (Index i = 0; i < y.size(); ++i) {
@@ -243,12 +109,12 @@ bool shorten_turns(const System& system, Vector& z) {
 constexpr Index most_dense = 3000;
 
 /// Long chains: Newton's method in stages from the guess and from perturbed ones.
-bool solve_long_chains(const System& system, const StartProblem& problem, Equations& equations,
-                       const State& guess, FirstEquilibrium& result) {
+bool solve_long_chains(const System& system, const StartProblem& problem, StartEquations& equations,
+                       const StartState& guess, FirstEquilibrium& result) {
   StageNewton newton(system, problem);
   std::mt19937_64 random(problem.seed);
   for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {
-    State state = guess;
+    StartState state = guess;
     if (result.attempts > 1) perturb(equations, state, result.attempts - 1, random);
     result.residual = newton.solve(state.z, state.inputs, result.iterations);
     if (shorten_turns(system, state.z))
@@ -265,31 +131,10 @@ bool solve_long_chains(const System& system, const StartProblem& problem, Equati
   return false;
 }
 
-/// Newton's method from the solution of a neighbouring problem; false where it does not stay beside it.
-bool solve_beside(const System& system, Equations& equations, const State& guess,
-                  FirstEquilibrium& result) {
-  constexpr double beside =
-      0.125;  // of a length or a radian: farther away may be another equilibrium
-  State state = guess;
-  result.residual = polish(equations, state, result.iterations);
-  double moved = 0;
-  for (Index i = 0; i < system.size; ++i)
-    if (!system.is_wrench[static_cast<std::size_t>(i)])
-      moved = std::max(moved, std::abs(state.z[i] - guess.z[i]));
-  if (!(moved <= beside) || !equations.solved(state, 1e-12)) return false;
-  result.z = state.z;
-  result.inputs = state.inputs;
-  result.attempts = 1;
-  result.status = StartStatus::found;
-  return true;
-}
-
 /// Piece, distance from the guess, and the wrench that holds a given pose.
 void complete(const System& system, const StartProblem& problem, FirstEquilibrium& result) {
   result.piece = piece_at(system, result.z);
-  for (Index i = 0; i < system.size; ++i)
-    if (!system.is_wrench[static_cast<std::size_t>(i)])
-      result.moved = std::max(result.moved, std::abs(result.z[i] - problem.z[i]));
+  result.moved = farthest_coordinate(system, result.z, problem.z);
   if (problem.unknowns != StartUnknowns::wrench) return;
   const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
   Workspace work;
@@ -304,8 +149,8 @@ void complete(const System& system, const StartProblem& problem, FirstEquilibriu
 
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
   FirstEquilibrium result;
-  Equations equations(system, problem);
-  State guess{problem.z, problem.inputs};
+  StartEquations equations(system, problem);
+  StartState guess{problem.z, problem.inputs};
   shorten_turns(system, guess.z);
   if (problem.unknowns == StartUnknowns::commands) {
     const Index d = system.body_slices[static_cast<std::size_t>(problem.body - 1)].count;
@@ -319,7 +164,7 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     if (found) complete(system, problem, result);
     if (found || system.size > most_dense) return result;
   }
-  if (problem.is_neighbour && solve_beside(system, equations, guess, result)) {
+  if (problem.is_neighbour && solve_beside(system, problem, equations, guess, result)) {
     complete(system, problem, result);
     return result;
   }
@@ -327,10 +172,10 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
   result.status = StartStatus::no_assembly;
   std::mt19937_64 random(problem.seed);
   for (result.attempts = 1; result.attempts <= problem.attempts; ++result.attempts) {
-    State state = guess;
+    StartState state = guess;
     if (result.attempts > 1) perturb(equations, state, result.attempts - 1, random);
     // A guessed pose is worth more than guessed joint coordinates: keep it if the chains reach it.
-    State kept = state;
+    StartState kept = state;
     const bool reached = assemble(equations, false, kept);
     if (reached) state = kept;
     const bool assembled = reached || assemble(equations, true, state);

@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 
+#include "form.hpp"
 #include "shape_terms.hpp"
+#include "springfold/statics/prepare_again.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -204,6 +206,40 @@ std::size_t segment_in(const model::CompiledSpring& law, Index first_switch, con
   return segment;
 }
 
+/// Springs on coordinates, coupled springs, commands and chains anew in their places.
+void renew_chains(System& system) {
+  const model::Mechanism& mechanism = system.mechanism;
+  std::size_t spring = 0, group = 0;
+  Index command = 0;
+  system.switches.clear();
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+    const model::Chain& chain = mechanism.chains[i];
+    for (const model::Element& element : chain.elements) {
+      const auto* joint = std::get_if<model::Joint>(&element);
+      if (joint == nullptr) continue;
+      if (joint->role == model::JointRole::actuated) system.commands[command++] = joint->command;
+      if (!joint->spring || !has_coordinate(*joint)) continue;
+      CoordinateSpring& own = system.springs[spring];
+      own.law = model::compile(*joint->spring);
+      own.first_switch = static_cast<Index>(system.switches.size());
+      for (const double b : own.law.breakpoints)
+        system.switches.push_back({own.coordinate, b, spring});
+      ++spring;
+    }
+    for (const model::CoupledSpring& coupled : chain.coupled_springs) {
+      system.coupled[group].stiffness = coupled.stiffness;
+      system.coupled[group++].free = coupled.free;
+    }
+    system.chains[i] = compile(mechanism, chain);
+  }
+}
+
+void add_what_acts(System& system) {
+  add_points(system);
+  add_shapes(system);
+  count_turns_from(guess(system), system);
+}
+
 }  // namespace
 
 std::vector<std::string> pose_names(TaskSpace space) {
@@ -246,10 +282,22 @@ System prepare(const model::Mechanism& mechanism) {
     system.chain_slices[i].to = pose_of(mechanism.chains[i].to);
     place_variables(system.chains[i], system.chain_slices[i]);
   }
-  add_points(system);
-  add_shapes(system);
-  count_turns_from(guess(system), system);
+  add_what_acts(system);
   return system;
+}
+
+System prepare(model::Mechanism mechanism, System old) {
+  if (!has_form_of(old.mechanism, mechanism)) return prepare(mechanism);
+  old.mechanism = std::move(mechanism);
+  renew_chains(old);
+  old.points.clear();
+  old.loads.clear();
+  old.line_springs.clear();
+  old.shapes.clear();
+  old.chains_coupled = false;
+  old.redundant = 0;
+  add_what_acts(old);
+  return old;
 }
 
 void turn_frames(const System& system, const std::vector<model::Mat3<double>>& rotations,

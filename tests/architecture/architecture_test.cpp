@@ -10,6 +10,7 @@
 namespace springfold::architecture {
 namespace {
 
+using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -60,6 +61,31 @@ TEST(SourceTree, NoLibraryCodePrintsOrEndsTheProgram) {
   }
 }
 
+bool is_of_the_engine(const SourceFile& file) {
+  return (file.path.starts_with("src/continuation/") ||
+          file.path.starts_with("include/springfold/continuation/")) &&
+         !file.path.ends_with("/numerics.hpp");
+}
+
+TEST(SourceTree, TheEngineHasItsTolerancesInOnePlace) {
+  for (const SourceFile& file : library_files()) {
+    if (!is_of_the_engine(file) || file.path.starts_with("include/"))
+      continue;  // defaults of options
+    EXPECT_THAT(bare_tolerances(file), IsEmpty());
+  }
+}
+
+TEST(SourceTree, TheEngineHasFewNumbersOutsideThatPlace) {
+  constexpr std::size_t most = 6;  // in a thousand lines of code
+  std::size_t literals = 0, lines = 0;
+  for (const SourceFile& file : library_files()) {
+    if (!is_of_the_engine(file)) continue;
+    literals += literals_of(file).size();
+    lines += code_lines(file);
+  }
+  EXPECT_LE(1000 * literals, most * lines) << literals << " in " << lines << " lines";
+}
+
 TEST(SourceTree, NoFileIsLongerThan400Lines) {
   for (const SourceFile& file : all_files())
     EXPECT_LE(std::count(file.text.begin(), file.text.end(), '\n'), 400) << file.path;
@@ -108,6 +134,22 @@ TEST(ForbiddenRooms, SeeARoomAboveAndFilesInNone) {
   EXPECT_THAT(forbidden_rooms({"src/continuation/following/trace.cpp", text}), IsEmpty());
   EXPECT_THAT(forbidden_rooms({"src/continuation/trace.cpp", text}), SizeIs(1));
   EXPECT_THAT(forbidden_rooms({"src/statics/system.cpp", text}), IsEmpty());
+}
+
+TEST(LiteralsOf, SeesNumbersButNotCommentsStringsIntegersOrPlainShares) {
+  EXPECT_THAT(literals_of({"a.cpp", "f(1e-7, 0.25, 3., .1, 2e3)"}),
+              ElementsAre("1e-7", "0.25", "3.", ".1", "2e3"));
+  EXPECT_THAT(
+      literals_of({"a.cpp", "0.5 * x + 1.0 - 2.0 * a.b[12]; // 1e-7\n f(\"0.3\", 1'000, v1.e2);"}),
+      IsEmpty());
+}
+
+TEST(BareTolerances, AreNumbersBelowAThousandth) {
+  EXPECT_THAT(bare_tolerances({"a.cpp", "f(1e-7, 0.0003, 0.01, 1e3)"}), SizeIs(2));
+}
+
+TEST(CodeLines, LeaveOutEmptyOnesAndComments) {
+  EXPECT_EQ(code_lines({"a.cpp", "int a;\n\n  // b\n/* c */\nint d;  // e\n"}), 2u);
 }
 
 TEST(ScatteredLibraries, AreSeenInASecondFile) {

@@ -27,13 +27,14 @@ const std::map<std::string, Layers> below{
 
 /// What each room of the engine may include besides itself.
 const std::map<std::string, Layers> rooms_below{
-    {"linear", {}},
-    {"points", {"linear"}},
-    {"locating", {"linear", "points"}},
-    {"kinks", {"linear", "points", "locating"}},
-    {"branches", {"linear", "points", "locating", "kinks"}},
-    {"following", {"linear", "points", "locating", "kinks"}},
-    {"parameters", {"linear"}},
+    {"numerics", {}},
+    {"linear", {"numerics"}},
+    {"points", {"numerics", "linear"}},
+    {"locating", {"numerics", "linear", "points"}},
+    {"kinks", {"numerics", "linear", "points", "locating"}},
+    {"branches", {"numerics", "linear", "points", "locating", "kinks"}},
+    {"following", {"numerics", "linear", "points", "locating", "kinks"}},
+    {"parameters", {"numerics", "linear"}},
 };
 
 struct Library {
@@ -216,6 +217,34 @@ std::vector<std::string> scattered_libraries(const std::vector<SourceFile>& file
     found.push_back(text);
   }
   return found;
+}
+
+std::vector<std::string> literals_of(const SourceFile& file) {
+  static const std::regex pattern{
+      "(^|[^\\w.])((\\d+\\.\\d*|\\.\\d+)(e[+-]?\\d+)?|\\d+e[+-]?\\d+)(?!\\w)"};
+  const std::string code = code_only(file.text);
+  std::vector<std::string> found;
+  for (std::sregex_iterator match{code.begin(), code.end(), pattern}, end; match != end; ++match) {
+    const double value = std::stod((*match)[2]);
+    if (value != 0 && value != 1 && value != 2 && value != 0.5) found.push_back((*match)[2]);
+  }
+  return found;
+}
+
+std::vector<std::string> bare_tolerances(const SourceFile& file) {
+  std::vector<std::string> found;
+  for (const std::string& literal : literals_of(file))
+    if (std::stod(literal) < 1e-3)
+      found.push_back(file.path + " has a tolerance of its own: " + literal);
+  return found;
+}
+
+std::size_t code_lines(const SourceFile& file) {
+  std::istringstream lines{code_only(file.text)};
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);)
+    count += line.find_first_not_of(" \t") != std::string::npos;
+  return count;
 }
 
 std::vector<std::string> prints_or_exits(const SourceFile& file) {

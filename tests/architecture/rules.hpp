@@ -32,6 +32,15 @@ std::vector<std::string> forbidden_rooms(const SourceFile& file);
 /// Third parties that must be confined to one file of their layer, but are included by several.
 std::vector<std::string> scattered_libraries(const std::vector<SourceFile>& files);
 
+/// Numbers with a point or an exponent, as they are written; but for 0, 1, 2 and one half.
+std::vector<std::string> literals_of(const SourceFile& file);
+
+/// Those below a thousandth, as sentences: tolerances, which need a name and a reason.
+std::vector<std::string> bare_tolerances(const SourceFile& file);
+
+/// Lines that are not empty and not comments.
+std::size_t code_lines(const SourceFile& file);
+
 /// Calls that print, or that end the program, as sentences.
 std::vector<std::string> prints_or_exits(const SourceFile& file);
 

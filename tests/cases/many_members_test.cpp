@@ -102,18 +102,18 @@ std::string net(const std::string& control) {
 }
 
 TEST(ManyMembers, ANetCarriesTheSameLoadWhetherItIsPushedOrDriven) {
-  const auto pushed =
+  const auto by_load =
       run(net("control = \"load\"\nuntil = { deflection = [0, 0.05] }\n")).of("press");
   const auto driven = run(net("control = \"mixed\"\nuntil = { lambda = [0, 0.05] }\n")).of("press");
-  for (const auto& result : {pushed, driven}) {
+  for (const auto& result : {by_load, driven}) {
     ASSERT_TRUE(result.start.found) << result.start.message;
     ASSERT_TRUE(complete(result));
   }
-  const std::size_t at = pushed.branches[0].samples.size() - 1;
+  const std::size_t at = by_load.branches[0].samples.size() - 1;
   const std::size_t there = driven.branches[0].samples.size() - 1;
-  EXPECT_GT(value(pushed, at, "force"), 0);
+  EXPECT_GT(value(by_load, at, "force"), 0);
   for (const char* name : {"force", "deflection", "n2_3.z", "plate.z", "plate.rx", "plate.rz"})
-    EXPECT_NEAR(value(pushed, at, name), value(driven, there, name), 1e-9) << name;
+    EXPECT_NEAR(value(by_load, at, name), value(driven, there, name), 1e-9) << name;
 }
 
 TEST(ManyMembers, AColumnByAnglesBucklesAtItsClosedFormLoads) {

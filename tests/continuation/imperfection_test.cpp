@@ -42,6 +42,27 @@ TEST(ImperfectionLaws, ASymmetricBranchThatFallsLosesTheTwoThirdsPowerOfTheImper
   EXPECT_EQ(law->sign, 0);
 }
 
+TEST(ImperfectionLaws, WhatIsZeroButForRoundingBreaksNoBranch) {
+  // sqrt((3 + m)^2 + 16) is the length from (3 + m, 0) to (0, 4), written in two ways: their difference is zero.
+  const auto nothing = [](double m) {
+    return std::sqrt((3 + m) * (3 + m) + 16) - std::hypot(3 + m, 4.0);
+  };
+  for (const double force : {1.0, 1e3, 1e6}) {
+    const Family family = family_of<ScalarProblem>([=](double m) {
+      return ScalarProblem{
+          [=](double x, double l) { return x * (1 - l + m) - x * x + force * nothing(m); },
+          [=](double x, double l) { return 1 - l + m - 2 * x; },
+          [](double x, double) { return -x; }};
+    });
+    const CriticalStart start = at_branch_point(Vector::Zero(1), 1);
+    const auto form = reduced_form(family, start, upward);
+    ASSERT_TRUE(form);
+    const auto part = imperfection_part(family, start, *form);
+    ASSERT_TRUE(part);
+    EXPECT_EQ(part->norm(), 0) << force;
+  }
+}
+
 TEST(ImperfectionLaws, ASymmetricBranchThatRisesIsNotSensitive) {
   const Family family = family_of<ScalarProblem>([](double m) {
     return ScalarProblem{[=](double x, double l) { return x * (1 - l) + x * x * x - m; },

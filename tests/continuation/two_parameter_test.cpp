@@ -39,6 +39,21 @@ TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   for (const auto& p : curve.points) EXPECT_NEAR(p.mu, 3 * p.x[0] * p.x[0], 1e-11);
 }
 
+TEST(TwoParameters, NoPointStandsBesideACuspWhateverTheStep) {
+  const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
+                               [](double x, double mu) { return 3 * x * x - mu; });
+  for (double step = 0.02; step < 0.2; step *= 1.1) {
+    TraceOptions options;
+    options.step.initial = options.step.maximum = step;
+    const auto curve =
+        follow_critical(family, start_at(CriticalKind::limit_point, single(-1), 2, 3), false,
+                        {stop_at(-1, 4)}, options);
+    const auto cusps = hits_of(curve, Degeneracy::cusp);
+    ASSERT_EQ(cusps.size(), 1U) << step;
+    for (const auto& p : curve.points) EXPECT_GT(std::abs(p.s - cusps[0].point.s), 1e-6) << step;
+  }
+}
+
 TEST(TwoParameters, AClosedBranchThatShrinksIsAnIsolaCentreAndSaddlesAreCrossings) {
   for (const double sign : {1.0, -1.0}) {
     const Family family = family_of<ScalarProblem>([=](double mu) {
@@ -223,6 +238,36 @@ TEST(TwoParameters, PairsOfBranchPointsAreBornWhereMuTurnsBack) {
   const auto births = hits_of(curve, Degeneracy::branch_points_merge);
   ASSERT_EQ(births.size(), 1U);
   EXPECT_NEAR(births[0].point.mu, 0, 1e-12);
+}
+
+/// p (l - mu + b p) = 0 with p = x - l: branches x = l and another one, which cross at x = l = mu. Along the first x is
+/// the null vector's own unknown.
+Family crossing_askew(double b) {
+  return family_of<ScalarProblem>([=](double mu) {
+    return ScalarProblem{
+        [=](double x, double l) { return (x - l) * (l - mu + b * (x - l)); },
+        [=](double x, double l) { return l - mu + 2 * b * (x - l); },
+        [=](double x, double l) { return -(l - mu + b * (x - l)) + (x - l) * (1 - b); }};
+  });
+}
+
+TEST(TwoParameters, ABranchPointMovesAlongItsNullVectorWhereItsBranchDoes) {
+  for (const double b : {-2.0, 0.3, 5.0}) {
+    const Family family = crossing_askew(b);
+    const auto start = start_at(CriticalKind::branch_point, single(0.4), 0.4, 0.4);
+    const auto rate = critical_rate(family, start);
+    ASSERT_TRUE(rate) << b;
+    EXPECT_NEAR(rate->dlambda, 1, 1e-9) << b;
+    EXPECT_NEAR(rate->dx[0], 1, 1e-9) << b;
+    const auto curve = follow_critical(family, start, true, {stop_at(0, 3)}, {});
+    EXPECT_TRUE(curve.kept) << b;
+    ASSERT_FALSE(curve.hits.empty()) << b;
+    EXPECT_NEAR(curve.hits.back().point.mu, 3, 1e-9) << b;
+    for (const CriticalPoint& p : curve.points) {
+      EXPECT_NEAR(p.lambda, p.mu, 1e-10) << b;
+      EXPECT_NEAR(p.x[0], p.mu, 1e-10) << b;
+    }
+  }
 }
 
 TEST(TwoParameters, AnImperfectionDoesNotKeepABranchPoint) {

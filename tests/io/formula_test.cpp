@@ -85,6 +85,8 @@ TEST(Formula, SaysWhatIsWrongWithItsForm) {
   EXPECT_EQ(problem_of("atan2(1)"), "too few arguments for \"atan2\"");
   EXPECT_EQ(problem_of("sin(1, 2)"), "too many arguments for \"sin\"");
   EXPECT_EQ(problem_of("L = 3"), "\"=\" has no meaning here");
+  EXPECT_EQ(problem_of("L**2"), "a power is written ^, as in u^3");
+  EXPECT_EQ(problem_of("pow(L, 2)"), "no function \"pow\"; a power is written ^, as in u^3");
   EXPECT_EQ(problem_of("3%"), "unexpected \"%\"");
   EXPECT_FALSE(problem_of("L \xc3\x97 2").empty());
   EXPECT_FALSE(problem_of("\"L\"").empty());

@@ -74,6 +74,10 @@ TEST_F(HistoryMessages, WantAStudyThatExistsAndNoCircle) {
               ElementsAre(HasSubstr("study[2].start.from: got \"frist\", need the name of another "
                                     "study, did you mean \"first\"?")));
   EXPECT_THAT(
+      after("from = \"first\"", "from = \"second\""),
+      ElementsAre(HasSubstr("study[2].start.from: got \"second\", the study itself, need the "
+                            "name of another study; known here: first")));
+  EXPECT_THAT(
       after("direction = [-1, 0]\n", "direction = [-1, 0]\nstart = { from = \"second\" }\n"),
       ElementsAre(HasSubstr("study[1].start.from: studies start from each other in a circle, "
                             "or more than 16 one after the other"),

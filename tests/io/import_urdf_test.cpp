@@ -132,7 +132,15 @@ TEST_F(ImportedRobot, IsRefusedWithWhatIsWrong) {
                   "a.urdf: joint \"elbow\": got a floating or planar joint, need revolute")));
   EXPECT_THAT(problems(replaced(arm_urdf, "0 0 2", "0 0 0")),
               ElementsAre(HasSubstr("joint \"elbow\": got an axis without a direction")));
-  EXPECT_THAT(problems("<robot name=\"x\"><link"), ElementsAre(HasSubstr("no URDF: ")));
+  EXPECT_THAT(problems("<robot name=\"x\"><link"),
+              ElementsAre(HasSubstr("a.urdf:1:17: no URDF: the tag <link has no >")));
+  EXPECT_THAT(
+      problems("<?xml version=\"1.0\"?>\n<robot name=\"x\">\n  <!-- > -->\n  <link name=\"a\">\n"
+               "  </joint>\n</robot>"),
+      ElementsAre(HasSubstr("a.urdf:5:3: no URDF: got the end of <joint>, need that of <link> "
+                            "first")));
+  EXPECT_THAT(problems("<robot name=\"x\">\n<link name=\"a\"/>"),
+              ElementsAre(HasSubstr("a.urdf:1:1: no URDF: <robot> has no end")));
   EXPECT_THAT(problems(""), ElementsAre(HasSubstr("no URDF: ")));
   EXPECT_THAT(problems("<robot name=\"x\"><link name=\"a\"/></robot>"),
               ElementsAre(HasSubstr("no joint moves")));

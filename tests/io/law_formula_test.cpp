@@ -89,6 +89,8 @@ TEST(LawFormula, SaysWhereTheTextIsNoFormula) {
   EXPECT_THAT(problem("2u"), HasSubstr("unexpected \"u\"; a product needs *"));
   EXPECT_THAT(problem("k*u)"), HasSubstr("unexpected \")\""));
   EXPECT_THAT(problem("k*$u"), HasSubstr("unexpected \"$\""));
+  EXPECT_THAT(problem("k*u**3"), HasSubstr("a power is written ^"));
+  EXPECT_THAT(problem("pow(u, 3)"), HasSubstr("a power is written ^"));
   EXPECT_THAT(problem("f(u)"), HasSubstr("no function \"f\""));
   EXPECT_THAT(problem("u(u)"), HasSubstr("\"u\" is no function"));
   EXPECT_THAT(problem("sin(u, 2)"), HasSubstr("too many arguments for \"sin\""));

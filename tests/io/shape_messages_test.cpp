@@ -69,6 +69,23 @@ TEST_F(ShapeMessages, WantAsManyPointsAsTheShapeHas) {
               testing::Contains(HasSubstr("spring[1].of: missing, need a list of points")));
 }
 
+TEST_F(ShapeMessages, RefuseFoldsThatStayFlat) {
+  EXPECT_THAT(spring("shape = \"fold\"\nof = [\"tip\", \"base\", \"arm.knee\", { on = \"base\", at "
+                     "= [1, 1] }]\n"
+                     "stiffness = 1\n"),
+              ElementsAre(AllOf(
+                  HasSubstr("case.toml:16:1: spring[1]: its points stay in one plane, in which "
+                            "the whole mechanism moves"),
+                  HasSubstr("need \"angle\""))));
+}
+
+TEST_F(ShapeMessages, AreNoneForAFoldWhoseEdgeStandsUprightOnThePlane) {
+  EXPECT_THAT(
+      spring("shape = \"fold\"\nof = [\"tip\", \"base\", { on = \"base\", at = [0, 0, 1] }, "
+             "{ on = \"base\", at = [0, 1] }]\nstiffness = 1\n"),
+      ElementsAre());
+}
+
 TEST_F(ShapeMessages, WantPointsThatExistAndSomeThatMove) {
   EXPECT_THAT(spring("shape = \"path\"\nof = [\"base\", \"arm.kne\"]\nstiffness = 1\n"),
               ElementsAre(HasSubstr("did you mean \"arm.knee\"?")));

@@ -134,6 +134,7 @@ TEST_F(SpringLaws, SayWhatIsWrongWithTheirKeys) {
               one("spring.range[2]: got 0, need more than 1 (low < high)"));
   EXPECT_THAT(about("law = \"formula\""), one("spring.formula: missing, need a text such as"));
   EXPECT_THAT(about("law = \"formula\", formula = \"k*u\""), one("no parameter \"k\""));
+  EXPECT_THAT(about("law = \"formula\", formula = \"L*u**3\""), one("a power is written ^"));
   EXPECT_THAT(about("law = \"formula\", formula = \"2*abs(u)\""), one("need a smooth law"));
   EXPECT_THAT(about("law = \"formula\", formula = \"ln(u)\""),
               one("need a finite torque at c = free"));

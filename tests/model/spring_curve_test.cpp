@@ -207,7 +207,7 @@ TEST(TableSpring, IsTheStraightLineThroughPointsOnOne) {
 
 TEST(FallingLaws, ArePolynomialsThatFallSomewhereInTheirRange) {
   EXPECT_THAT(problems_in(PolynomialSpring{{0, 1, 0, -20}}),
-              ElementsAre(HasSubstr("falls at a deformation of")));
+              ElementsAre(HasSubstr("falls below a deformation of -0.129099,")));
   EXPECT_THAT(problems_in(PolynomialSpring{{0, 1, 0, -20}, 0, {}, true}), IsEmpty());
   const double turn = std::sqrt(1 / 60.0);
   EXPECT_THAT(problems_in(PolynomialSpring{{0, 1, 0, -20}, 0, {-turn, turn}}), IsEmpty());
@@ -225,9 +225,23 @@ TEST(FallingLaws, ArePolynomialsThatFallSomewhereInTheirRange) {
 TEST(FallingLaws, AreFormulasWithANegativeStiffnessWithinTheirRange) {
   EXPECT_THAT(problems_in(FormulaSpring{cubic_formula(1, 50)}), IsEmpty());
   EXPECT_THAT(problems_in(FormulaSpring{cubic_formula(1, -20)}),
-              ElementsAre(HasSubstr("falls at a deformation of")));
+              ElementsAre(HasSubstr("falls below a deformation of -0.129099,")));
   EXPECT_THAT(problems_in(FormulaSpring{cubic_formula(1, -20), 0, {-0.1, 0.1}}), IsEmpty());
   EXPECT_THAT(problems_in(FormulaSpring{cubic_formula(0, 1)}), IsEmpty());
+}
+
+TEST(FallingLaws, AreToldWithTheStretchOnWhichTheyFall) {
+  const auto text = [](const model::SpringLaw& law) { return problems_in(law).front(); };
+  // c1 u + c3 u^3 turns at u = sqrt(-c1 / (3 c3)).
+  EXPECT_THAT(text(PolynomialSpring{{0, -1, 0, 1}}),
+              HasSubstr("falls between deformations of -0.57735 and 0.57735,"));
+  EXPECT_THAT(text(FormulaSpring{cubic_formula(-1, 1)}),
+              HasSubstr("falls between deformations of -0.57735 and 0.57735,"));
+  EXPECT_THAT(text(PolynomialSpring{{0, 1, 0, -1}, 0, {0, 2}}),
+              HasSubstr("falls between deformations of 0.57735 and 2,"));
+  EXPECT_THAT(text(PolynomialSpring{{0, 0, 1}}), HasSubstr("falls below a deformation of 0,"));
+  EXPECT_THAT(text(PolynomialSpring{{0, 1, -0.5}}), HasSubstr("falls above a deformation of 1,"));
+  EXPECT_THAT(text(PolynomialSpring{{0, -1}}), HasSubstr("falls at every deformation,"));
 }
 
 TEST(SpringCurveProblems, AreToldInWords) {

@@ -2,9 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "springfold/statics/system.hpp"
+
+namespace springfold {
+class Lu;
+}
 
 namespace springfold::statics {
 
@@ -13,6 +18,12 @@ enum class StartUnknowns {
   pose,      ///< pose of all bodies; commands and loads are given
   commands,  ///< actuator commands; the pose of one body and all loads are given
   wrench,    ///< the wrench that holds one body at its given pose
+};
+
+/// What solutions of problems next to this one tell of its own.
+struct Foresight {
+  Vector z{}, rho{};                    ///< where the solution is expected; empty: not known
+  std::shared_ptr<const Lu> factors{};  ///< of the matrix of one of them; may be missing
 };
 
 struct StartProblem {
@@ -24,6 +35,7 @@ struct StartProblem {
   std::uint64_t seed = 1;
   bool is_neighbour =
       false;  ///< z and inputs solve a problem next to this one: Newton's method comes first
+  Foresight foresight{};  ///< is_neighbour: what else neighbours tell
 };
 
 enum class StartStatus {
@@ -45,6 +57,8 @@ struct FirstEquilibrium {
   double residual = 0;                  ///< largest entry of the equilibrium residual
   double moved = 0;                     ///< largest change of a coordinate or pose from the guess
   std::vector<int> chain_iterations{};  ///< paper's iteration: of every chain, last sweep
+  std::shared_ptr<const Lu>
+      factors{};  ///< is_neighbour: of a matrix near the solution, for the next neighbour
 };
 
 /// Closes the chains by damped minimum-norm Newton steps, at the guessed poses if they reach them, then

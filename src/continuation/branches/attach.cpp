@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
-#include "continuation/points/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// @returns length of the rest
 std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, const Curve& back,
                                        double gap) {
-  constexpr double most = 0.5, straight = 0.99;
+  constexpr double most = 0.5, straight = 1 - negligible_share;
   const CurvePoint& last = back.points.back();
   const Direction rest = between(walker, way.point, last);
   const double length = length_of(walker, rest);
@@ -32,8 +32,8 @@ std::optional<double> rest_of_way_back(const Walker& walker, const Way& way, con
 /// How far a curve is from the chord between two of its points, from their tangents; on a family of equilibria at one
 /// lambda, whose tangents may be rough, a bound.
 double off_chord(const Walker& walker, const CurvePoint& a, const CurvePoint& b, double length) {
-  constexpr double still = 1e-8, sure = 2;
-  if (std::max(std::abs(a.tangent.dlambda), std::abs(b.tangent.dlambda)) <= still)
+  constexpr double sure = 2;
+  if (std::max(std::abs(a.tangent.dlambda), std::abs(b.tangent.dlambda)) <= flat_rate)
     return length * length;
   const Direction turn{b.tangent.dx - a.tangent.dx, b.tangent.dlambda - a.tangent.dlambda};
   return sure * length_of(walker, turn) * length / 8;
@@ -101,8 +101,10 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
       return false;
     const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
     const double distance = length_of(walker, between(walker, junction, hit.point));
-    const bool level = std::abs(hit.point.lambda - junction.lambda) <= 1e-12 * scale;
-    const double blur = level ? 0.2 : hit.kind == HitKind::unresolved ? 0.1 : 1e-3;
+    const bool level = std::abs(hit.point.lambda - junction.lambda) <= residual_level * scale;
+    const double blur = level                             ? aside_share
+                        : hit.kind == HitKind::unresolved ? small_share
+                                                          : tiny_share;
     return distance <= std::max(options.same_place * scale, blur * gap);
   };
   const auto at_hit = [&](const Hit& hit) {
@@ -116,7 +118,7 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
   near.verify_arcs = false;       // the piece is too near to the junction to be shown
   near.step.initial = 0.6 * gap;  // what is left is the smaller part: rest_of_way_back
   near.step.maximum = gap;
-  near.step.minimum = std::min(near.step.minimum, 1e-3 * gap);
+  near.step.minimum = std::min(near.step.minimum, tiny_share * gap);
   const Direction inwards{-way.start.tangent.dx, -way.start.tangent.dlambda};
   back.curve =
       trace_in_own_units(walker.problem, way.start.x, way.start.lambda,

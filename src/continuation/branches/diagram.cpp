@@ -9,10 +9,10 @@
 
 #include "continuation/branches/attach.hpp"
 #include "continuation/branches/junction_ways.hpp"
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/locating/exits.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
@@ -135,7 +135,7 @@ int Tracer::way_along(int junction, const Direction& direction, const Piece* pie
   const std::vector<Way>& ways = at(junction).ways;
   for (std::size_t w = 0; w < ways.size(); ++w) {
     const double c = cosine(walker_, ways[w].point.tangent, direction) -
-                     (piece && ways[w].point.piece != *piece ? 1e-3 : 0.0);
+                     (piece && ways[w].point.piece != *piece ? nearly_same_line : 0.0);
     if (c > nearest) {
       nearest = c;
       best = static_cast<int>(w);

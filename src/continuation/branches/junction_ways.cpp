@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
 #include "continuation/locating/exits.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 /// because a trace that begins there would find a turn at its own start.
 CurvePoint start_on(const Walker& walker, const CurvePoint& leaving, const Ray& ray,
                     const Surfaces& surfaces) {
-  constexpr double level = 1e-8, far_enough = 1e-3, too_near = 1e-9;
+  constexpr double far_enough = 10 * told_apart, too_near = one_place;
   if (ray.start) return *ray.start;
-  if (std::abs(leaving.tangent.dlambda) > level) return leaving;
+  if (std::abs(leaving.tangent.dlambda) > flat_rate) return leaving;
   for (double distance = far_enough; distance > too_near; distance *= 0.5) {
     auto point = point_at(walker, leaving, distance);
     if (!point) continue;

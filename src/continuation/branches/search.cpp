@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -57,7 +58,7 @@ std::optional<Lu> factorised(const SearchTask& task, const Vector& x, const Piec
   Linearisation at;
   if (!linearise_densely(task.problem, x, task.lambda, piece, at)) return std::nullopt;
   Lu lu(at.dF_dx);
-  if (!(lu.smallest_pivot() > 1e-15 * lu.largest_pivot())) return std::nullopt;
+  if (!(lu.smallest_pivot() > few_roundings * lu.largest_pivot())) return std::nullopt;
   return lu;
 }
 
@@ -74,7 +75,7 @@ std::optional<Deflation> deflation_at(const SearchTask& task, const Vector& x,
   for (const Vector& solution : away_from) {
     const Vector d = difference(task, x, solution);
     const double r = length(task, d);
-    if (!(r > 1e-2 * task.options.same)) return std::nullopt;  // on a known solution
+    if (!(r > negligible_share * task.options.same)) return std::nullopt;  // on a known solution
     const double r_p = std::pow(r, p);
     result.log += std::log(1 / r_p + shift);
     result.gradient -=
@@ -93,7 +94,7 @@ std::optional<Deflation> deflation_at(const SearchTask& task, const Vector& x,
 /// @returns a point within about 1e-8 of the box from a solution, or nothing
 std::optional<Vector> deflated_newton(const SearchTask& task, Vector x,
                                       const std::vector<Vector>& away_from, double shortest) {
-  constexpr double close = 1e-8;
+  constexpr double close = root_of_rounding;
   Piece piece;
   Vector F;
   if (!residual_at(task, x, piece, F)) return std::nullopt;
@@ -121,7 +122,7 @@ std::optional<Vector> deflated_newton(const SearchTask& task, Vector x,
       const Vector w = lu->solve(-trial_F);
       const Vector next = std::exp(there->log - deflation->log) *
                           (w + dx * (deflation->gradient.dot(w) / denominator));
-      accepted = shortest == 1 || length(task, next) <= (1 - 0.25 * t) * size;
+      accepted = shortest == 1 || length(task, next) <= (1 - t / 4) * size;
       if (!accepted) continue;
       x = trial;
       piece = trial_piece;
@@ -141,14 +142,13 @@ struct Polished {
 
 /// The change of x, as a part of the box, that changes F by rounding errors only.
 double rounding_of(const SearchTask& task, const Lu& lu, double scale) {
-  constexpr double rounding = 1e-15;
   const Matrix inverse = task.side.cwiseInverse().asDiagonal() * lu.inverse();
-  return rounding * scale * inverse.cwiseAbs().rowwise().sum().maxCoeff();
+  return few_roundings * scale * inverse.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 /// Newton's method without deflation, on one piece.
 Polished polish(const SearchTask& task, const Vector& from, const Piece& piece) {
-  constexpr double wander = 1e-3, refined = 1e-14;
+  constexpr double wander = tiny_share;
   Polished result{.x = from};
   Vector F;
   double before = 0;
@@ -159,13 +159,13 @@ Polished polish(const SearchTask& task, const Vector& from, const Piece& piece) 
     result.solved = size <= task.options.newton.residual_tolerance * scale;
     const auto lu = factorised(task, result.x, piece);
     if (!lu) {
-      result.uncertain = std::max(result.uncertain, 1e-6);
+      result.uncertain = std::max(result.uncertain, poor);
       return result;
     }
     const Vector dx = lu->solve(-F);
     result.uncertain = largest(task, dx);
-    const bool stalls = k > 0 && result.uncertain > 0.9 * before;
-    const bool done = result.solved && (result.uncertain <= refined || stalls);
+    const bool stalls = k > 0 && result.uncertain > (1 - small_share) * before;
+    const bool done = result.solved && (result.uncertain <= refined_step || stalls);
     if (done || k == task.options.newton.maximum_iterations) {
       result.uncertain = std::max(result.uncertain, rounding_of(task, *lu, scale));
       return result;
@@ -220,7 +220,7 @@ std::optional<Solution> solution_near(const SearchTask& task, const Vector& near
       Solution solution{task.middle + difference(task, here, task.middle), piece, "",
                         polished.uncertain};
       if (!sides.zero.empty()) solution.note = "at a switching surface: " + sides.zero;
-      if (polished.uncertain > 1e-9)
+      if (polished.uncertain > one_place)
         solution.note += (solution.note.empty() ? "" : "; ") +
                          ("nearly singular, exact to about " + rounded(polished.uncertain, 1)) +
                          " of the box";
@@ -242,7 +242,7 @@ bool is_new(const SearchTask& task, const Solution& solution, const std::vector<
 /// The damped method first, which is surer; where it gets stuck the plain one, which is bolder.
 std::optional<Solution> new_solution(const SearchTask& task, const Vector& start,
                                      const std::vector<Vector>& away_from, SearchResult& result) {
-  for (const double shortest : {1e-4, 1.0}) {
+  for (const double shortest : {told_apart, 1.0}) {
     const auto near = deflated_newton(task, start, away_from, shortest);
     auto solution = near ? solution_near(task, *near, result) : std::nullopt;
     if (solution && is_new(task, *solution, away_from)) return solution;

@@ -9,14 +9,17 @@
 #include "continuation/following/davidenko_arc.hpp"
 #include "continuation/following/many_points.hpp"
 #include "continuation/kinks/kink.hpp"
+#include "continuation/kinks/kink_passage.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/words.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-constexpr double integration_error = 1e-11;  ///< of one step, relative to max(1, |u_i|)
-constexpr double no_rate = 1e-13;            ///< |dlambda/ds| below this has no sign
+constexpr double integration_error = function_noise;  ///< of one step, relative to max(1, |u_i|)
+constexpr int order = 5;                              ///< of Dormand's and Prince's pair
+constexpr double no_rate = exact_model;               ///< |dlambda/ds| below this has no sign
 
 /// Integrates the flow over the arc length h.
 /// @returns the relative error of the step, nothing where the tangent is not defined
@@ -158,17 +161,6 @@ Advance record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& sa
   return Advance::go_on;
 }
 
-/// A point with the tangent and the piece of a ray.
-CurvePoint onto(const Walker& walker, CurvePoint point, const Ray& ray) {
-  point.tangent = ray.tangent;
-  point.piece = ray.piece;
-  point.negative.reset();
-  Linearisation linear;
-  if (linearise(walker.problem, point.x, point.lambda, ray.piece, linear))
-    count_negative(walker, linear, point);
-  return point;
-}
-
 /// Takes the only way out of a switching surface, if there is only one.
 Advance leave_surface(Walk& walk, const ArcZero& met, double from) {
   const ProblemView problem = walk.walker.problem;
@@ -178,15 +170,14 @@ Advance leave_surface(Walk& walk, const ArcZero& met, double from) {
           .switches = active_switches(walk.walker, arriving.x, arriving.lambda),
           .s_before = from + met.before,
           .s_after = from + met.after};
-  for (const Index j : hit.switches)
-    hit.name += (hit.name.empty() ? "" : ", ") + problem.switch_name(j);
+  hit.name = names_of(problem, hit.switches);
   Rays rays{.complete = false, .why = "too many switches act at one point"};
   if (hit.switches.size() <= 12)
     rays = rays_at(walk.walker, arriving.x, arriving.lambda, arriving.piece, hit.switches);
   for (const Ray& ray : rays.rays) {
     const bool back = ray.piece == arriving.piece &&
                       metric_product(walk.walker.weights, ray.tangent, arriving.tangent) < 0;
-    if (!back) hit.leaving.push_back(onto(walk.walker, arriving, ray));
+    if (!back) hit.leaving.push_back(point_on_ray(walk.walker, arriving, ray));
   }
   const std::size_t ways = hit.leaving.size();
   if (ways > 1) hit.kind = HitKind::branching_kink;
@@ -218,16 +209,17 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::strin
     walk.h = 0.5 * h;
     return std::nullopt;
   }
-  const double factor =
-      *error > 0 ? 0.9 * std::pow(integration_error / *error, 0.2) : options.growth;
-  walk.h = std::clamp(h * std::clamp(factor, 0.2, options.growth), 0.0, options.maximum);
+  const double factor = *error > 0
+                            ? (1 - small_share) * std::pow(integration_error / *error, 1.0 / order)
+                            : options.growth;
+  walk.h = std::clamp(h * std::clamp(factor, aside_share, options.growth), 0.0, options.maximum);
   if (!(*error <= integration_error)) {
     refusal = "error of the integration " + rounded(*error);
     return std::nullopt;
   }
   std::vector<CurvePoint> samples{arc.from};
   for (int k = 1; k <= 4; ++k) {
-    auto point = point_on_arc(walk.walker, arc, k < 4 ? 0.25 * k * h : h);
+    auto point = point_on_arc(walk.walker, arc, k < 4 ? k * h / 4 : h);
     if (!point) {
       refusal = "the end of the step is not close to the curve";
       walk.h = 0.5 * h;
@@ -278,7 +270,7 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
   Walk walk{walker, everything_to_watch(events, options.limit_points)};
   walk.here.x = x;
   walk.here.lambda = lambda;
-  walk.here = onto(walker, walk.here, start);
+  walk.here = point_on_ray(walker, walk.here, start);
   walk.left = active_switches(walker, x, lambda);
   walk.h = options.step.initial;
   for (Watched& watched : walk.watched)

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-constexpr double largest_return = 1e-8;  ///< farther from the curve the flow is not trusted
+constexpr double largest_return =
+    root_of_rounding;  ///< farther from the curve the flow is not trusted
 
 using Value = std::function<double(const CurvePoint&)>;
 
@@ -41,7 +42,7 @@ ArcSurface surface_between(const Walker& walker, const FlowArc& arc, const Curve
   const auto read = [&walker, j](Vector SwitchSides::*what) {
     return [&walker, j, what](const CurvePoint& point) {
       const auto sides = sides_of(walker.problem, point);
-      return sides ? ((*sides).*what)[j] : std::numeric_limits<double>::quiet_NaN();
+      return sides ? ((*sides).*what)[j] : not_a_number;
     };
   };
   const Value value = read(&SwitchSides::values), slope = read(&SwitchSides::slopes);
@@ -54,7 +55,7 @@ ArcSurface surface_between(const Walker& walker, const FlowArc& arc, const Curve
     end = lowest->point.s - arc.from.s;
   }
   if (left) {  // it starts at zero: begin where it is clearly on its side
-    begin += 1e-3 * (end - begin);
+    begin += tiny_share * (end - begin);
     const auto beside = point_on_arc(walker, arc, begin);
     if (!beside || !(value(*beside) > 0)) return {.doubt = doubt};
   }
@@ -70,11 +71,6 @@ std::optional<Direction> flow_at(const Walker& walker, const Vector& u, const Cu
   Linearisation linear;
   if (!linearise(walker.problem, u.head(n), u[n], from.piece, linear)) return std::nullopt;
   return tangent_at(linear, walker.weights, from.tangent);
-}
-
-void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& point) {
-  point.negative.reset();
-  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(at);
 }
 
 std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc, double t) {
@@ -103,7 +99,7 @@ std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc,
                    .lambda = newton.lambda,
                    .tangent = *tangent,
                    .piece = arc.from.piece};
-  count_negative(walker, linear, point);
+  if (walker.problem.symmetric()) point.negative = negative_eigenvalues(linear);
   return point;
 }
 
@@ -112,7 +108,7 @@ std::optional<ArcZero> zero_on_arc(const Walker& walker, const FlowArc& arc, dou
   bool failed = false;
   const auto f = [&](double t) -> double {
     const auto point = point_on_arc(walker, arc, t);
-    const double v = point ? value(*point) : std::numeric_limits<double>::quiet_NaN();
+    const double v = point ? value(*point) : not_a_number;
     failed = failed || !std::isfinite(v);
     return failed ? 0 : v;
   };

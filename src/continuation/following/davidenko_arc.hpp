@@ -19,9 +19,6 @@ struct FlowArc {
 /// Unit tangent at u = (x, lambda), on or beside the curve, oriented like that of `from`.
 std::optional<Direction> flow_at(const Walker& walker, const Vector& u, const CurvePoint& from);
 
-/// Inertia of a symmetric problem; empty where an eigenvalue is zero.
-void count_negative(const Walker& walker, const Linearisation& at, CurvePoint& point);
-
 /// Point of the curve at arc length t, brought back from the dense output.
 /// @returns nothing where that is too far away
 std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc, double t);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/words.hpp"
 
 namespace springfold::continuation {
@@ -35,13 +36,13 @@ std::string why_so_many(const Walker& walker, const Curve& curve) {
   const std::string far =
       std::to_string(n) + " points over an arc length of " + rounded(to.s) + "; ";
   const std::string more = "maximum_points allows more";
-  if (step < 0.3 * walker.options.step.maximum) {
+  if (step < walker.options.step.maximum / 3) {
     const std::string reason = most_frequent_reason(curve, from.s);
     return far + "the last steps were " + rounded(step) + " long" +
            (reason.empty() ? "" : ", shortened most often by \"" + reason + "\"") + ": " + more +
            ", a limit of the range ends the curve earlier";
   }
-  constexpr double alone = 0.99;
+  constexpr double alone = 1 - negligible_share;
   const bool lambda_alone = by_lambda > alone * length;
   return far + "the last steps had full length" +
          (lambda_alone ? ", and hardly anything but lambda changed on them" : "") +

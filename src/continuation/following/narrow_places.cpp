@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "continuation/locating/determined.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/arc.hpp"
-#include "continuation/points/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr double short_step = 0.1;
 
 /// Beside a branch that is nearer than this, tangents are too rough for a model that is continued.
-constexpr double too_near = 1e-6;
+constexpr double too_near = poor;
 
 /// Branches that are so many times farther apart than rounding moves a point are told apart by every step.
 constexpr double well_apart = 1000;

@@ -7,16 +7,17 @@
 
 #include "continuation/following/many_points.hpp"
 #include "continuation/following/narrow_places.hpp"
+#include "continuation/following/own_branch.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/events.hpp"
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/unexplained.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
-#include "continuation/points/numerics.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/verification.hpp"
@@ -88,7 +89,7 @@ struct Refusal {
 
 /// Special points behind the place at which a curve closes were met at its start, one at this place now.
 void end_at(const CurvePoint& start, StepEvents& found) {
-  constexpr double same_place = 1e-7;
+  constexpr double same_place = same_point;
   for (std::size_t i = found.hits.size(); i-- > 0;) {
     if (found.hits[i].point.s <= start.s + same_place) continue;
     found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
@@ -123,22 +124,23 @@ bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, Step
   return false;
 }
 
+/// The middle of the last step, where it is known.
+const CurvePoint* middle_behind(const Progress& progress) {
+  const CurvePoint &inside = progress.middle, &here = progress.here;
+  const bool known = inside.s > progress.before.s && inside.s < here.s;
+  return known && inside.piece == here.piece ? &inside : nullptr;
+}
+
 /// The last accepted step as a model of the curve: the next one must continue it, not just satisfy F.
 /// @returns nullptr where the curve begins, or begins again at a kink
 const ArcModel* model_behind(const Walker& walker, const Progress& progress, const Curve& curve) {
-  const CurvePoint &here = progress.here, &before = progress.before, &inside = progress.middle;
+  const CurvePoint &here = progress.here, &before = progress.before;
   if (curve.points.size() < 2 || curve.points.back().s != here.s) return nullptr;
   if (!(before.s < here.s) || before.piece != here.piece || before.x.size() != here.x.size())
     return nullptr;
-  const bool known = inside.s > before.s && inside.s < here.s && inside.piece == here.piece;
-  const StepSamples samples(before, known ? &inside : nullptr, here);
+  const StepSamples samples(before, middle_behind(progress), here);
   ArcModel& arc = walker.memory->behind;
   return arc.go_through(walker.weights, here, samples) ? &arc : nullptr;
-}
-
-/// Was the curve not where the model expected it? Then nothing says that it is the same one.
-bool is_surprise(const NewtonResult& newton, const Vector& x) {
-  return !newton.corrections.empty() && newton.corrections.front() > most_surprise * (1 + x.norm());
 }
 
 /// Does the step still lie beside the junction that the curve left where its piece is singular? There the curve is that of
@@ -165,17 +167,23 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
   std::string& refusal = refused.reason;
   CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
   StepMeasures measures;
-  const ArcModel* model = model_behind(walker, progress, curve);
-  if (model && (!try_step(walker, progress.here, progress.ds, model, next, measures, refusal) ||
-                is_surprise(walker.memory->newton, next.x)))
+  const ArcModel *const behind = model_behind(walker, progress, curve), *model = behind;
+  if (model && !try_step(walker, progress.here, progress.ds, model, next, measures, refusal))
     model = nullptr;
-  if (!model && !try_step(walker, progress.here, progress.ds, nullptr, next, measures, refusal))
+  if (!model && (!try_step(walker, progress.here, progress.ds, nullptr, next, measures, refusal) ||
+                 may_be_another(walker, next, progress.ds, refusal)))
     return Outcome::shorten;
   const CurvePoint* middle = nullptr;
   if (walker.options.verify) {
     examine(walker, model, progress.here, next, half_way, refusal);
     if (!refusal.empty()) return Outcome::shorten;
     middle = &half_way;
+    const CurvePoint* known = middle_behind(progress);
+    if (behind && !leads_on(walker, *behind, known ? *known : progress.before, progress.here,
+                            half_way, next)) {
+      refusal = "the end is not where the curve leads: another branch may be near";
+      return Outcome::shorten;
+    }
   }
   KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
@@ -289,7 +297,7 @@ void forget_last_crawl(const Anchor& anchor, Curve& curve) {
 /// The main loop: steps until something ends the curve.
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
-  constexpr double level = 1e-8;
+  constexpr double level = flat_rate;
   curve.stop = StopReason::max_points;
   Anchor anchor;
   while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {

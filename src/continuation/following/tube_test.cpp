@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "continuation/points/numerics.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 /// Of the motion of M with a tube's radius, which is nearly linear, so much is aimed at when the radius is made smaller.
-constexpr double aim = 0.9;
+constexpr double aim = 1 - small_share;
 
 /// The direction v of unit length across the curve in which |M v| is smallest, roughly, by inverse iteration.
 /// @param along  the last row of M, of unit length
 Vector weakest_across(const Lu& M, const Vector& along) {
   constexpr int rounds = 4;
   Vector v(along.size());
-  for (Index i = 0; i < v.size(); ++i) v[i] = 1 + 1 / static_cast<double>(i + 2);
+  for (Index i = 0; i < v.size(); ++i) v[i] = irregular(i, 0);
   for (int i = 0; i < rounds; ++i) {
     v -= along.dot(v) * along;
     v.normalize();
@@ -68,7 +68,7 @@ bool TubeTest::begin(const ArcModel& model, const Window& window) {
 
 /// |S (J(u) - J)|, in the norm of Frobenius, which is not less than the wanted one; infinity outside of the domain.
 double TubeTest::change(const Vector& u, const Matrix& J) {
-  if (!derivatives(u, trial_)) return std::numeric_limits<double>::infinity();
+  if (!derivatives(u, trial_)) return infinity;
   return (S_ * (trial_ - J)).norm();
 }
 
@@ -90,7 +90,7 @@ std::optional<double> TubeTest::radius(double longest) {
       for (const double side : {-1.0, 1.0})
         across = std::max(across, change(at_[k] + side * aside, J_[k]));
     if (along + across <= most) return r;
-    r *= std::clamp(aim * (most - along) / across, 0.1, 0.5);
+    r *= std::clamp(aim * (most - along) / across, small_share, 0.5);
   }
   return std::nullopt;
 }
@@ -134,7 +134,7 @@ bool TubeTest::sigma_is_rounding(const ArcModel& model, const Window& window) {
   Vector u, F;
   for (int i = 0; i < places; ++i) {
     model.evaluate(window.begin + window.length() * i / (places - 1), u, rate_);
-    double sigma = 0, last = std::numeric_limits<double>::infinity();
+    double sigma = 0, last = infinity;
     for (int k = 0; k < most_corrections; ++k) {
       if (!residual(u, F)) return false;
       const Vector correction = S_ * (F + sigma * border_);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/following/tube_test.hpp"
 #include "continuation/locating/determined.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
-#include "continuation/points/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -20,7 +19,7 @@ constexpr double most_uneven = 16;
 constexpr int most_halvings = 7;
 
 /// A branch that crosses under a small angle is left by at least an eighth of its distance: less is the model's own error.
-constexpr double own_branch = 0.1;
+constexpr double own_branch = small_share;
 
 /// Points of the curve on one smooth piece, in order; neighbours that are equal stand once.
 using Stretch = std::vector<CurvePoint>;
@@ -47,7 +46,7 @@ class Stretches {
       take_hits(curve.points[i].s);
       add(curve.points[i]);
     }
-    take_hits(std::numeric_limits<double>::infinity());
+    take_hits(infinity);
     std::erase_if(found_, [](const Stretch& s) { return s.size() < 2; });
     return std::move(found_);
   }

@@ -4,9 +4,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
@@ -39,7 +40,7 @@ std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const Pie
   }
   CurvePoint start = at;
   start.tangent = way.tangent;
-  for (const double ds : {1e-4, 1e-3, 1e-2})
+  for (const double ds : decades<-4, -2>())
     if (const auto point = point_at(walker, start, ds)) look(*point);
   return sides;
 }
@@ -175,7 +176,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
     if (along && active.size() == 1 &&
         ways.conditioning > 0)  // the point lies on the surface to rounding
       for (PieceWay& way : ways.list)
-        way.accuracy = std::min(way.accuracy, exact_tangent / ways.conditioning);
+        way.accuracy = std::min(way.accuracy, 2 * exact_model / ways.conditioning);
     if (ways.singular) singular.push_back(pattern);
     add(ways);
   }
@@ -198,7 +199,7 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, active.empty() ? 1e-12 : regular_at_kinks);
+  return rays_around(walker, at, active, active.empty() ? residual_level : regular_at_kinks);
 }
 
 }  // namespace springfold::continuation

@@ -8,6 +8,9 @@
 
 namespace springfold::continuation {
 
+/// Switches at one point whose 2^k pieces are looked at.
+inline constexpr std::size_t most_active = 12;
+
 /// All ways to leave a point of the curve on which the switches `active` are zero. Every one of the
 /// 2^k pieces around it is linearised, and of its two tangents those are kept that lead into it (a
 /// one-sided linear complementarity problem, solved by enumeration; Cottle, Pang and Stone 1992):
@@ -23,7 +26,7 @@ namespace springfold::continuation {
 ///
 /// The order is fixed: by pieces, counted in binary with the first active switch as the lowest
 /// digit. Without active switches these are the two directions of the curve.
-/// @pre active.size() <= 12
+/// @pre active.size() <= most_active
 Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
              const std::vector<Index>& active);
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/singular.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/piecewise_form.hpp"
@@ -16,8 +16,9 @@ namespace springfold::continuation {
 namespace {
 
 constexpr std::size_t most_pieces = 256;  // beside the curve, that are watched on every step
-constexpr double one_point = 1e-8;  // arc length within which zeros of different pieces are one
-constexpr double located = 1e-7;    // ratio of singular values at a located branch point
+constexpr double one_point =
+    10 * one_place;  // arc length within which zeros of different pieces are one
+constexpr double located = 10 * located_rank;  // ratio of singular values at a located branch point
 
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {
@@ -126,14 +127,13 @@ class PiecesBeside {
 /// @param own  the begin of the step in its own piece, with which the others share the curve
 void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
                          std::vector<CurvePoint>& points) {
-  constexpr double share = 1e-2;  // of the step
   CurvePoint& first = points.front();
   Linearisation at;
   if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
   const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
   const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
   if (!(least_singular_values(E, 1)[0] <= located_rank * size)) return;
-  auto moved = point_at(walker, own, share * (points.back().s - first.s));
+  auto moved = point_at(walker, own, negligible_share * (points.back().s - first.s));
   if (!moved) return;
   moved->piece = first.piece;
   moved->negative.reset();
@@ -173,7 +173,7 @@ bool find_places(const Walker& walker, Samples samples, const std::vector<Index>
 }
 
 bool along_the_curve(const Walker& walker, const Ray& ray, const Direction& tangent) {
-  return std::abs(std::abs(metric_product(walker.weights, ray.tangent, tangent)) - 1) < 1e-9;
+  return std::abs(std::abs(metric_product(walker.weights, ray.tangent, tangent)) - 1) < one_place;
 }
 
 CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) {
@@ -182,7 +182,8 @@ CurvePoint start_of(const Walker& walker, const CurvePoint& at, const Ray& ray) 
     start.negative = ray.start->negative;
     return start;
   }
-  const auto beyond = point_at(walker, start, 1e-4);  // at the point itself an eigenvalue is zero
+  const auto beyond =
+      point_at(walker, start, told_apart);  // at the point itself an eigenvalue is zero
   start.negative = beyond ? beyond->negative : std::nullopt;
   return start;
 }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
@@ -27,14 +27,14 @@ void take_way_back(const Walker& walker, CurvePoint& arrived, std::vector<Ray>& 
   const Direction back = opposite(arrived.tangent);
   const auto off = [&](const Ray& ray) {
     return on_piece(ray, arrived.piece) ? 1 - metric_product(walker.weights, ray.tangent, back)
-                                        : HUGE_VAL;
+                                        : infinity;
   };
   const auto best = std::min_element(rays.begin(), rays.end(),
                                      [&](const Ray& a, const Ray& b) { return off(a) < off(b); });
   if (best == rays.end()) return;
   const bool singular = best->start.has_value();
   if (!(singular ? off(*best) <= nearly_same_line
-                 : same_direction(walker.weights, best->tangent, back, 1e-6)))
+                 : same_direction(walker.weights, best->tangent, back, one_direction)))
     return;
   if (singular) arrived.tangent = opposite(best->tangent);
   rays.erase(best);
@@ -43,7 +43,7 @@ void take_way_back(const Walker& walker, CurvePoint& arrived, std::vector<Ray>& 
 /// Does a kink lie at this place of the curve?
 bool kink_at(const Curve& curve, double s) {
   return std::any_of(curve.hits.begin(), curve.hits.end(), [s](const Hit& hit) {
-    return !hit.switches.empty() && std::abs(hit.point.s - s) < 1e-9;
+    return !hit.switches.empty() && std::abs(hit.point.s - s) < one_place;
   });
 }
 
@@ -165,7 +165,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
 }
 
 void settle_families(Curve& curve) {
-  constexpr double certain = 0.1;  // longer than any inflection stays flat to rounding
+  constexpr double certain = 10 * level_reach;  // longer than any inflection stays flat to rounding
   for (Hit& hit : curve.hits) {
     if (hit.kind != HitKind::family || hit.s_after - hit.s_before >= certain) continue;
     if (kink_at(curve, hit.s_before) || kink_at(curve, hit.s_after)) continue;

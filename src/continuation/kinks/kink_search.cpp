@@ -1,13 +1,13 @@
 // Zeros of the switching functions on one step.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
@@ -16,9 +16,6 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr double rounding_of_points = 1e-12;  // in switching functions, of their size
-constexpr double flat_rate = 1e-9;            // rates below this run along a surface
-constexpr double zero_resolution = 1e-9;      // of zeros on one step
 /// Of the accuracy to which kinks are placed: so far apart they are two.
 constexpr double between_places = 100;
 
@@ -45,8 +42,7 @@ struct SwitchOnStep {
 double rate_at(const SwitchOnStep& f, const CurvePoint& p) {
   Matrix dg_dx;
   Vector dg_dlambda;
-  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (!f.walker.problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda)) return not_a_number;
   const double along = metric_product(f.walker.weights, p.tangent, f.from.tangent);
   // Step lengths are measured along from.tangent: rates by the arc are smaller by this.
   return f.side * switch_rate(dg_dx, dg_dlambda, f.j, p.tangent) / along;
@@ -64,7 +60,7 @@ struct Crossing {
 /// refined by the augmented system of the branch point.
 /// @pre f has opposite signs at a and b
 Crossing crossing_at_branch_point(const SwitchOnStep& f, double a, double b) {
-  const double reach = 1e-4 * (b - a);
+  const double reach = told_apart * (b - a);
   double place = 0.5 * (a + b);
   while (b - a > reach) {
     place = 0.5 * (a + b);
@@ -78,11 +74,9 @@ Crossing crossing_at_branch_point(const SwitchOnStep& f, double a, double b) {
   CurvePoint near = *before;
   near.x = 0.5 * (before->x + after->x);
   near.lambda = 0.5 * (before->lambda + after->lambda);
-  near.tangent = {0.5 * (before->tangent.dx + after->tangent.dx),
-                  0.5 * (before->tangent.dlambda + after->tangent.dlambda)};
-  const double length = std::sqrt(metric_product(f.walker.weights, near.tangent, near.tangent));
-  near.tangent.dx /= length;
-  near.tangent.dlambda /= length;
+  near.tangent =
+      unit_direction(f.walker, Direction{before->tangent.dx + after->tangent.dx,
+                                         before->tangent.dlambda + after->tangent.dlambda});
   auto point = refine_branch_point(f.walker, near);
   const auto value = point ? f.value(*point) : std::nullopt;
   if (!value || std::abs(*value) > f.walker.options.simultaneous) return {.clear = false};
@@ -97,9 +91,7 @@ Crossing crossing_at_branch_point(const SwitchOnStep& f, double a, double b) {
 }
 
 Crossing crossing_in(const SwitchOnStep& f, double a, double b) {
-  const auto value = [&f](const CurvePoint& p) {
-    return f.value(p).value_or(std::numeric_limits<double>::quiet_NaN());
-  };
+  const auto value = [&f](const CurvePoint& p) { return f.value(p).value_or(not_a_number); };
   Crossing result{.located = locate(f.walker, f.from, a, b, value)};
   return result.located ? result : crossing_at_branch_point(f, a, b);
 }
@@ -107,7 +99,7 @@ Crossing crossing_in(const SwitchOnStep& f, double a, double b) {
 /// All zeros between step lengths a and b are looked for; the first crossing counts.
 Crossing first_of_all(const SwitchOnStep& f, double a, double b) {
   const auto value = [&f](double ds) { return f.value(ds); };
-  const ZeroSearch search = find_zeros(value, a, b, f.noise, zero_resolution * f.h);
+  const ZeroSearch search = find_zeros(value, a, b, f.noise, one_place * f.h);
   Crossing result{.clear = search.resolved};
   double start = a;
   for (const ZeroOf& zero : search.zeros) {
@@ -116,7 +108,8 @@ Crossing first_of_all(const SwitchOnStep& f, double a, double b) {
       continue;
     }
     // Bracket it by values beyond rounding; it can lie very near to the next one.
-    for (const double reach : {1e-6 * f.h, 1e-3 * f.h, 0.1 * f.h}) {
+    for (const double share : decades<-6, -1>()) {
+      const double reach = share * f.h;
       const double low = std::max(start, zero.at - reach), high = std::min(b, zero.at + reach);
       const auto f0 = f.value(low), f1 = f.value(high);
       if (f0 && f1 && *f0 > 0 && *f1 < 0) {
@@ -177,7 +170,7 @@ Crossing judge(const SwitchOnStep& f, double a, const Cubic& cubic) {
   if (cubic.f1 >= 0 && std::min(cubic.f0, cubic.f1) > 2 * change) return {};  // out of reach
   const auto middle = f.value(a + 0.5 * cubic.h);
   if (!middle) return {.clear = false};
-  const double share = 0.02 * change;
+  const double share = 2 * negligible_share * change;
   const bool fits = std::abs(*middle - cubic(0.5 * cubic.h)) <= share + f.noise;
   const double least = cubic.least();
   if (fits && cubic.f1 >= 0 && (least > share || least >= std::min(cubic.f0, cubic.f1))) return {};
@@ -192,7 +185,7 @@ Crossing judge(const SwitchOnStep& f, double a, const Cubic& cubic) {
 /// A switch that is being left starts at zero, or within `slack` if it only acted together with
 /// others there: the step length at which it is clearly positive.
 std::optional<double> departure(const SwitchOnStep& f, double slack) {
-  for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+  for (const double share : decades<-6, 0>()) {
     const auto value = f.value(share * f.h);
     if (!value || *value < -slack) return std::nullopt;
     if (*value > f.noise) return share * f.h;
@@ -200,13 +193,13 @@ std::optional<double> departure(const SwitchOnStep& f, double slack) {
   return std::nullopt;
 }
 
-constexpr double steep = 1e-4;
+constexpr double steep = told_apart;
 
 /// The curve ends its step on a surface, or just before: take the surface into this step, or, where
 /// it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
   if (!(d1 < -steep)) return {.clear = false};
-  return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + 1e-12 * f.h);
+  return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + residual_level * f.h);
 }
 
 /// @param cubic  values and rates at the ends of the step
@@ -234,7 +227,8 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
 /// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations have
 /// two directions and do not say which is that of this curve.
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
-  constexpr double nearest = 0.9;  // of the way: nearer points may belong to the other branch
+  constexpr double nearest =
+      1 - small_share;  // of the way: nearer points may belong to the other branch
   const auto curve =
       interpolated_curve([&](double t) { return point_at(walker, from, t); }, 0, nearest * ds);
   return curve ? std::optional<Direction>(unit_direction(walker, curve->slope(ds))) : std::nullopt;
@@ -257,7 +251,7 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   for (const Index j : active_switches(walker, point.x, point.lambda))
     if (std::abs(g[j]) > walker.options.simultaneous) return;
   const Direction moved{place->x - point.x, place->lambda - point.lambda};
-  const double off = std::sqrt(metric_product(walker.weights, moved, moved));
+  const double off = length_of(walker, moved);
   if (!(off <= perhaps_singular)) return;
   point.x = place->x;
   point.lambda = place->lambda;
@@ -293,7 +287,7 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
                        Index j) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
   const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
-  if (!(length > zero_resolution) || !(std::min(std::abs(rate), std::abs(rate_before)) > flat_rate))
+  if (!(length > one_place) || !(std::min(std::abs(rate), std::abs(rate_before)) > one_place))
     return false;
   constexpr double alike = 0.25;
   const bool follows =
@@ -332,10 +326,10 @@ std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from
     return resting;
   for (const Index j : candidates) {
     if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) >
-        flat_rate)
+        one_place)
       continue;
     bool stays = true;
-    for (const double share : {0.31, 0.62}) {
+    for (const double share : uneven_shares<2>()) {
       const auto point = point_at(walker, from, share * (to.s - from.s));
       Vector g;
       stays = stays && point && walker.problem.switches(point->x, point->lambda, g) &&
@@ -365,7 +359,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     if (among(resting, j)) continue;
     const double side = from.piece[static_cast<std::size_t>(j)];
     const double noise =
-        rounding_of_points * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
+        residual_level * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
     const SwitchOnStep watched{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};

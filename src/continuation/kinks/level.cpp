@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_numerics.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
 
 namespace springfold::continuation {
@@ -39,7 +40,8 @@ bool same_level(const Walker& walker, const std::vector<const CurvePoint*>& poin
 bool is_level(const Walker& walker, const CurvePoint& at, int direction, double room) {
   if (std::abs(at.tangent.dlambda) > perhaps_singular) return false;
   const double reach = direction * std::min(level_reach, 0.5 * room);
-  const auto end = point_at(walker, at, reach), half = point_at(walker, at, 0.4 * reach);
+  const auto end = point_at(walker, at, reach),
+             half = point_at(walker, at, uneven_share(4) * reach);
   return end && half && same_level(walker, {&at, &*half, &*end});
 }
 

@@ -5,19 +5,18 @@
 
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink_half_branches.hpp"
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/flat_turns.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-constexpr double vertical = 1e-12;  // lambda does not change along the curve at all
 
 /// The family that reaches as far as this point.
 Hit* open_family(const CurvePoint& from, Curve& curve) {
@@ -32,13 +31,15 @@ Hit* open_family(const CurvePoint& from, Curve& curve) {
 bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
                   const CurvePoint& to, bool seen) {
   if (seen) {
-    const auto inside = middle ? std::nullopt : point_at(walker, from, 0.4 * (to.s - from.s));
+    const auto inside =
+        middle ? std::nullopt : point_at(walker, from, uneven_share(4) * (to.s - from.s));
     if (!middle && inside) middle = &*inside;
     return middle && same_level(walker, {&from, middle, &to});
   }
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
-  if (rate > (to.s - from.s >= level_reach ? vertical : 1e-1 * vertical)) return false;
+  if (rate > (to.s - from.s >= level_reach ? residual_level : small_share * residual_level))
+    return false;
   const Place* at = place_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
   if (!at) return true;
   const double noise = rate_noise(extended_matrix(at->at, walker.weights, from.tangent));
@@ -51,7 +52,7 @@ std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) 
   Linearisation at;
   if (!walker.problem.symmetric() || !linearise_densely(walker.problem, p.x, p.lambda, p.piece, at))
     return std::nullopt;
-  const double scale = std::max(1e-300, at.dF_dx.cwiseAbs().maxCoeff());
+  const double scale = std::max(smallest_number, at.dF_dx.cwiseAbs().maxCoeff());
   const auto inertia = inertia_of(at.dF_dx + scale * p.tangent.dx * p.tangent.dx.transpose());
   return inertia && inertia->zero == 0 ? std::optional<Index>(inertia->negative) : std::nullopt;
 }
@@ -107,7 +108,7 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
   StepEvents all;
   CurvePoint start = from;
   while (start.s < to.s) {
-    const double left = 0.05 * (kink_s - start.s);
+    const double left = (kink_s - start.s) / 20;
     auto next = left > kink_s - to.s ? point_at(walker, start, kink_s - left - start.s) : to;
     if (!next) {
       all.doubt = "the curve could not be followed up to a kink";

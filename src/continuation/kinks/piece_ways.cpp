@@ -3,23 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_numerics.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/piecewise_form.hpp"
 
 namespace springfold::continuation {
 namespace {
 
+/// Up to so many unknowns all derivatives may vanish at once; then their size is looked for nearby.
+constexpr Index most_of_one_size = 4;
+
 std::optional<Direction> unit(const Vector& v, const Vector& weights) {
   const Index n = v.size() - 1;
   Direction d{v.head(n), v[n]};
   const double length = std::sqrt(metric_product(weights, d, d));
-  if (!(length > no_length * v.norm())) return std::nullopt;
+  if (!(length > refined_step * v.norm())) return std::nullopt;
   d.dx /= length;
   d.dlambda /= length;
   return d;
@@ -34,7 +37,7 @@ Matrix extended(const Linearisation& at) {
 /// Size of the extended Jacobian a little away, where it need not vanish altogether.
 double size_nearby(const Walker& walker, const CurvePoint& at) {
   Linearisation linear;
-  const double h = 0.1 * std::max(1.0, at.x.norm());
+  const double h = small_share * std::max(1.0, at.x.norm());
   const Vector x = at.x.array() + h;
   if (!linearise_densely(walker.problem, x, at.lambda + h, at.piece, linear)) return 0;
   return extended(linear).cwiseAbs().maxCoeff();
@@ -130,7 +133,7 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
 }  // namespace
 
 PieceWays both_ways(const Direction& tangent) {
-  return {.list = {{tangent, {}, regular_tangent}, {opposite(tangent), {}, regular_tangent}}};
+  return {.list = {{tangent, {}, regular_at_kinks}, {opposite(tangent), {}, regular_at_kinks}}};
 }
 
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
@@ -177,7 +180,7 @@ bool before_next_surface(const Walker& walker, const CurvePoint& at, const Surfa
     const double expected =
         !active ? side * here[j]
                 : side * start.s * switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, tangent);
-    if (active && !(expected > along_surface * start.s)) continue;
+    if (active && !(expected > flat_rate * start.s)) continue;
     if (!(side * there[j] >= 0.5 * expected)) return false;
   }
   return true;
@@ -194,7 +197,7 @@ PieceWays singular_ways(const Walker& walker, const CurvePoint& at, const Surfac
   const Exits exits = exits_at(walker, at, kernel->corank, near_enough);
   PieceWays ways{.singular = true, .why = exits.why};
   for (const Exit& exit : exits.exits)
-    ways.list.push_back({exit.tangent, exit.start, std::max(exit.accuracy, regular_tangent)});
+    ways.list.push_back({exit.tangent, exit.start, std::max(exit.accuracy, regular_at_kinks)});
   return ways;
 }
 

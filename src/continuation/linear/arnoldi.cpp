@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/linear/extended.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -28,14 +29,14 @@ bool Arnoldi::add() {
   const double left = image_.norm();
   ++size_;
   H_(size_, size_ - 1) = left;
-  if (!(left > 1e-12 * H_.norm())) return false;
+  if (!(left > residual_level * H_.norm())) return false;
   basis_.col(size_) = image_ / left;
   return size_ < steps_;
 }
 
 double Arnoldi::largest() const {
   const SmallMatrix M = H_.topLeftCorner(size_, size_);
-  if (!M.allFinite()) return std::numeric_limits<double>::infinity();
+  if (!M.allFinite()) return infinity;
   return spectral_radius(M);
 }
 

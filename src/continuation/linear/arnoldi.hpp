@@ -1,8 +1,7 @@
 // Eigenvalues of a linear map from its images of a few vectors, in storage that is used again. Private to the engine.
 #pragma once
 
-#include <limits>
-
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
@@ -36,8 +35,6 @@ class Arnoldi {
 /// @param put_image  bool(v, Vector& image); @returns infinity when it returns false
 template <class PutImage>
 double largest_eigenvalue(Arnoldi& arnoldi, Index n, const PutImage& put_image) {
-  constexpr double share = 0.02, negligible = 0.01,
-                   infinity = std::numeric_limits<double>::infinity();
   double before = infinity;
   arnoldi.begin(n);
   for (;;) {
@@ -45,7 +42,7 @@ double largest_eigenvalue(Arnoldi& arnoldi, Index n, const PutImage& put_image) 
     const bool more = arnoldi.add();
     if (more && arnoldi.size() < 3) continue;
     const double now = arnoldi.largest();
-    if (!more || std::abs(now - before) <= share * now + negligible) return now;
+    if (!more || std::abs(now - before) <= negligible_share * (2 * now + 1)) return now;
     before = now;
   }
 }

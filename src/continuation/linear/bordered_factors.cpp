@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 
@@ -18,10 +19,10 @@ struct SideBySide {
 namespace {
 
 /// Smallest over largest pivot below this counts as singular.
-constexpr double singular_pivot = 1e-15;
+constexpr double singular_pivot = few_roundings;
 
 /// Of its largest pivot: eigenvalues of dF/dx below this are zero.
-constexpr double zero_eigenvalue = 1e-13;
+constexpr double zero_eigenvalue = 500 * rounding_unit;
 
 using Front =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/linear/arnoldi.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -63,7 +64,6 @@ LeastVectors least_vectors(const ExtendedMatrix& E, Index m) {
   Borders& borders = result.borders;
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
-  constexpr double settled = 1e-10;
   for (Index step = 0; step < most_steps; ++step) {
     const auto V = solve_with(E, borders, right), W = solve_with(E, borders, right, true);
     if (!V || !W) break;
@@ -71,7 +71,7 @@ LeastVectors least_vectors(const ExtendedMatrix& E, Index m) {
     const double moved = (C - borders.C * (borders.C.transpose() * C)).norm() +
                          (B - borders.B * (borders.B.transpose() * B)).norm();
     borders = {B, C};
-    if (moved < settled) break;
+    if (moved < residual_level) break;
   }
   const Matrix image = product(E, borders.C);
   const Svd svd =
@@ -96,11 +96,7 @@ Matrix orthonormal(const Matrix& columns) { return orthonormal_columns(columns);
 Matrix irregular_columns(Index rows, Index columns) {
   Matrix X(rows, columns);
   for (Index c = 0; c < columns; ++c)
-    for (Index r = 0; r < rows; ++r) {
-      const double place = static_cast<double>(r) + 0.37 * static_cast<double>(c);
-      X(r, c) =
-          std::cos(1.3 * place + 2.1 * static_cast<double>(c)) + 0.5 * std::sin(0.017 * place);
-    }
+    for (Index r = 0; r < rows; ++r) X(r, c) = irregular(r, c);
   return orthonormal(X);
 }
 
@@ -171,7 +167,6 @@ Vector least_singular_values(const ExtendedMatrix& E, Index m) {
 
 std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatrix& E0,
                                     const ExtendedMatrix& E1) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Matrix small;  // the map itself, or what Arnoldi's basis sees of it
   if (!E.at.structured) {
     small = Lu(E.dense).solve(E1.dense - E0.dense);

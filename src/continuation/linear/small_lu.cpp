@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "continuation/numerics/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -102,7 +103,7 @@ SmallLu::SmallLu(const Matrix& A, const Vector& b, const Eigen::Ref<const Vector
 }
 
 void SmallLu::factorise() {
-  smallest_ = std::numeric_limits<double>::infinity();
+  smallest_ = infinity;
   greatest_ = 0;
   for (Index k = 0; k < n_; ++k) {
     double* const u = column(k);

@@ -4,15 +4,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/core/finite.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-constexpr double few_units = 4 * std::numeric_limits<double>::epsilon();
 
 /// Is the spectral radius of a matrix X >= 0 of n rows below 1/2? times() puts X d into Xd.
 template <class Times>
@@ -23,7 +21,7 @@ bool is_small(Vector& d, Vector& Xd, const Times& times) {
     if ((Xd.array() / d.array()).maxCoeff() < 0.5) return true;
     const double largest = Xd.maxCoeff();
     if (!(largest > 0)) return true;
-    d = (Xd / largest).cwiseMax(1e-12);
+    d = (Xd / largest).cwiseMax(residual_level);
   }
   return false;
 }
@@ -164,25 +162,24 @@ std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders) 
 }
 
 double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index n = E.rows(), m = borders.B.cols();
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
   const auto Phi = solve_with(E, borders, right), Psi = solve_with(E, borders, right, true);
   if (!Phi || !Psi) return infinity;
   const double noise =
-      few_units * (Psi->topRows(n).cwiseAbs().transpose() * magnitudes(E, Phi->topRows(n))).norm();
+      few_roundings *
+      (Psi->topRows(n).cwiseAbs().transpose() * magnitudes(E, Phi->topRows(n))).norm();
   return std::isfinite(noise) ? noise : infinity;
 }
 
 double rate_noise(const ExtendedMatrix& E) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index n = E.rows();
   const Matrix unit = Vector::Unit(n, n - 1);
   const auto solution = solve_with(E, {}, unit), row = solve_with(E, {}, unit, true);
   if (!solution || !row) return infinity;
   const Vector tangent = solution->col(0) / solution->col(0).norm();
-  const double noise = few_units * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));
+  const double noise = few_roundings * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));
   return std::isfinite(noise) ? noise : infinity;
 }
 

@@ -6,6 +6,8 @@
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/sigma_touch.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 
@@ -17,11 +19,11 @@ namespace {
 /// differ shows what can be told.
 bool turns_at(const WatchedStep& arc, double t) {
   std::vector<double> distances;  // from t to the turn
-  for (const double share : {1.0, 0.3, 0.1}) {
+  for (const double share : half_decades<3>()) {
     const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
     if (!curve) continue;
     const Index n = curve->values.rows() - 1;
-    const double h = 0.1 * (curve->b - curve->a);
+    const double h = small_share * (curve->b - curve->a);
     const double change = (curve->slope(t + h)[n] - curve->slope(t - h)[n]) / (2 * h);
     distances.push_back(-curve->slope(t)[n] / change);
   }
@@ -30,7 +32,7 @@ bool turns_at(const WatchedStep& arc, double t) {
   const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
   const double nearest = std::min(std::abs(*low), std::abs(*high));
   return *low * *high <= 0 ? *high - *low <= blurred
-                           : nearest <= merged + std::min(*high - *low, 0.1 * blurred);
+                           : nearest <= same_point + std::min(*high - *low, small_share * blurred);
 }
 
 /// Removes what is left of the residual within the directions that dF sees well.
@@ -45,7 +47,7 @@ void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
     Matrix right = Matrix::Zero(n + 1 + corank, 1);
     right.topRows(n) = -F;
     const auto step = solve_with(*E, borders, right);
-    if (!step || step->topRows(n + 1).norm() > 1e-6) return;
+    if (!step || step->topRows(n + 1).norm() > poor) return;
     point.x += step->col(0).head(n);
     point.lambda += (*step)(n, 0);
   }
@@ -53,12 +55,11 @@ void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
 
 /// Are exactly m singular values of E small here, with a gap to the others?
 bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
-  constexpr double gap = 0.1;
   const auto E = arc.matrix(point);
   if (!E) return false;
   if (m >= E->rows()) return true;
   const Vector values = least_singular_values(*E, m + 1);
-  return values[m - 1] <= gap * values[m];
+  return values[m - 1] <= small_share * values[m];
 }
 
 /// How far another place is from an interpolated one, along the interpolated curve and aside of it.
@@ -76,7 +77,7 @@ Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePo
   offset.along = offset.at - place.at;
   const Direction aside{other.x - interpolated.x - offset.along * place.along.head(n),
                         other.lambda - interpolated.lambda - offset.along * place.along[n]};
-  offset.aside = std::sqrt(metric_product(weights, aside, aside));
+  offset.aside = length_of(arc.walker(), aside);
   return offset;
 }
 
@@ -85,14 +86,14 @@ Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePo
 /// @returns false when the curves pass each other there, or the place is not known
 bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Candidate& found) {
   const int corank = static_cast<int>(m);
-  const double reach = std::clamp(0.3 * place.free, together, 1e-3);
+  const double reach = std::clamp(near_share * place.free, together, branch_point_reach);
   const auto exact = place_branch_point(arc.walker(), found.point, corank, 2 * reach);
   found.off = place.doubt;
   if (exact) {
     const Offset offset = offset_of(arc, place, found.point, exact->point);
-    const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * merged;
+    const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * same_point;
     if (near && exact->off > poor) return false;
-    if (near && exact->misfit <= merged) {
+    if (near && exact->misfit <= same_point) {
       if (exact->left <= branches_apart) {
         found.point = exact->point;
         found.at = offset.at;
@@ -106,11 +107,10 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
     }
     found.off = std::max({found.off, exact->misfit, std::abs(offset.along), offset.aside});
   }
-  if (!(place.doubt <= merged) || found.off > poor) return false;
+  if (!(place.doubt <= same_point) || found.off > poor) return false;
   // A branch point somewhat farther away says that rounding has shaped the interpolants.
-  constexpr double farther = 1e-3;
-  const auto other = place_branch_point(arc.walker(), found.point, corank, farther);
-  if (other && other->misfit <= merged && other->off <= poor) return false;
+  const auto other = place_branch_point(arc.walker(), found.point, corank);
+  if (other && other->misfit <= same_point && other->off <= poor) return false;
   const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
   const double beside = left();
   polish(arc, found.point, m);
@@ -125,7 +125,7 @@ bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
   const auto E = arc.matrix(found.point);
   if (!E) return false;
   const Borders borders = borders_of(*E, m);
-  const double far = 0.2 * arc.length();
+  const double far = aside_share * arc.length();
   for (const double side : {-1.0, 1.0}) {
     const double at = found.at + side * far;
     if (at < arc.low() || at > arc.high()) continue;
@@ -139,29 +139,29 @@ bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
   return false;
 }
 
-/// Gives a branch point the exact direction of its branch, where second derivatives tell it.
-/// @returns lambda's rate there
+/// Gives a branch point the exact direction of its branch, where second derivatives tell it; otherwise what of its direction
+/// lies in the kernel.
+/// @returns lambda's rate there, if the direction is exact
 std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint& point) {
   const auto e = reduce(arc.walker(), point, static_cast<int>(m));
   if (!e) return std::nullopt;
   const Index n = point.x.size();
   Vector along(n + 1);
   along << point.tangent.dx, point.tangent.dlambda;
-  const auto c = quadratic_direction(*e, e->N.transpose() * along.cwiseProduct(e->root), 0.05);
-  if (!c) return std::nullopt;
-  const Vector d = (e->N * *c).cwiseQuotient(e->root);
+  const Vector in_kernel = e->N.transpose() * along.cwiseProduct(e->root);
+  const auto c = quadratic_direction(*e, in_kernel, 0.05);
+  const Vector d = (e->N * c.value_or(in_kernel)).cwiseQuotient(e->root);
   const Direction tangent = unit_direction(arc.walker(), d);
   if (metric_product(arc.walker().weights, tangent, point.tangent) < 0.99) return std::nullopt;
   point.tangent = tangent;
-  return tangent.dlambda;
+  return c ? std::optional<double>(tangent.dlambda) : std::nullopt;
 }
 
 /// Does lambda turn at this branch point?
 bool branch_turns(const WatchedStep& arc, Index m, Candidate& found) {
-  constexpr double zero = 1e-7;
   const auto rate = settle_tangent(arc, m, found.point);
   if (!rate) return turns_at(arc, found.at);
-  if (std::abs(*rate) > zero) return false;
+  if (std::abs(*rate) > turns_here) return false;
   const auto before = arc.rate(found.at - blurred), after = arc.rate(found.at + blurred);
   return before && after ? (*before < 0) != (*after < 0) : turns_at(arc, found.at);
 }

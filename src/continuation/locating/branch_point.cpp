@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/reduced_equation.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -31,7 +32,7 @@ Matrix rate_in_kernels(const ReducedEquation& e) {
 /// Second derivatives below this are rounding of J over the length of their differences.
 double least_rate(const ReducedEquation& e, double largest) {
   const auto J = jacobian_at(*e.walker, e.U0, e.root, e.piece);
-  return J ? 1e-10 * size_of(*J) + 1e-9 * largest : HUGE_VAL;
+  return J ? promised_place * size_of(*J) + one_place * largest : infinity;
 }
 
 /// One step from U with the kernels of e: first what F asks for across them, then along them from there.
@@ -52,7 +53,7 @@ std::optional<Vector> step_from(const ReducedEquation& e, const Svd& rate, const
 /// Fixed directions in which rounding is sampled.
 Vector aside(Index size, int k) {
   Vector d(size);
-  for (Index i = 0; i < size; ++i) d[i] = std::cos(2.1 * k + 1.3 * static_cast<double>(i));
+  for (Index i = 0; i < size; ++i) d[i] = irregular(i, k);
   return d;
 }
 
@@ -60,14 +61,14 @@ Vector aside(Index size, int k) {
 /// more exact than any of them.
 struct Places {
   Vector mean{};
-  double scatter = HUGE_VAL;  ///< largest distance from the mean
+  double scatter = infinity;  ///< largest distance from the mean
 };
 
 Places places_around(const ReducedEquation& e, const Svd& rate, const Vector& U, int number) {
   std::vector<Vector> ends;
   Places places{.mean = Vector::Zero(U.size())};
   for (int k = 0; k < number; ++k) {
-    const Vector start = U + 1e-11 * e.scale * aside(U.size(), k).normalized();
+    const Vector start = U + function_noise * e.scale * aside(U.size(), k).normalized();
     const auto step = step_from(e, rate, start);
     if (!step) return places;
     ends.push_back(start + *step - U);
@@ -86,14 +87,14 @@ double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double 
   const Matrix rows = J.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
                                    : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
   const Matrix squares = e.L.cwiseAbs2().transpose() * rows;
-  return std::numeric_limits<double>::epsilon() * std::sqrt(squares.sum()) / least_rate;
+  return rounding_unit * std::sqrt(squares.sum()) / least_rate;
 }
 
 /// Puts U, which is exact up to rounding, where many steps agree.
 /// @returns the estimated error
 double settle(const ReducedEquation& e, const Svd& rate, Vector& U) {
   const Places few = places_around(e, rate, U, 4);
-  if (!(few.scatter > 1e-12 * e.scale) || !std::isfinite(few.scatter)) return few.scatter;
+  if (!(few.scatter > residual_level * e.scale) || !std::isfinite(few.scatter)) return few.scatter;
   constexpr int many = 32;
   const Places more = places_around(e, rate, U, many);
   if (!std::isfinite(more.scatter)) return few.scatter;
@@ -103,21 +104,21 @@ double settle(const ReducedEquation& e, const Svd& rate, Vector& U) {
 
 /// L^T F at U against its rounding, which is sampled around U: to first order L^T F is constant there.
 double left_at(const ReducedEquation& e, const Vector& U) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const Vector sizes = U.cwiseAbs().cwiseMax(1e-3);
+  const Vector sizes = U.cwiseAbs().cwiseMax(tiny_share);
   const auto J = jacobian_at(*e.walker, U, e.root, e.piece);
   Vector F;
-  if (!J || !residual_at(e, U, F)) return HUGE_VAL;
+  if (!J || !residual_at(e, U, F)) return infinity;
   const Vector here = e.L.transpose() * F;
-  double noise = epsilon * (e.L.cwiseAbs().transpose() * magnitudes(*J, sizes)).norm();
+  double noise = rounding_unit * (e.L.cwiseAbs().transpose() * magnitudes(*J, sizes)).norm();
   // Curves this near to each other meet, for all that can be said of a place.
   for (const Matrix& Q : e.quadratic)
-    noise = std::max(noise, Q.norm() * std::pow(1e-10 * e.scale, 2));
+    noise = std::max(noise, Q.norm() * std::pow(promised_place * e.scale, 2));
   for (int k = 0; k < 8; ++k) {
-    if (!residual_at(e, U + 1e-12 * aside(U.size(), k).cwiseProduct(sizes), F)) return HUGE_VAL;
+    if (!residual_at(e, U + residual_level * aside(U.size(), k).cwiseProduct(sizes), F))
+      return infinity;
     noise = std::max(noise, (e.L.transpose() * F - here).norm());
   }
-  return here.norm() / std::max(1e-300, noise);
+  return here.norm() / std::max(smallest_number, noise);
 }
 
 }  // namespace
@@ -130,7 +131,6 @@ std::optional<Vector> spectrum_at(const Walker& walker, const CurvePoint& point)
 }
 
 double least_eigenvalue(const Walker& walker, const CurvePoint& point) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!walker.problem.structured()) {
     const auto spectrum = spectrum_at(walker, point);
     return spectrum && spectrum->size() > 0 ? spectrum->cwiseAbs().minCoeff() : infinity;
@@ -146,7 +146,7 @@ double least_eigenvalue(const Walker& walker, const CurvePoint& point) {
     const double before = largest;
     largest = v.norm();
     v /= largest;
-    if (std::abs(largest - before) < 1e-2 * largest) break;
+    if (std::abs(largest - before) < negligible_share * largest) break;
   }
   return 1 / largest;
 }
@@ -157,7 +157,7 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
   const Index n = near.x.size();
   const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
   Vector U = U_near;
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (int iteration = 0; iteration < 14; ++iteration) {
     place.point.x = U.head(n).cwiseQuotient(root.head(n));
     place.point.lambda = U[n];
@@ -170,7 +170,7 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
     if (!step) return std::nullopt;
     const double moved = step->norm();
     // What the kernels of a place nearby make of the step is of second order in the distance from it.
-    if (moved <= 1e-11 * e->scale || (moved <= 1e-5 * e->scale && moved > 0.3 * before)) {
+    if (has_settled(moved, before, function_noise * e->scale, together * e->scale)) {
       U += *step;
       for (int polish = 0; polish < 2; ++polish)
         if (const auto last = step_from(*e, rate, U)) U += *last;
@@ -194,7 +194,7 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
 
 double left_of_residual(const Walker& walker, const CurvePoint& point, int corank) {
   const auto e = reduce(walker, point, corank);
-  return e ? left_at(*e, e->U0) : HUGE_VAL;
+  return e ? left_at(*e, e->U0) : infinity;
 }
 
 std::optional<CurvePoint> refine_branch_point(const Walker& walker, const CurvePoint& near) {

@@ -1,6 +1,7 @@
 // Branch points: where the extended Jacobian [dF/dx dF/dlambda] loses rank. Private to the engine.
 #pragma once
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
@@ -16,6 +17,9 @@ double least_eigenvalue(const Walker& walker, const CurvePoint& point);
 
 /// `BranchPlace::left` above which curves pass each other and do not meet.
 inline constexpr double branches_apart = 200;
+
+/// Farther off a branch point is another one.
+inline constexpr double branch_point_reach = 10 * told_apart;
 
 /// Where branches meet, to rounding.
 struct BranchPlace {
@@ -38,7 +42,7 @@ struct BranchPlace {
 /// @returns nothing when it does not converge within `reach`, or where second derivatives leave the
 ///          place open (degenerate branch points)
 std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurvePoint& near,
-                                              int corank, double reach = 1e-3);
+                                              int corank, double reach = branch_point_reach);
 
 /// BranchPlace::left at any point that is singular to rounding; infinity where it cannot be told.
 double left_of_residual(const Walker& walker, const CurvePoint& point, int corank);

@@ -5,6 +5,8 @@
 #include <complex>
 
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -26,7 +28,7 @@ Roots roots_of(const Interpolant& p) {
   Vector c = Lu(powers).solve(values);
   // Coefficients that rounding alone may have made would have zeros far away.
   Index degree = n - 1;
-  while (degree > 0 && std::abs(c[degree]) <= 1e-11 * c.cwiseAbs().maxCoeff()) --degree;
+  while (degree > 0 && std::abs(c[degree]) <= function_noise * c.cwiseAbs().maxCoeff()) --degree;
   if (degree == 0) return {};
   Matrix companion = Matrix::Zero(degree, degree);
   companion.bottomLeftCorner(degree - 1, degree - 1).setIdentity();
@@ -37,21 +39,17 @@ Roots roots_of(const Interpolant& p) {
 
 /// A function on the step, interpolated; nothing where that is not accurate.
 std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b) {
-  const auto vector = [&](double t) -> std::optional<Vector> {
-    const auto value = f(t);
-    return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
-  };
-  auto p = interpolate(vector, a, b);
+  auto p = interpolate_value(f, a, b);
   if (!p) return std::nullopt;
-  // A check that falls among the special points may be spoilt by rounding; most must not be.
+  // A check that falls among the special points, which are expected in the middle, may be spoilt by rounding; most must not.
   const double scale = p->values.cwiseAbs().maxCoeff();
   int good = 0;
-  for (const double share : {0.04, 0.21, 0.37, 0.63, 0.79, 0.96}) {
+  for (const double share : shares_towards_ends<6>()) {
     const double t = a + share * (b - a);
     const auto value = f(t);
     const double error = value ? std::abs(*value - p->first(t)) : 0;
-    if (!(error <= 1e-2 * scale)) return std::nullopt;
-    if (value && error <= 1e-5 * scale) ++good;
+    if (!(error <= negligible_share * scale)) return std::nullopt;
+    if (value && error <= together * scale) ++good;
   }
   if (good < 4) return std::nullopt;
   return p;
@@ -72,9 +70,9 @@ std::optional<Roots> all_roots(const WatchedStep& arc, Samples samples) {
     return Sigma ? std::optional<double>(Sigma->determinant()) : std::nullopt;
   };
   const auto rate = [&](double ds) { return arc.rate(ds); };
-  constexpr double upright = 1e-8;  // a family at one lambda is no cluster
+  // A family at one lambda is no cluster.
   if (std::none_of(samples.begin(), samples.end(),
-                   [](const CurvePoint* p) { return std::abs(p->tangent.dlambda) > upright; }))
+                   [](const CurvePoint* p) { return std::abs(p->tangent.dlambda) > flat_rate; }))
     return std::nullopt;
   Roots all;
   for (const SampledFunction& f : {SampledFunction(determinant), SampledFunction(rate)}) {
@@ -101,7 +99,7 @@ std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
   if (near.empty()) return std::nullopt;
   double centre = 0;
   for (const auto& root : near) centre += root.real() / static_cast<double>(near.size());
-  double radius = 0.01;
+  double radius = negligible_share;
   for (const auto& root : near) radius = std::max(radius, std::abs(root - centre));
   if (radius > wide || std::abs(centre) > 1 - clear) return std::nullopt;
 

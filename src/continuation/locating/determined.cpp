@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/points/numerics.hpp"
+#include "continuation/numerics/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -32,51 +32,74 @@ double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const Curv
   return worst;
 }
 
+/// E in its weakest direction at a point, and how that changes when the point is moved in it.
+class WeakestDirection {
+ public:
+  WeakestDirection(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point)
+      : arc_{arc}, point_{point}, weakest_{borders_of(E, 1)}, here_{seen(E)} {
+    const Index n = point.x.size();
+    v_ = {weakest_.C.col(0).head(n), weakest_.C(n, 0)};
+    length_ = std::sqrt(metric_product(arc.walker().weights, v_, v_));
+  }
+
+  double here() const { return std::abs(here_); }
+
+  /// The larger one of both ways; nothing where E is not defined on a side.
+  std::optional<double> change(double distance) const {
+    double change = 0;
+    for (const double side : {-1.0, 1.0}) {
+      CurvePoint aside = point_;
+      aside.x += side * distance / length_ * v_.dx;
+      aside.lambda += side * distance / length_ * v_.dlambda;
+      const auto there = arc_.matrix(aside);
+      if (!there) return std::nullopt;
+      change = std::max(change, std::abs(seen(*there) - here_));
+    }
+    return change;
+  }
+
+ private:
+  double seen(const ExtendedMatrix& M) const {
+    return (weakest_.B.transpose() * product(M, weakest_.C))(0, 0);
+  }
+
+  const WatchedStep& arc_;
+  const CurvePoint& point_;
+  Borders weakest_;
+  Direction v_{};
+  double length_ = 1, here_;
+};
+
 }  // namespace
 
 std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point) {
   const auto E = arc.matrix(point);
   if (!E) return std::nullopt;
-  const Borders weakest = borders_of(*E, 1);
-  const auto seen = [&](const ExtendedMatrix& M) {
-    return (weakest.B.transpose() * product(M, weakest.C))(0, 0);
-  };
-  const Index n = point.x.size();
-  const Direction v{weakest.C.col(0).head(n), weakest.C(n, 0)};
-  const double length = std::sqrt(metric_product(arc.walker().weights, v, v)), here = seen(*E);
-  double change = 0;
-  for (const double side : {-1.0, 1.0}) {
-    CurvePoint aside = point;
-    aside.x += side * told_apart / length * v.dx;
-    aside.lambda += side * told_apart / length * v.dlambda;
-    const auto there = arc.matrix(aside);
-    if (there) change = std::max(change, std::abs(seen(*there) - here));
+  const WeakestDirection weakest(arc, *E, point);
+  const double change = weakest.change(told_apart).value_or(HUGE_VAL);
+  return Separation{blur_of_point(arc, *E, point), told_apart * weakest.here() / change};
+}
+
+bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius, double share) {
+  const auto E = arc.matrix(point);
+  if (!E) return false;
+  const WeakestDirection weakest(arc, *E, point);
+  // Not at the ends alone: what is periodic may be there what it is here.
+  for (const double part : {1.0, 0.5, 0.25}) {
+    const auto change = weakest.change(part * radius);
+    if (!change || *change > share * weakest.here()) return false;
   }
-  return Separation{blur_of_point(arc, *E, point), told_apart * std::abs(here) / change};
+  return true;
 }
 
 bool is_determined(const WatchedStep& arc, const CurvePoint& point) {
-  constexpr double most_blur = 3e-5;
   const auto E = arc.matrix(point);
   if (!E) return false;
   const double blur = blur_of_point(arc, *E, point);
-  if (!(blur <= most_blur)) return false;
-  const Borders weakest = borders_of(*E, 1);
-  const auto seen = [&](const ExtendedMatrix& M) {
-    return (weakest.B.transpose() * product(M, weakest.C))(0, 0);
-  };
-  const Index n = point.x.size();
-  const Direction v{weakest.C.col(0).head(n), weakest.C(n, 0)};
-  const double length = std::sqrt(metric_product(arc.walker().weights, v, v));
-  const double shift = between_samples * blur / length, here = seen(*E);
-  for (const double side : {-1.0, 1.0}) {
-    CurvePoint aside = point;
-    aside.x += side * shift * v.dx;
-    aside.lambda += side * shift * v.dlambda;
-    const auto there = arc.matrix(aside);
-    if (!there || std::abs(seen(*there) - here) > stays_regular * std::abs(here)) return false;
-  }
-  return true;
+  if (!(blur <= near_share * told_apart)) return false;
+  const WeakestDirection weakest(arc, *E, point);
+  const auto change = weakest.change(between_samples * blur);
+  return change && *change <= stays_regular * weakest.here();
 }
 
 }  // namespace springfold::continuation

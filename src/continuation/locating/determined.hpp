@@ -19,4 +19,8 @@ struct Separation {
 /// @returns nothing where E is not defined
 std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point);
 
+/// Does E, in its weakest direction, change by no more than a share of itself within so far of the point?
+/// @returns false where E is not defined
+bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius, double share);
+
 }  // namespace springfold::continuation

@@ -1,6 +1,7 @@
 #include "continuation/locating/equilibrated.hpp"
 
 #include "continuation/locating/reduced_equation.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/equilibration.hpp"
 
 namespace springfold::continuation {
@@ -11,9 +12,9 @@ std::optional<EquilibratedJacobian> equilibrated_jacobian(const Walker& walker,
   const auto J = scaled_jacobian(walker, U, root, at.piece);
   if (!J) return std::nullopt;
   // How far away, and how much of what changes there counts.
-  constexpr double aside = 0.1, counts = 1e-2;
+  constexpr double aside = small_share, counts = negligible_share;
   Matrix sizes = J->cwiseAbs();
-  const Vector direction = Vector::LinSpaced(U.size(), 0.7, 1.3).normalized();
+  const Vector direction = Vector::LinSpaced(U.size(), 1, 2).normalized();
   for (const double h : {-aside, aside})
     if (const auto other = scaled_jacobian(walker, U + h * direction, root, at.piece))
       sizes = sizes.cwiseMax(counts * (*other - *J).cwiseAbs());

@@ -7,6 +7,8 @@
 
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
@@ -39,8 +41,8 @@ std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePo
 /// The value behind the step, where it is first told from zero; 0 if it is not.
 template <class Function>
 double clear_value_beyond(const Function& value, double h, double noise) {
-  for (const double share : {1.01, 1.1, 1.5}) {
-    const auto beyond = value(share * h);
+  for (const double share : decades<-2, 0>()) {
+    const auto beyond = value(h + 0.5 * share * h);
     if (!beyond || std::isnan(*beyond)) return 0;
     if (std::abs(*beyond) > noise) return *beyond;
   }
@@ -63,8 +65,7 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     if (event.noise) noise = std::max(noise, event.noise(*samples[i]));
   }
   // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
-  constexpr double rounding = 1e-14, resolution = 1e-9;
-  noise = std::max(noise, rounding * scale);
+  noise = std::max(noise, refined_step * scale);
   for (double* end : {&values.front(), &values.back()})
     if (std::abs(*end) <= noise) *end = 0;
   if (!within_reach(values)) return true;
@@ -75,7 +76,7 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     const auto point = point_between(walker, from, to, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
-  const ZeroSearch search = find_zeros(value, 0, h, noise, resolution * h);
+  const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
   const auto add = [&](CurvePoint point, double before, double after) {
     Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
     hit.point = std::move(point);
@@ -83,14 +84,15 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
     hit.s_after = from.s + after;
     found.push_back({std::move(hit), event.action == EventAction::stop});
   };
-  const double begin = from.s > 0 ? 0 : 1e-13 * h;  // a start that is on the event does not meet it
+  const double begin =
+      from.s > 0 ? 0 : exact_model * h;  // a start that is on the event does not meet it
   bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
     if (zero.touches || !(zero.at > begin)) continue;
     auto point = point_between(walker, from, to, zero.at);
     if (!point) point = interpolated_point(walker, from, to, zero.at);
     // The end is zero itself, and a branch point, next to which there are no points and tangents are rough: see below.
-    if (!point && h - zero.at <= resolution) {
+    if (!point && h - zero.at <= one_place) {
       values.back() = 0;
       continue;
     }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/locating/branch_point.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/words.hpp"
@@ -16,14 +16,13 @@ namespace {
 /// Largest residual on the predictor line at a share t of the step, against that at its end. A smooth
 /// curve gives t^2, near an inflection t^3; there is room for changing curvature.
 double residual_limit(double t) {
-  if (t <= 0.25) return 1.6 * t;
-  return t <= 0.5 ? 0.4 + 0.8 * (t - 0.25) : 0.6 + 1.2 * (t - 0.5);
+  constexpr double most = 1.2;
+  return most * t + small_share * std::max(0.0, 1 - std::abs(4 * t - 1));
 }
 
 /// The residual on the predicted way, at seven places of it, against that at its end.
 std::string residual_doubt(const Walker& walker, const ArcModel* model, const CurvePoint& from,
                            double ds) {
-  constexpr double noise = 1e-12;
   constexpr int parts = 8;
   Vector& F = walker.memory->F;
   CurvePoint& p = walker.memory->trial;
@@ -43,7 +42,7 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
   for (int k = 1; k < parts; ++k) {
     const double t = static_cast<double>(k) / parts;
     // A kink lies on the curve of the piece behind it as well as its surfaces were placed: that is no growth.
-    const double size = size_at(t), most = residual_limit(t) * at_end + noise * scale;
+    const double size = size_at(t), most = residual_limit(t) * at_end + residual_level * scale;
     if (size > most && size > most + size_at(0))
       return "residual does not grow evenly along the predictor: another branch may be near";
   }
@@ -69,8 +68,7 @@ double off_cubic(const Walker& walker, const CurvePoint& from, const CurvePoint&
                  const CurvePoint& middle, Direction& d) {
   ArcModel& chord = walker.memory->chord;
   CurvePoint& expected = walker.memory->trial;
-  if (!chord.go_through(walker.weights, from, StepSamples(from, nullptr, to)))
-    return std::numeric_limits<double>::infinity();
+  if (!chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))) return infinity;
   chord.point(walker.weights, from, middle.s - from.s, expected);
   d.dx = middle.x - expected.x;
   d.dlambda = middle.lambda - expected.lambda;
@@ -94,7 +92,7 @@ double off_integral(const Walker& walker, const CurvePoint& from, const CurvePoi
 double corrector_noise(const Walker& walker, const CurvePoint& point) {
   if (!walker.problem.symmetric()) return 0;
   const double least = least_eigenvalue(walker, point), scale = std::max(1.0, point.x.norm());
-  return least > 0 ? 1e-13 * scale / least : 1;
+  return least > 0 ? exact_model * scale / least : 1;
 }
 
 }  // namespace
@@ -122,21 +120,20 @@ bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from
     d.dlambda = p.lambda - from.lambda - along * from.tangent.dlambda;
     return length_of(walker, d);
   };
-  constexpr double share = 0.1, smaller_share = 0.01;
-  constexpr double noise = 1e-11;
   // An eigen-decomposition: only where it can matter.
   const auto exceeds = [&](double value, double limit) {
-    return value > limit + noise && value > limit + noise + corrector_noise(walker, middle);
+    return value > limit + function_noise &&
+           value > limit + function_noise + corrector_noise(walker, middle);
   };
-  const double size = std::max(bend(middle), 0.25 * bend(to));
+  const double size = std::max(bend(middle), bend(to) / 4);
   const double off = off_cubic(walker, from, to, middle, d);
-  if (exceeds(off, share * size)) {
+  if (exceeds(off, small_share * size)) {
     doubt = "the point half-way is " + rounded(off / ds) +
             " steps off the cubic through both ends: another branch may be near";
     return true;
   }
   const double left = off_integral(walker, from, to, middle, d);
-  if (exceeds(left, smaller_share * size))
+  if (exceeds(left, negligible_share * size))
     doubt = "the end is " + rounded(left / ds) +
             " steps from where the tangents lead: another branch may be near";
   return true;

@@ -7,15 +7,16 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numbers>
+
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Zeros of a function on the full circle; nan where it is not defined.
 struct CircleZeros {
@@ -28,8 +29,8 @@ struct CircleZeros {
 class CircleScan {
  public:
   CircleScan(std::function<double(double)> f, int samples) : f_{std::move(f)} {
-    const double first = 0.1234567;  // off the places where symmetric problems have their zeros
-    for (int i = 0; i < samples; ++i) at_.push_back(first + 2 * pi * i / samples);
+    // Off the places where symmetric problems have their zeros.
+    for (int i = 0; i < samples; ++i) at_.push_back(2 * pi * (i + uneven_share(1)) / samples);
     for (const double a : at_) values_.push_back(f_(a));
     step_ = 2 * pi / samples;
     for (const double v : values_)
@@ -46,7 +47,7 @@ class CircleScan {
         subdivide(at_[i], v, next);
       } else if (!std::isnan(last) && (last < 0) == (v < 0) && std::abs(v) <= std::abs(last) &&
                  std::abs(v) <= std::abs(next) &&
-                 std::abs(v) < 0.3 * std::max(std::abs(last), std::abs(next))) {
+                 std::abs(v) < near_share * std::max(std::abs(last), std::abs(next))) {
         dip(at_[i], v);
       }
     }
@@ -61,7 +62,7 @@ class CircleScan {
       return;
     }
     if (fa == 0 || fb == 0) return result_.angles.push_back(fa == 0 ? a : b);
-    const auto close = [](double l, double r) { return std::abs(r - l) < 1e-10; };
+    const auto close = [](double l, double r) { return std::abs(r - l) < promised_place; };
     const auto [low, high] = boost::math::tools::toms748_solve(f_, a, b, fa, fb, close, most);
     result_.angles.push_back(0.5 * (low + high));
   }
@@ -86,10 +87,10 @@ class CircleScan {
     std::uintmax_t most = 60;
     const auto [a, low] = boost::math::tools::brent_find_minima(
         [&](double t) { return sign * f_(t); }, at - step_, at + step_, 26, most);
-    if (low < -1e-9 * result_.size) {
+    if (low < -one_place * result_.size) {
       bracket(at - step_, a, f_(at - step_), sign * low);
       bracket(a, at + step_, sign * low, f_(at + step_));
-    } else if (!(low > 1e-9 * result_.size)) {
+    } else if (!(low > one_place * result_.size)) {
       result_.touches = true;
     }
   }
@@ -106,7 +107,7 @@ void search_circle(const ReducedEquation& e, int samples, RaySet& set) {
   };
   const auto g = [&](double a) {
     const auto value = reduced_value(e, on_circle(a));
-    return value ? value->g[0] : nan;
+    return value ? value->g[0] : not_a_number;
   };
   const CircleZeros zeros = CircleScan(g, samples).zeros();
   for (const double a : zeros.angles)
@@ -156,8 +157,7 @@ Icosphere icosphere() {
       .faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                 {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7654321, Eigen::Vector3d(0.3, 0.5, 0.8).normalized()).matrix();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Eigen::Vector3d(3, 5, 8).normalized()).matrix();
   for (auto& v : sphere.vertices) v = turn * v.normalized();
   for (int i = 0; i < 3; ++i) divide(sphere);
   return sphere;
@@ -213,16 +213,16 @@ double across(const ReducedEquation& e, double rho, double phi, double& mu, Vect
     c[2] = mu;
     const Eigen::Vector2d slope = slope_in_mu(e, c), p = slope.normalized();
     const auto value = reduced_value(e, c);
-    if (!value || !(slope.norm() > 0)) return nan;
+    if (!value || !(slope.norm() > 0)) return not_a_number;
     change = -p.dot(value->g) / slope.norm();
-    if (std::abs(change) < 1e-9 * rho * rho + 2e-15 * e.scale / slope.norm()) {
+    if (std::abs(change) < one_place * rho * rho + 2 * few_roundings * e.scale / slope.norm()) {
       U = value->U;
       return p[0] * value->g[1] - p[1] * value->g[0];
     }
-    mu += std::clamp(change, -0.3 * rho, 0.3 * rho);
-    if (!(std::abs(mu) < 3 * rho)) return nan;
+    mu += std::clamp(change, -near_share * rho, near_share * rho);
+    if (!(std::abs(mu) < 3 * rho)) return not_a_number;
   }
-  return nan;
+  return not_a_number;
 }
 
 /// Have the quadratic terms in y so little to say that search_sphere cannot see all branches?
@@ -231,7 +231,7 @@ bool nearly_flat(const ReducedEquation& e) {
     return std::hypot(e.quadratic[0].topLeftCorner(size, size).norm(),
                       e.quadratic[1].topLeftCorner(size, size).norm());
   };
-  return norms(2) < 1e-2 * norms(3);
+  return norms(2) < negligible_share * norms(3);
 }
 
 /// Branches that are determined by mu beside the azimuth: pitchforks and everything that is tangent
@@ -247,12 +247,12 @@ void search_azimuth(const ReducedEquation& e, RaySet& set) {
   const CircleZeros zeros = CircleScan(h, 240).zeros();
   for (const double phi : zeros.angles) {
     const double value = h(phi);
-    const bool jumps = std::abs(value) > 1e-4 * zeros.size;  // of mu, or rounding
+    const bool jumps = std::abs(value) > told_apart * zeros.size;  // of mu, or rounding
     if (jumps && !nearly_flat(e)) continue;
     if (jumps || std::isnan(value) || !add_ray(e, U, set))
       set.doubt = "zeros of the reduced equation are lost";
   }
-  if (nearly_flat(e) && zeros.size < 1e-14 * e.scale)
+  if (nearly_flat(e) && zeros.size < refined_step * e.scale)
     set.doubt = "branches cannot be told apart within rounding";
   if (zeros.undefined > 0 && nearly_flat(e))
     set.doubt = "the equations cannot be reduced all around the point";
@@ -264,10 +264,10 @@ void search_azimuth(const ReducedEquation& e, RaySet& set) {
 std::vector<Vector> quadratic_rays(const ReducedEquation& e) {
   std::vector<Vector> found;
   const auto add = [&](const Vector& start) {
-    const auto c = quadratic_direction(e, start, 0.3);
+    const auto c = quadratic_direction(e, start, near_share);
     if (!c) return;
     for (const Vector& known : found)
-      if ((known - *c).norm() < 1e-6) return;
+      if ((known - *c).norm() < one_direction) return;
     found.push_back(*c);
   };
   for (int i = 0; e.k == 1 && i < 64; ++i)
@@ -292,7 +292,7 @@ bool add_ray(const ReducedEquation& e, const Vector& U, RaySet& set) {
   auto ray = ray_point(e, U, set.rho);
   if (!ray) return false;
   for (const RayPoint& known : set.rays)
-    if ((known.c - ray->c).norm() < 2e-4 * set.rho) return true;
+    if ((known.c - ray->c).norm() < blurred * set.rho) return true;
   set.rays.push_back(std::move(*ray));
   return true;
 }

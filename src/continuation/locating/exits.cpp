@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/exit_rays.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -16,12 +17,7 @@ namespace springfold::continuation {
 namespace {
 
 Direction direction_of(const ReducedEquation& e, const Vector& U) {
-  const Index n = U.size() - 1;
-  Direction d{U.head(n).cwiseQuotient(e.root.head(n)), U[n]};
-  const double length = std::sqrt(metric_product(e.walker->weights, d, d));
-  d.dx /= length;
-  d.dlambda /= length;
-  return d;
+  return unit_direction(*e.walker, Vector(U.cwiseQuotient(e.root)));
 }
 
 /// Pairs the rays at two radii by direction: order[i] is the partner of a's ray i.
@@ -31,7 +27,7 @@ std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) 
   std::vector<std::size_t> order;
   std::vector<bool> taken(b.rays.size(), false);
   for (const RayPoint& ray : a.rays) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     std::size_t nearest = 0;
     for (std::size_t j = 0; j < b.rays.size(); ++j) {
       const double distance = (ray.c / a.rho - b.rays[j].c / b.rho).norm();
@@ -48,7 +44,7 @@ std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) 
 bool covers(const RaySet& set, const std::vector<Vector>& directions) {
   std::vector<bool> taken(set.rays.size(), false);
   for (const Vector& d : directions) {
-    double least = 0.3;
+    double least = near_share;
     std::size_t nearest = taken.size();
     for (std::size_t j = 0; j < taken.size(); ++j) {
       const double distance = (set.rays[j].c / set.rho - d).norm();
@@ -84,7 +80,7 @@ std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, doubl
     double r = rho;
     for (RayPoint here = ray; most > 0; --most) {
       auto next = ray_point(e, e.U0 + factor * (here.U - e.U0), factor * r);
-      if (!next || (next->c / (factor * r) - here.c / r).norm() > 0.2) return;
+      if (!next || (next->c / (factor * r) - here.c / r).norm() > aside_share) return;
       points.insert(factor > 1 ? points.begin() : points.end(), *next);
       here = std::move(*next);
       r *= factor;
@@ -97,7 +93,7 @@ std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, doubl
 
 /// c / rho on the branch for rho -> 0 (Neville's scheme), where change and rounding are least.
 Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
-  Limit best{.c = {}, .accuracy = std::numeric_limits<double>::infinity()};
+  Limit best{.c = {}, .accuracy = infinity};
   std::vector<Vector> row;
   for (const RayPoint& point : along(e, ray, rho)) {
     std::vector<Vector> fresh{point.c.normalized()};
@@ -109,8 +105,9 @@ Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
     row = std::move(fresh);
   }
   if (!best.found) return best;
-  const auto exact = quadratic_direction(e, best.c, 1e-2);
-  if (exact && (*exact - best.c).norm() < 1e-4 + 10 * best.accuracy) best = {*exact, 1e-10, true};
+  const auto exact = quadratic_direction(e, best.c, negligible_share);
+  if (exact && (*exact - best.c).norm() < told_apart + 10 * best.accuracy)
+    best = {*exact, promised_place, true};
   return best;
 }
 
@@ -155,7 +152,7 @@ std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, c
 /// @returns false where that does not succeed
 bool bring_in(const ReducedEquation& e, const Limit& limit, RayPoint ray, double rho,
               const Direction& tangent, const NearEnough& near_enough, CurvePoint& start) {
-  const double nearest = 1e-9 * e.scale;
+  const double nearest = one_place * e.scale;
   while (!near_enough(start, tangent)) {
     rho *= 0.5;
     if (rho < nearest) return false;
@@ -179,7 +176,7 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   if (!start) return doubt("a branch near the point could not be corrected to the tolerance");
   const Limit limit = limit_of(e, ray, rho);
   if (!limit.found) return doubt("a branch near the point could not be followed into it");
-  if (limit.accuracy > 1e-3)
+  if (limit.accuracy > nearly_same_line)
     doubt("the tangent of a branch is known to " + rounded(limit.accuracy) + " only");
   const double away =
       (e.N * ray.c)
@@ -250,7 +247,8 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                    " unknowns"};
   const auto e = reduce(walker, at, corank);
   if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
-  const double rho = std::min(2e-2 * e->scale, 0.1 / std::max(e->curvature, 1e-10));
+  const double rho = std::min(2 * negligible_share * e->scale,
+                              small_share / std::max(e->curvature, promised_place));
   Search search = search_inwards(*e, rho, 8);
   // Branches that only terms of fifth order and higher tell apart drown in rounding further in.
   if (!search.doubt.empty() && corank == 2) {
@@ -269,7 +267,7 @@ int corank_of(const Walker& walker, const CurvePoint& at) {
   constexpr double gap = 30;
   for (Index i = 0; i < n; ++i) {
     const double above = i > 0 ? values[i - 1] : 1;
-    if (values[i] <= 1e-6 && values[i] * gap < above) return static_cast<int>(n - i);
+    if (values[i] <= vanishing_rank && values[i] * gap < above) return static_cast<int>(n - i);
   }
   return 0;
 }

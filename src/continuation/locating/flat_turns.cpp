@@ -5,6 +5,7 @@
 
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 
 namespace springfold::continuation {
@@ -20,7 +21,7 @@ double way(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
 /// Regular steps along the tangent until lambda's rate is above a level.
 std::optional<CurvePoint> until_clear(const Walker& walker, CurvePoint p, double step,
                                       double level) {
-  constexpr double farthest = 0.5, shortest = 1e-6, growth = 2;
+  constexpr double farthest = 0.5, shortest = poor, growth = 2;
   for (double gone = 0; !is_clear(p, level);) {
     StepResult next = try_step(walker, p, step);
     if (next.point) {
@@ -39,8 +40,7 @@ std::optional<CurvePoint> until_clear(const Walker& walker, CurvePoint p, double
 /// The widened step on which the rate rises above a level.
 std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
                                    const CurvePoint& to, double level) {
-  constexpr double same_curve = 1e-7;
-  const double step = std::max(to.s - from.s, 1e-5);
+  const double step = std::max(to.s - from.s, together);
   CurvePoint back = from;
   back.tangent = opposite(from.tangent);
   auto left = until_clear(walker, back, step, level);
@@ -53,7 +53,7 @@ std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
   const StepResult whole = try_step(walker, *left, length);
   if (!whole.point) return std::nullopt;
   const Direction off{whole.point->x - right->x, whole.point->lambda - right->lambda};
-  if (metric_product(walker.weights, off, off) > same_curve * same_curve) return std::nullopt;
+  if (metric_product(walker.weights, off, off) > same_point * same_point) return std::nullopt;
   if (!examine(walker, *left, *whole.point).doubt.empty()) return std::nullopt;
   return WideStep{*left, *whole.point};
 }
@@ -62,7 +62,7 @@ std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
 /// just before the step, as far as the step can tell, may have lain beyond the end of the one before. It is then the
 /// tracer's matter whether it has been reported.
 double settled_on_step(const ZeroOf& touch) {
-  constexpr double share = 0.25, just_inside = 1e-8;
+  constexpr double share = 0.25, just_inside = 10 * one_place;
   const bool before = touch.at <= 0 && touch.at > -share * (touch.after - touch.before);
   return before && touch.after > just_inside ? just_inside : touch.at;
 }
@@ -71,7 +71,7 @@ double settled_on_step(const ZeroOf& touch) {
 
 std::optional<WideStep> widened(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                                 double noise) {
-  for (const double times : {clear_of_rounding, 0.3 * clear_of_rounding})
+  for (const double times : {clear_of_rounding, near_share * clear_of_rounding})
     if (auto wide = widened_to(walker, from, to, times * noise)) return wide;
   return std::nullopt;
 }
@@ -84,7 +84,7 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   const double length = wide->to.s - wide->from.s;
   const WatchedStep arc(walker, wide->from, length);
   const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, length, noise,
-                                      resolution, NoiseIs::bound);
+                                      same_point, NoiseIs::bound);
   if (!found.resolved) return std::nullopt;
   std::vector<ZeroOf> turns;
   for (ZeroOf turn : found.zeros) {

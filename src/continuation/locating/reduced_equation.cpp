@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/linear/extended.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -21,7 +21,7 @@ bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
     };
     take(divided_svd(J.dense, SingularVectors::full, SingularVectors::full));
     // Divide and conquer may lose the vectors of values that agree to the last digits, as symmetric structures have them.
-    constexpr double lost = 1e-7;
+    constexpr double lost = 1000 * promised_place;
     const double largest = J.dense.norm();
     if (!((J.dense * e.N).norm() < lost * largest) ||
         !((e.L.transpose() * J.dense).norm() < lost * largest))
@@ -30,7 +30,6 @@ bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
   }
   const Index n = J.dF_dlambda.size();
   constexpr int most = 16;
-  constexpr double settled = 1e-12;
   e.N = irregular_columns(n + 1, k + 1);
   e.L = irregular_columns(n, k);
   Matrix right = Matrix::Zero(n + k + 1, k + 1), left = Matrix::Zero(n + k + 1, k);
@@ -46,7 +45,7 @@ bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
         (N - e.N * (e.N.transpose() * N)).norm() + (L - e.L * (e.L.transpose() * L)).norm();
     e.N = N;
     e.L = L;
-    if (moved < settled) break;
+    if (moved < residual_level) break;
   }
   return true;
 }
@@ -54,7 +53,7 @@ bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
 /// Turns the basis so that lambda moves along its last column only.
 bool turn_kernel(Matrix& N) {
   const Vector r = N.bottomRows(1).transpose();
-  if (!(r.norm() > 1e-4)) return false;
+  if (!(r.norm() > told_apart)) return false;
   const Matrix Q = orthonormal_basis(r);
   Matrix turned(N.rows(), N.cols());
   turned << N * Q.rightCols(N.cols() - 1), N * (r / r.norm());
@@ -64,16 +63,16 @@ bool turn_kernel(Matrix& N) {
 
 /// D^2F[N_i, .] N by central differences of the exact derivatives, of sixth order in h; n x k + 1.
 std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, double h) {
-  constexpr double factors[] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+  constexpr int weights[]{45, -9, 1};
   Matrix sum = Matrix::Zero(e.L.rows(), e.k + 1);
   for (int j = 1; j <= 3; ++j) {
     const auto plus = jacobian_at(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
     const auto minus = jacobian_at(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
     if (!plus || !minus) return std::nullopt;
     if (plus->structured)
-      sum += factors[j - 1] / h * (product(*plus, e.N) - product(*minus, e.N));
+      sum += weights[j - 1] / (60 * h) * (product(*plus, e.N) - product(*minus, e.N));
     else
-      sum += factors[j - 1] / h * ((plus->dense - minus->dense) * e.N);
+      sum += weights[j - 1] / (60 * h) * ((plus->dense - minus->dense) * e.N);
   }
   return sum;
 }
@@ -102,7 +101,8 @@ bool expand(ReducedEquation& e, double h) {
 }  // namespace
 
 Vector metric_roots(const Vector& weights) {
-  const double least = 1e-3 * std::max(weights.size() > 0 ? weights.maxCoeff() : 0.0, 1e-3);
+  const double least =
+      tiny_share * std::max(weights.size() > 0 ? weights.maxCoeff() : 0.0, tiny_share);
   Vector root(weights.size() + 1);
   root << weights.unaryExpr([least](double w) { return std::sqrt(w > 0 ? w : least); }), 1.0;
   return root;
@@ -173,8 +173,7 @@ void KernelSystem::compute(const ScaledJacobian& J, const Matrix& N, const Matri
 Matrix KernelSystem::solve(const Matrix& right, bool transposed) const {
   if (!structured_) return transposed ? lu_.solve_transposed(right) : lu_.solve(right);
   Matrix X = right;
-  if (!structured_->solve(borders_, X, transposed))
-    X.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!structured_->solve(borders_, X, transposed)) X.setConstant(not_a_number);
   return X;
 }
 
@@ -196,6 +195,8 @@ bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
 }
 
 std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank) {
+  if (corank < 1 || corank > at.x.size())
+    return std::nullopt;  // more than can vanish: counted in rounding
   ReducedEquation e{.walker = &walker, .piece = at.piece, .root = metric_roots(walker.weights)};
   e.U0 = scaled_point(at, e.root);
   e.k = corank;
@@ -204,21 +205,21 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   if (!J || !find_kernels(*J, e)) return std::nullopt;
   e.follows = turn_kernel(e.N);
   e.bordered.compute(*J, e.N, e.L);
-  for (double h = 1e-3 * e.scale; h > 1e-6; h /= 10)
-    if (expand(e, h) && h * e.curvature < 0.1) return e;
+  for (double h = tiny_share * e.scale; h > poor; h /= 10)
+    if (expand(e, h) && h * e.curvature < small_share) return e;
   return std::nullopt;
 }
 
 std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector& c) {
   const Index n = e.L.rows(), m = e.k + 1;
-  const double rho = c.norm(), enough = std::max(1e-9 * rho * rho, 2e-16 * e.scale);
+  const double rho = c.norm(), enough = std::max(one_place * rho * rho, rounding_unit * e.scale);
   const Vector U1 = e.U0 + e.N * c;
   Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
   KernelSystem own;
   const KernelSystem* system = &e.bordered;
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (int iteration = 0; iteration < 12; ++iteration) {
     if (!residual_at(e, U1 + w, F)) return std::nullopt;
     right.head(n) = -F;
@@ -226,9 +227,9 @@ std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector
     w += step.head(n + 1);
     const double moved = step.head(n + 1).norm();
     if (!(w.norm() < rho)) return std::nullopt;
-    if (moved <= enough || (moved < 1e-12 * e.scale && moved > 0.5 * before))
+    if (has_settled(moved, before, enough, residual_level * e.scale))
       return ReducedValue{U1 + w, -step.tail(e.k)};
-    if (moved > 0.2 * before) {
+    if (moved > still_falls * before) {
       const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
       if (!J) return std::nullopt;
       own.compute(*J, e.N, e.L);
@@ -244,7 +245,7 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
   RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
   Matrix A(n + 1, n + 1);
   Vector F, right(n + 1);
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (int iteration = 0; iteration < 16; ++iteration) {
     const double length = ray.c.norm();
     const auto J = scaled_jacobian(*e.walker, ray.U, e.root, e.piece);
@@ -255,14 +256,15 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     Vector step = lu.solve(right);
     if (!step.allFinite()) return std::nullopt;
     const double moved = step.norm();
-    if (moved > 0.4 * rho) step *= 0.4 * rho / moved;
+    if (moved > near_share * rho) step *= near_share * rho / moved;
     ray.U += step;
     ray.c = e.N.transpose() * (ray.U - e.U0);
-    if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < 0.3 * rho) return std::nullopt;
+    if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
     const bool small =
         F.lpNorm<Eigen::Infinity>() <= e.walker->options.newton.residual_tolerance * e.scale;
-    if (moved <= 1e-11 * rho || (small && moved < 3e-5 * rho && moved > 0.3 * before)) {
-      ray.noise = 1e-16 * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
+    if (has_settled(moved, before, function_noise * rho,
+                    small ? near_share * told_apart * rho : 0)) {
+      ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
       ray.sign = lu.sign();
       return ray;
     }
@@ -289,11 +291,11 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
     A.row(e.k) = c.transpose();
     right[e.k] = 0;
     const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
-    if (!(svd.values[m - 1] > 1e-3)) return std::nullopt;
+    if (!(svd.values[m - 1] > tiny_share)) return std::nullopt;
     const Vector step = svd.solve(right);
     c = (c + step).normalized();
     if (!((c - start.normalized()).norm() < reach)) return std::nullopt;
-    if (step.norm() < 1e-14 || (iteration > 5 && step.norm() < 1e-12)) return c;
+    if (step.norm() < refined_step || (iteration > 5 && step.norm() < residual_level)) return c;
   }
   return std::nullopt;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -60,32 +62,31 @@ Vector shrunk(const Matrix& from, const Matrix& to) {
 }
 
 Index vanishing_modes(const WatchedStep& arc, Index m, const ZeroOf& zero) {
-  constexpr double small = 0.2;
   const auto& middle = arc.point(0.5 * arc.length());
   const auto E = middle ? arc.matrix(*middle) : std::nullopt;
   if (!E) return m;
   const Borders borders = borders_of(*E, m);
   Index most = 0;
   // Not at the place itself, where points may be inexact.
-  const double far = 0.1 * arc.length(), near = 0.01 * arc.length();
+  const double far = small_share * arc.length(), near = negligible_share * arc.length();
   for (const double side : {-1.0, 1.0}) {
     const double at = zero.at + side * far;
     if (at < arc.low() || at > arc.high()) continue;
     const auto there = arc.sigma(at, borders);
     const auto here = arc.sigma(zero.at + side * near, borders);
     if (there && here)
-      most = std::max<Index>(most, (shrunk(*there, *here).array() < small).count());
+      most = std::max<Index>(most, (shrunk(*there, *here).array() < aside_share).count());
   }
   return most;
 }
 
 bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const ZeroOf& touch) {
-  for (const double share : {0.1, 0.03, 0.01, 0.003}) {
-    const double half = share * arc.length();
+  for (const double share : half_decades<4>()) {
+    const double half = small_share * share * arc.length();
     const double t = std::clamp(touch.at, arc.low() + half, arc.high() - half);
     // Two zeros within the stretch on which the determinant is lost in its rounding may lie beside a narrower window.
     if (t - 0.5 * half > touch.before || t + 0.5 * half < touch.after) continue;
-    if (std::abs(t - touch.at) < 0.25 * half && surely_regular_near(arc, borders, t, half))
+    if (std::abs(t - touch.at) < half / 4 && surely_regular_near(arc, borders, t, half))
       return false;
   }
   return true;

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "continuation/linear/small_lu.hpp"
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -24,7 +25,7 @@ bool is_even(const Eigen::Ref<const Vector>& u, const Eigen::Ref<const Vector>& 
   constexpr double alike = 0.04;
   const Index m = u.size();
   const double first = rates[0];
-  if (m > 2 && !(u[1] > 0.3 && u[1] < 0.7)) return false;
+  if (m > 2 && !(u[1] > near_share && u[1] < 1 - near_share)) return false;
   for (Index i = 1; i < m; ++i) {
     const double mean = rates[m + i - 1] / u[i];
     if (!(std::abs(rates[i] - first) <= alike * std::abs(first)) ||
@@ -61,8 +62,8 @@ bool may_turn(const WatchedStep& arc, Samples samples) {
   polynomial.solve(right.data());
   const auto& c = right;
   constexpr int parts = 24;
-  constexpr double far = 0.3;  // from zero, compared with the largest rate
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  constexpr double far = near_share;  // from zero, compared with the largest rate
+  double low = infinity, high = -low;
   for (int i = 0; i <= parts; ++i) {
     double rate = 0;
     for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
@@ -82,13 +83,13 @@ double noise_of_rate(const WatchedStep& arc, Samples samples) {
   double scale = 0;
   for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
   const auto E = arc.matrix(*samples[samples.size() / 2]);
-  return std::max(rounding * scale, E ? rate_noise(*E) : scale);
+  return std::max(function_noise * scale, E ? rate_noise(*E) : scale);
 }
 
 /// Are all turns well placed and apart, and each of them no more than one turn or one touch?
 bool stand_alone(const std::vector<ZeroOf>& turns) {
   for (std::size_t i = 0; i < turns.size(); ++i)
-    if (turns[i].several || turns[i].off > 0.1 * poor ||
+    if (turns[i].several || turns[i].off > small_share * poor ||
         (i > 0 && too_close(turns[i - 1], turns[i])))
       return false;
   return true;
@@ -97,17 +98,16 @@ bool stand_alone(const std::vector<ZeroOf>& turns) {
 /// Zeros of lambda's rate. What they are must depend on the curve, not on the step: where the rate is lost in its
 /// rounding at an end of the step, they are looked for on a wider one.
 WatchedZeros turns_on(const WatchedStep& arc, Samples samples) {
-  constexpr double perhaps_lost = 1e-8;
   const double first = std::abs(samples.front()->tangent.dlambda),
                last = std::abs(samples.back()->tangent.dlambda);
   if (!arc.walker().options.limit_points) return {};
-  if (std::min(first, last) > perhaps_lost && !may_turn(arc, samples)) return {};
+  if (std::min(first, last) > flat_rate && !may_turn(arc, samples)) return {};
   const double noise = noise_of_rate(arc, samples);
   const bool clear = std::min(first, last) > clear_of_rounding * noise;
   if (clear && !may_turn(arc, samples)) return {};
   ZeroSearch found{.resolved = false};
   if (std::max(first, last) > noise)
-    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, resolution,
+    found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, same_point,
                        NoiseIs::bound);
   if (clear && found.resolved && stand_alone(found.zeros)) return {found.zeros, true};
   if (auto turns = turns_on_widened(arc.walker(), arc.from(), *samples.back(), arc.high(), noise))
@@ -136,7 +136,7 @@ Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) 
 bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& point,
               std::vector<Candidate>& found) {
   bool regular = true;
-  if (turn.off > worst_place || !examine_turn(arc, turn, regular, found)) return false;
+  if (turn.off > told_apart || !examine_turn(arc, turn, regular, found)) return false;
   if (regular)
     found.push_back({.at = turn.at,
                      .before = turn.before,
@@ -201,7 +201,7 @@ std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& fou
     const double left = i > 0 ? found[i - 1].at : 0, right = last ? arc.length() : found[i].at;
     bool explained = true;
     if (!found.empty())
-      for (const double share : {0.004, 0.05, 0.3, 0.7, 0.95, 0.996})
+      for (const double share : shares_towards_ends<6>())
         explained = explained && fits(negative_at(arc, left + share * (right - left)));
     if (!explained || (last && !fits(to.negative)))
       return "number of negative eigenvalues and special points do not fit together";
@@ -230,10 +230,9 @@ Hit hit_of(const WatchedStep& arc, Candidate candidate) {
 
 /// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
 std::optional<Hit> inexact_place(const Hit& hit, double off) {
-  constexpr double exact = 1e-10;
   const double scale =
       std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
-  if (hit.kind != HitKind::branch_point || off <= exact * scale) return std::nullopt;
+  if (hit.kind != HitKind::branch_point || off <= promised_place * scale) return std::nullopt;
   Hit doubt = hit;
   doubt.kind = HitKind::inexact;
   doubt.name = "rounding lets the branch point be placed to " + rounded(off) + " only";
@@ -263,7 +262,7 @@ SingularPoints singular_points(const Walker& walker, Samples samples) {
     result.unexplained = static_cast<int>(std::max<std::size_t>(1, singular.zeros.size()));
     return result;
   }
-  std::erase_if(found, [](const Candidate& c) { return !(c.at > 1e-9); });  // the start itself
+  std::erase_if(found, [](const Candidate& c) { return !(c.at > one_place); });  // the start itself
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.at < b.at; });
   if (!found.empty() && found.back().at > (1 - beyond) * arc.length()) {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "continuation/locating/events.hpp"
+#include "continuation/numerics/numerics.hpp"
 
 namespace springfold::continuation {
 
 /// Steps are not shortened below this to separate special points; what is left is one cluster.
-inline constexpr double unresolved_length = 1e-6;
+inline constexpr double unresolved_length = poor;
 
 /// Neighbouring unresolved steps are one cluster with its total multiplicity.
 void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,

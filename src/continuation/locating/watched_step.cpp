@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/sigma_touch.hpp"
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -17,7 +18,7 @@ double left_of(const Vector& entries, const Vector& slopes, Index m, double noth
   const auto Sigma = entries.reshaped(m, m), slope = slopes.reshaped(m, m);
   if (Sigma.norm() <= nothing) return 0;
   const double left = Lu(slope).solve(Sigma).norm();
-  return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
+  return std::isfinite(left) ? left : infinity;
 }
 
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
@@ -40,15 +41,14 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       curve->a, curve->b);
   if (!Sigma) return {};
   double error = 0;
-  for (const double share : {0.31, 0.78}) {
-    const double t_between = curve->a + share * (curve->b - curve->a);
+  for (const double t_between : Sigma->checks()) {
     const auto entries = arc.sigma(t_between, borders);
     if (!entries) return {};
     error = std::max(error, (entries->reshaped() - (*Sigma)(t_between)).norm());
   }
   // Entries below this are zero: rounding, and the error of the interpolant.
-  const double nothing =
-      8 * sigma_noise(*E, borders) + 1e-12 * Sigma->values.cwiseAbs().maxCoeff() + 3 * error;
+  const double nothing = 8 * sigma_noise(*E, borders) +
+                         residual_level * Sigma->values.cwiseAbs().maxCoeff() + 3 * error;
   std::vector<Singularity> found;
   for (const double start : {t, curve->a, curve->b}) {
     double place = start;
@@ -58,14 +58,14 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
       const double step = -d.dot(s) / d.squaredNorm();
       if (!std::isfinite(step)) break;
       place = std::clamp(place + step, curve->a, curve->b);
-      if (std::abs(step) < 1e-15) break;
+      if (std::abs(step) < few_roundings) break;
     }
     const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
                         error / Sigma->slope(place).norm();
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
-      return std::abs(other.at - place) < 2 * merged;
+      return std::abs(other.at - place) < 2 * same_point;
     });
-    if (left <= merged && !known)
+    if (left <= same_point && !known)
       found.push_back({place, (*curve)(place), curve->slope(place), left});
   }
   return found;
@@ -80,11 +80,11 @@ std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double
     return doubt;
   };
   std::vector<Singularity> best;
-  for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+  for (const double share : half_decades<5>()) {
     auto found = multiple_zeros_on(arc, t, share * (arc.high() - arc.low()), m);
     std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > 0.6 * free; });
     if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
-    if (!best.empty() && worst(best) < 1e-12) break;
+    if (!best.empty() && worst(best) < residual_level) break;
   }
   return best;
 }
@@ -96,7 +96,6 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
-  constexpr double unknown = std::numeric_limits<double>::infinity();
   std::vector<Candidate> result;
   const auto add = [&](const Singularity& place, Index m, bool touches) {
     Singularity alone = place;
@@ -114,8 +113,8 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
     if (crossings == 1 && zeros.size() == 1 && m == 2 &&
         vanishing_modes(arc, most, zeros.front()) < 2)
       continue;
-    if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
-      add({middle, (*curve)(middle), curve->slope(middle), unknown}, m, false);
+    if (const auto curve = curve_near(arc, middle, aside_share * arc.length()))
+      add({middle, (*curve)(middle), curve->slope(middle), infinity}, m, false);
     if (result.size() == 1) {
       result.front().odd = crossings % 2 == 1;
       return result;
@@ -128,7 +127,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
   const auto places = touches ? std::vector<Singularity>{} : multiple_zeros(arc, middle, free, 1);
   if (places.size() == 1)
     add(places.front(), 1, false);
-  else if (const auto curve = curve_near(arc, middle, 0.2 * arc.length()))
+  else if (const auto curve = curve_near(arc, middle, aside_share * arc.length()))
     add({middle, (*curve)(middle), curve->slope(middle), touches ? 0 : zeros.front().off}, 1,
         touches);
   return result;
@@ -156,9 +155,9 @@ double blur_of_entries(const WatchedStep& arc, const ExtendedMatrix& E, const Bo
                        double reach) {
   const Index n = arc.from().x.size();
   Vector sizes(n + 1);
-  sizes << arc.from().x.cwiseAbs().cwiseMax(1e-3), std::abs(arc.from().lambda);
+  sizes << arc.from().x.cwiseAbs().cwiseMax(tiny_share), std::abs(arc.from().lambda);
   const double rounding_of_F =
-      std::numeric_limits<double>::epsilon() *
+      rounding_unit *
       (borders.B.topRows(n).cwiseAbs().transpose() * magnitudes(E, sizes).topRows(n)).norm();
   return reach / arc.length() * rounding_of_F;
 }
@@ -201,13 +200,13 @@ WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
   const auto m = static_cast<double>(result.order);
   const double entry = sigma_noise(E[middle], borders);
   const double noise = std::max(
-      rounding * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
+      function_noise * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
   const double blur = result.order > 1 ? m * std::pow(scale, 1 - 2 / m) *
                                              blur_of_entries(arc, E[middle], borders, reach.size)
                                        : 0.0;
   if (scale <= std::max(noise, blur)) return {.resolved = false};
   const ZeroSearch found =
-      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), resolution, NoiseIs::doubt);
+      find_zeros(determinant, 0, arc.high(), std::max(noise, blur), same_point, NoiseIs::doubt);
   result.zeros = found.zeros;
   result.resolved = found.resolved;
   if (result.order == 1) return result;
@@ -229,14 +228,14 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
       std::erase_if(turns, [&](const ZeroOf& turn) {
         const double distance = std::abs(turn.at - candidate.at);
         const bool here =
-            distance <= merged + 50 * turn.off || (candidate.turns && distance <= blurred);
+            distance <= same_point + 50 * turn.off || (candidate.turns && distance <= blurred);
         turned = turned != (here && !turn.touches);
         return here;
       });
       candidate.odd = candidate.odd != (turned || candidate.turns);
       const bool twice = std::any_of(found.begin(), found.end(), [&](const Candidate& other) {
         return std::abs(other.at - candidate.at) <
-               std::max(0.1 * merged, 10 * (other.off + candidate.off));
+               std::max(small_share * same_point, 10 * (other.off + candidate.off));
       });
       if (twice) return false;
       found.push_back(std::move(candidate));
@@ -263,7 +262,7 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
 
 bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
                   std::vector<Candidate>& found) {
-  constexpr double too_near = 1e-6, far_enough = 1000;
+  constexpr double far_enough = 1000;
   regular = true;
   const std::vector<double> distances = singular_distances(arc, turn.at);
   if (turn.off > poor && !(distances.empty() || distances.front() > far_enough * turn.off))
@@ -274,13 +273,12 @@ bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
     return c.kind == HitKind::branch_point && std::abs(c.at - turn.at) <= 2 * blurred;
   };
   if (std::any_of(found.begin(), found.end(), known)) return true;
-  const auto curve = curve_near(arc, turn.at, 0.2 * arc.length());
+  const auto curve = curve_near(arc, turn.at, aside_share * arc.length());
   if (!curve) return false;
   // Only the exact place can tell: a fold of curves that pass each other closely lies on its curve, too.
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), unknown};
+  const Singularity place{turn.at, (*curve)(turn.at), curve->slope(turn.at), infinity};
   const auto near = std::count_if(distances.begin(), distances.end(), [&](double d) {
-    return d <= 10 * std::max(distances.front(), too_near);
+    return d <= 10 * std::max(distances.front(), poor);
   });
   for (Index m = std::min<Index>(near, 6); m > 0; --m) {
     auto candidate = candidate_at(arc, place, {turn}, m, false);
@@ -290,7 +288,7 @@ bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
     regular = false;
     return true;
   }
-  return distances.front() > too_near;
+  return distances.front() > poor;
 }
 
 }  // namespace springfold::continuation

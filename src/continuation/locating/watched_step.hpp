@@ -7,6 +7,7 @@
 
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/samples.hpp"
@@ -14,15 +15,8 @@
 
 namespace springfold::continuation {
 
-inline constexpr double together = 1e-5;  // arc length within which zeros are examined as one point
-inline constexpr double resolution = 1e-7;  // of features of one function
-inline constexpr double rounding = 1e-11;   // of a function against its size
-inline constexpr double merged = 1e-7;      // zeros that are closer are one multiple zero
-inline constexpr double blurred = 2e-4;     // around a branch point corrected points are less exact
-// A limit point that rounding lets be placed no better than this is not resolved: beside a singular E, and
-// anywhere.
-inline constexpr double poor = 1e-6, worst_place = 1e-4;
-inline constexpr double beyond = 0.03;  // share of the step after its end that is searched as well
+/// Share of the step before and after it that is searched as well.
+inline constexpr double beyond = 0.03;
 
 /// One step, its points (each computed once), and what is watched on it. Points are predicted by the model that its samples
 /// define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding decides about the

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/numerics/numerics.hpp"
+#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/chebyshev.hpp"
 
 namespace springfold::continuation {
@@ -19,7 +21,7 @@ double bisect(Function g, double a, double b) {
   if (!((ga < 0 && gb > 0) || (ga > 0 && gb < 0))) return 0.5 * (a + b);  // not a number
   std::uintmax_t most = 100;
   const auto close = [=](double l, double r) {
-    return std::abs(r - l) <= 1e-15 * std::max(std::abs(l), std::abs(r));
+    return std::abs(r - l) <= few_roundings * std::max(std::abs(l), std::abs(r));
   };
   const auto [low, high] = boost::math::tools::toms748_solve(g, a, b, ga, gb, close, most);
   return 0.5 * (low + high);
@@ -40,7 +42,7 @@ std::vector<double> features_of(const Interpolant& p, double level) {
                        (before < 0) == (next < 0);
     // A parabola that touches zero half-way between two points is an eighth of its second difference
     // off at them.
-    const double reach = std::max(level, 0.25 * std::abs(before - 2 * here + next));
+    const double reach = std::max(level, std::abs(before - 2 * here + next) / 4);
     if (crosses || (turns && std::abs(here) <= reach)) places.push_back(t(i));
     before = here;
     here = next;
@@ -77,11 +79,12 @@ class ZeroFinder {
   void examine(double a, double b, int depth) { examine(fit_on(a, b), a, b, depth); }
 
  private:
-  /// Zeros are located to this arc length where the function is smooth enough; where rounding
-  /// prevents it, to the second one.
-  static constexpr double location = 1e-11, poor_location = 1e-6;
+  /// Zeros are located to this arc length where the function is smooth enough.
+  static constexpr double location = small_share * promised_place;
   /// A parabola that touches zero between two points of the grid is less than this off at them.
-  static constexpr double touching = 1e-4;
+  static constexpr double touching = told_apart;
+  /// Shares of an interval: features that lie closer are one, so much around them is examined, and more is no smaller interval.
+  static constexpr double crowded = 0.15, margin = 0.07, most_of_it = 0.6;
   /// Values this many times the noise have a sign beyond doubt.
   static constexpr double clear = 10;
   /// A function that needs more is noise.
@@ -102,14 +105,14 @@ class ZeroFinder {
     // Zero all along: a family, not a point; or a point too flat to be resolved.
     if (scale <= noise_) return depth > 0 ? give_up() : void();
     const bool last = b - a < resolution_ || depth > 24;
-    if (!last && fit.error > std::max(1e-4 * scale, noise_)) {
+    if (!last && fit.error > std::max(touching * scale, noise_)) {
       if (least < 0.5 * scale) split(a, b, depth);
       return;
     }
     const std::vector<double> places = features_of(p, level_of(fit.error, scale));
     const bool accurate = fit.error * (b - a) <= location * scale || fit.error <= noise_;
     const auto one_feature = [&](double left, double right) {
-      return accurate ? lost_between(fit, left, right) : right - left < 0.15 * (b - a);
+      return accurate ? lost_between(fit, left, right) : right - left < crowded * (b - a);
     };
     for (std::size_t i = 0; i < places.size();) {
       std::size_t end = i;
@@ -126,16 +129,16 @@ class ZeroFinder {
     const double length = p.b - p.a, scale = p.values.cwiseAbs().maxCoeff();
     const bool accurate = fit.error * length <= location * scale || fit.error <= noise_;
     if (accurate && locate(fit, first, end, false)) return true;
-    const double from = std::max(p.a, first - 0.07 * length),
-                 to = std::min(p.b, end + 0.07 * length);
+    const double from = std::max(p.a, first - margin * length),
+                 to = std::min(p.b, end + margin * length);
     if (last) {
-      if (first != end || fit.error > 1e-5 * scale || !locate(fit, first, end, true)) give_up();
+      if (first != end || fit.error > together * scale || !locate(fit, first, end, true)) give_up();
       return true;
     }
-    if (to - from > 0.6 * length) return false;
+    if (to - from > most_of_it * length) return false;
     const Fit closer = fit_on(from, to);
-    const bool better = closer.polynomial && closer.error < 0.3 * fit.error;
-    if (!better && first == end && fit.error * length <= poor_location * scale)
+    const bool better = closer.polynomial && closer.error < near_share * fit.error;
+    if (!better && first == end && fit.error * length <= poor * scale)
       locate(fit, first, end, true);
     else
       examine(closer, from, to, depth + 1);
@@ -145,18 +148,13 @@ class ZeroFinder {
   void give_up() { result.resolved = false; }
 
   Fit fit_on(double a, double b) const {
-    const auto one = [&](double t) -> std::optional<Vector> {
-      const auto value = f_(t);
-      return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
-    };
     // A sample that falls on a singular point cannot be computed; beside it, it can.
-    for (const double nudge : {0.0, 0.017, 0.041}) {
-      const double shift = nudge * (b - a);
-      Fit fit{interpolate(one, std::max(low_, a - shift), std::min(high_, b + shift))};
+    for (int nudge = 0; nudge < 3; ++nudge) {
+      const double shift = 0.02 * nudge * (b - a);
+      Fit fit{interpolate_value(f_, std::max(low_, a - shift), std::min(high_, b + shift))};
       if (!fit.polynomial) continue;
       bool complete = true;
-      for (const double share : {0.31, 0.78}) {
-        const double t = a + share * (b - a);
+      for (const double t : fit.polynomial->checks()) {
         const auto value = f_(t);
         complete = complete && value;
         if (value) fit.error = std::max(fit.error, std::abs(*value - fit.polynomial->first(t)));
@@ -169,12 +167,13 @@ class ZeroFinder {
   void split(double a, double b, int depth) {
     // Uneven, so that a feature in the middle does not fall on the seam, and where the function is not lost in
     // its noise.
-    double middle = a + 0.4871 * (b - a), largest = 0;
-    for (const double share : {0.4871, 0.5613, 0.4127, 0.6371, 0.3389}) {
-      const auto value = f_(a + share * (b - a));
+    double middle = 0.5 * (a + b), largest = 0;
+    for (const double share : uneven_shares<5>()) {
+      const double place = a + (1 + share) / 3 * (b - a);
+      const auto value = f_(place);
       if (!value || std::abs(*value) <= largest) continue;
       largest = std::abs(*value);
-      middle = a + share * (b - a);
+      middle = place;
       if (largest > clear * noise_) break;
     }
     examine(a, middle, depth + 1);
@@ -194,7 +193,7 @@ class ZeroFinder {
   /// The noise that was given is a bound. Where the polynomial is as good as that, more samples between its own, some
   /// of them beside the place in question, show what noise there is.
   double measured_noise(const Fit& fit, double t) const {
-    constexpr double sure = 4, digits = 1e-15;
+    constexpr double sure = 4;
     if (fit.measured >= 0) return fit.measured;
     const Interpolant& p = *fit.polynomial;
     double worst = fit.error;
@@ -204,15 +203,14 @@ class ZeroFinder {
     };
     const bool as_good = fit.error <= noise_ && noise_is_ != NoiseIs::threshold;
     if (as_good) {
-      for (const double share : {0.07, 0.17, 0.39, 0.46, 0.57, 0.66, 0.86, 0.94})
-        look_at(p.a + share * (p.b - p.a));
-      for (const double cells : {-2.3, -0.7, 0.8, 2.1}) look_at(t + cells * (p.b - p.a) / grid);
+      for (const double share : uneven_shares<8>()) look_at(p.a + share * (p.b - p.a));
+      for (const int cells : {-2, -1, 1, 2}) look_at(t + cells * (p.b - p.a) / grid);
     }
     const double bound = std::max(noise_, 30 * fit.error);
-    fit.measured = as_good
-                       ? std::clamp(sure * worst,
-                                    std::min(bound, digits * p.values.cwiseAbs().maxCoeff()), bound)
-                       : bound;
+    fit.measured =
+        as_good ? std::clamp(sure * worst,
+                             std::min(bound, few_roundings * p.values.cwiseAbs().maxCoeff()), bound)
+                : bound;
     return fit.measured;
   }
 
@@ -239,7 +237,7 @@ class ZeroFinder {
     const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
     const auto value = [&](double t) { return p.first(t); };
     const double scale = p.values.cwiseAbs().maxCoeff();
-    const bool accurate = best || error <= std::max(noise_, 1e-9 * scale);
+    const bool accurate = best || error <= std::max(noise_, one_place * scale);
     double low = std::max(p.a, first - cell), high = std::min(p.b, end + cell);
     while (low > p.a && is_lost(fit, low, value(low))) low = std::max(p.a, low - cell);
     while (high < p.b && is_lost(fit, high, value(high))) high = std::min(p.b, high + cell);

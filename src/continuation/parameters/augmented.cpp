@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/linear/small_lu.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -11,6 +13,35 @@ namespace {
 
 /// Differences along directions move the largest entry by this much at their nearest points.
 constexpr double directional_step = 0x1p-8;
+
+/// Second derivatives below this share of what rounding of differences leaves visible are zero.
+constexpr double vanishing_second = 10 * root_of_rounding;
+
+/// Does a form vanish along a direction, beside its own size and that of the first derivatives?
+bool vanishes_along(const Vector& form, const Vector& direction, double first) {
+  const double size = std::max(form.norm(), first);
+  return std::abs(form.dot(direction)) <= vanishing_second * size * direction.norm();
+}
+
+/// Nothing but finite numbers gives 0 when multiplied by 0: many at once.
+template <class Numbers>
+bool is_finite(const Numbers& numbers) {
+  return (0.0 * numbers.array()).sum() == 0;
+}
+
+/// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
+bool solve_borders(const Matrix& M, Index k, Matrix& result) {
+  result = Matrix::Zero(M.rows(), k);
+  result.bottomRows(k).setIdentity();
+  if (SmallLu::fits(M.rows())) {
+    const SmallLu lu(M);
+    if (!(lu.smallest_pivot() > 0)) return false;
+    lu.solve(result);
+  } else {
+    result = Lu(M).solve(result);
+  }
+  return is_finite(result);
+}
 
 /// The rotation that brings the columns of `left` nearest to those of `right`.
 Matrix aligned(const Matrix& left, const Matrix& right) {
@@ -26,13 +57,11 @@ bool base_terms(const Family& family, const Vector& x, double lambda, double mu,
   const auto problem = family.at(mu);
   if (!problem) return false;
   const Index n = x.size();
-  Matrix dF_dx;
-  Vector dF_dlambda;
-  if (!problem->equations(x, lambda, piece, terms.F, dF_dx, dF_dlambda)) return false;
+  if (!problem->equations(x, lambda, piece, terms.F, terms.A, terms.b)) return false;
   terms.J.resize(n, n + 1);
-  terms.J.leftCols(n) = dF_dx;
-  terms.J.col(n) = dF_dlambda;
-  return terms.F.allFinite() && terms.J.allFinite();
+  terms.J.leftCols(n) = terms.A;
+  terms.J.col(n) = terms.b;
+  return is_finite(terms.F) && is_finite(terms.J);
 }
 
 Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
@@ -54,14 +83,14 @@ std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& 
   BorderedPlace p;
   if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
   const Index n = x.size(), k = B.cols();
-  Matrix right = Matrix::Zero(n + k, k);
-  right.bottomRows(k).setIdentity();
-  const Lu lu(bordered_matrix(p.base, B, C));
-  const Matrix forward = lu.solve(right), back = lu.solve_transposed(right);
-  if (!forward.allFinite() || !back.allFinite()) return std::nullopt;
-  p.V = forward.topRows(n);
-  p.G = forward.bottomRows(k);
-  p.W = back.topRows(n);
+  const Matrix M = bordered_matrix(p.base, B, C);
+  Matrix solution;
+  if (!solve_borders(M, k, solution)) return std::nullopt;
+  p.V = solution.topRows(n);
+  p.G = solution.bottomRows(k);
+  const bool symmetric = family.at(mu)->symmetric() && B == C;
+  if (!symmetric && !solve_borders(M.transpose(), k, solution)) return std::nullopt;
+  p.W = solution.topRows(n);
   return p;
 }
 
@@ -94,9 +123,9 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
   const Index n = x.size();
   const double largest = V.lpNorm<Eigen::Infinity>();
   if (!(largest > 0)) return Vector::Zero(n + 1);
+  BaseTerms base;
   return six_point_derivative(
       [&](double t) -> std::optional<Vector> {
-        BaseTerms base;
         if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
           return std::nullopt;
         return Vector(base.J.transpose() * w);
@@ -114,6 +143,32 @@ Augmented::Augmented(const Family& family, const CriticalStart& start, NullVecto
     periods_.head(n_) = problem->periods();
     covers_ = problem->double_covers();
   }
+  held_ = k_ > 0 && may_hold();
+}
+
+bool Augmented::may_hold() const {
+  const auto here = terms(start_unknowns(), start_.mu);
+  if (!here) return true;
+  const Matrix &V = here->at.V, &W = here->at.W;
+  const double first = here->at.base.J.norm();
+  const auto form_along = [&](Index i, const Vector& direction) {
+    return second_along(family_, start_.x, start_.lambda, start_.mu, start_.piece, W.col(i),
+                        direction);
+  };
+  const Vector along = here->along.col(0);
+  for (Index i = 0; i < k_; ++i) {
+    const auto bend = form_along(i, along);
+    if (bend && !vanishes_along(*bend, along, first)) return false;
+    for (Index j = 0; j < k_; ++j) {
+      Vector mode = Vector::Zero(n_ + 1);
+      mode.head(n_) = V.col(j);
+      const auto form = form_along(i, mode);
+      if (!form) continue;
+      for (Index l = 0; l < k_; ++l)
+        if (!vanishes_along(form->head(n_), V.col(l), first)) return false;
+    }
+  }
+  return true;
 }
 
 bool Augmented::is_bordered() const {
@@ -182,6 +237,14 @@ std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) con
     if (!p) return std::nullopt;
     terms.at = std::move(*p);
     terms.last = terms.at.G.trace();
+    if (k_ == 0 || held_) return terms;
+    Vector right = Vector::Zero(n_ + k_);
+    right.head(n_) = terms.at.base.J.col(n_);
+    const Vector solution =
+        Lu(bordered_matrix(terms.at.base, borders_.left, borders_.right)).solve(right);
+    terms.along.resize(n_ + 1, 1);
+    terms.along << -solution.head(n_), 1.0;
+    terms.load = solution.tail(k_);
     return terms;
   }
   if (!base_terms(family_, state(X), lambda(X), mu, start_.piece, terms.at.base))
@@ -214,7 +277,8 @@ bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) con
   F.head(n_) = terms.at.base.F;
   if (k_ > 0) {
     F.head(n_) += borders_.left * X.tail(k_);
-    F.segment(n_, k_) = borders_.right.transpose() * (state(X) - start_.x);
+    F.segment(n_, k_) =
+        held_ ? Vector(borders_.right.transpose() * (state(X) - start_.x)) : terms.load;
   }
   F[n_ + k_] = terms.last;
   return true;
@@ -243,16 +307,23 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
   dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
   if (k_ > 0) {
     dF_dX.topRightCorner(n_, k_) = borders_.left;
-    dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
+    if (held_) dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
+  }
+  const Index crossing = k_ > 0 && !held_ ? k_ : 0;  // equations W^T dF/dlambda = 0
+  for (Index i = 0; i < crossing; ++i) {
+    const auto part = second_along(family_, x, l, mu, start_.piece, W.col(i), terms.along.col(0));
+    if (!part) return false;
+    dF_dX.row(n_ + i).head(n_ + 1) = part->transpose();
   }
   dF_dX.bottomLeftCorner(1, n_ + 1) = last.transpose();
+  BaseTerms there;
   const auto at_parameter = [&](double m) -> std::optional<Vector> {
-    BaseTerms there;
     if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
-    Vector values(n_ + 1);
+    Vector values(n_ + crossing + 1);
     values.head(n_) = there.F;
+    if (crossing > 0) values.segment(n_, crossing) = W.transpose() * (there.J * terms.along);
     if (is_bordered()) {
-      values[n_] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
+      values[n_ + crossing] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
       return values;
     }
     const auto g = surface(x, l, m);
@@ -266,8 +337,8 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
   if (!by_mu) by_mu = six_point_derivative(at_parameter, mu, family_.step);
   if (!by_mu) return false;
   dF_dmu = Vector::Zero(size());
-  dF_dmu.head(n_) = by_mu->head(n_);
-  dF_dmu[n_ + k_] = (*by_mu)[n_];
+  dF_dmu.head(n_ + crossing) = by_mu->head(n_ + crossing);
+  dF_dmu[n_ + k_] = (*by_mu)[n_ + crossing];
   return dF_dX.allFinite() && dF_dmu.allFinite();
 }
 

@@ -1,26 +1,23 @@
 #include "continuation/parameters/degeneracy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-/// Singular values below this, relative to the largest one, vanish at a located point.
-constexpr double vanishing_at_hit = 1e-6;
-/// Rates below this are zero to rounding: a rate that is zero all along has no zeros to be found.
-constexpr double still = 1e-11;
-
-double unless_still(double rate) { return std::abs(rate) < still ? still : rate; }
+/// A rate that is zero to rounding all along has no zeros to be found.
+double unless_still(double rate) { return std::abs(rate) < function_noise ? function_noise : rate; }
 
 /// Quadratic form of D^2F, contracted with w, on the vectors a and b of (x, lambda).
 double form(const Augmented& s, const CurvePoint& p, const Vector& w, const Vector& a,
             const Vector& b) {
   const auto along =
       second_along(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, w, a);
-  return along ? along->dot(b) : nowhere;
+  return along ? along->dot(b) : not_a_number;
 }
 
 /// Where mu turns back on a curve of limit points either the fold is cubic (cusp), or dF/dlambda
@@ -63,8 +60,8 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
       s.n() < lost)
     return Degeneracy::corank_two;
   const Vector values = jacobi_svd(base.J).values;
-  return values[s.n() - lost] > vanishing_at_hit * values[0] ? Degeneracy::hilltop
-                                                             : Degeneracy::corank_two;
+  return values[s.n() - lost] > vanishing_rank * values[0] ? Degeneracy::hilltop
+                                                           : Degeneracy::corank_two;
 }
 
 /// Rates of lambda and of the surface along the curve of one side, dlambda dh / |t|^2: zero where
@@ -73,11 +70,11 @@ double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   const Vector x = s.state(p.x);
   const double lambda = s.lambda(p.x);
   BaseTerms base;
-  if (!base_terms(s.family(), x, lambda, p.lambda, side, base)) return nowhere;
+  if (!base_terms(s.family(), x, lambda, p.lambda, side, base)) return not_a_number;
   const auto h = s.surface_gradient(x, lambda, p.lambda);
-  if (!h) return nowhere;
+  if (!h) return not_a_number;
   const Vector t = jacobi_svd(base.J, SingularVectors::none, SingularVectors::full).V.col(s.n());
-  return unless_still(t[s.n()] * h->dot(t) / std::max(1e-300, h->norm()));
+  return unless_still(t[s.n()] * h->dot(t) / std::max(smallest_number, h->norm()));
 }
 
 void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
@@ -92,7 +89,7 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
                          const auto at = system.family().at(p.lambda);
                          Vector g;
                          if (!at || !at->switches(system.state(p.x), system.lambda(p.x), g))
-                           return nowhere;
+                           return not_a_number;
                          return g[j];
                        },
                        EventAction::stop,
@@ -107,7 +104,7 @@ void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
          BaseTerms base;
          if (!base_terms(system.family(), system.state(p.x), system.lambda(p.x), p.lambda,
                          system.start().piece, base))
-           return nowhere;
+           return not_a_number;
          const auto problem = system.family().at(p.lambda);
          return signed_least(bordered_matrix(base, system.borders().left, system.borders().right),
                              problem && problem->symmetric());
@@ -128,6 +125,16 @@ void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
 }
 
 }  // namespace
+
+CriticalPoint critical_point(const CurvePoint& p, Index n) {
+  return {.s = p.s,
+          .x = p.x.head(n),
+          .lambda = p.x[n],
+          .mu = p.lambda,
+          .dx = p.tangent.dx.head(n),
+          .dlambda = p.tangent.dx[n],
+          .dmu = p.tangent.dlambda};
+}
 
 std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events) {
   std::vector<Watch> watches;
@@ -152,19 +159,12 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
   if (kind == CriticalKind::surface) watch_corner(system, watches);
   watch_surfaces(system, watches);
   for (const CriticalEvent& event : events)
-    watches.push_back({Degeneracy::user,
-                       event.name,
-                       [&event, n](const CurvePoint& p) {
-                         return event.value({.s = p.s,
-                                             .x = p.x.head(n),
-                                             .lambda = p.x[n],
-                                             .mu = p.lambda,
-                                             .dx = p.tangent.dx.head(n),
-                                             .dlambda = p.tangent.dx[n],
-                                             .dmu = p.tangent.dlambda});
-                       },
-                       event.action,
-                       {}});
+    watches.push_back(
+        {Degeneracy::user,
+         event.name,
+         [&event, n](const CurvePoint& p) { return event.value(critical_point(p, n)); },
+         event.action,
+         {}});
   return watches;
 }
 

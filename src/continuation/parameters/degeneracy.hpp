@@ -17,6 +17,9 @@ struct Watch {
       refine{};  ///< tells kinds apart at the located point
 };
 
+/// A point of the augmented curve, of n unknowns of the family.
+CriticalPoint critical_point(const CurvePoint& p, Index n);
+
 /// The watches of this kind of critical point, then the caller's events. They refer to `system`.
 std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events);
 

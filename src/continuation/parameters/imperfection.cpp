@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Terms of the form below this, relative to those that come after them, are zero: at located points they are
 /// rounding of about 1e-10.
-constexpr double vanishing_term = 1e-7;
+constexpr double vanishing_term = 1000 * promised_place;
 
 double norm_of(const std::vector<Matrix>& form) {
   double sum = 0;
@@ -159,7 +160,7 @@ std::optional<Vector> solved_near(const LeadingTerms& terms, Vector u, double L)
     const Vector step = -Lu(J).solve(g);
     if (!step.allFinite()) return std::nullopt;
     u += step;
-    if (step.norm() <= 1e-14 * (1 + u.norm())) return u;
+    if (step.norm() <= refined_step * (1 + u.norm())) return u;
   }
   return std::nullopt;
 }
@@ -170,7 +171,7 @@ std::optional<double> first_critical(const LeadingTerms& terms, double towards) 
   const auto u = solved_near(terms, terms.perfect(-towards * far), -towards * far);
   if (!u) return std::nullopt;
   TraceOptions options;
-  options.step.maximum = 0.25;
+  options.step.maximum *= 5;
   const auto rays = rays_from(terms, *u, -towards * far, {}, options);
   if (rays.rays.size() != 2) return std::nullopt;
   const bool second = towards * rays.rays[0].tangent.dlambda < 0;
@@ -247,7 +248,7 @@ std::optional<WorstImperfection> worst_imperfection(const ReducedForm& form, con
     Vector c = std::cos(angle) * svd.V.col(0);
     if (rank == 2) c += std::sin(angle) * svd.V.col(1);
     const auto law = imperfection_law(form, gammas * c);
-    if (!law) return -HUGE_VAL;
+    if (!law) return -infinity;
     if (!worst || law->coefficient > worst->law.coefficient)
       worst = {*law, is_turned(*law, c) ? Vector(-c) : c};
     return law->coefficient;
@@ -259,7 +260,7 @@ std::optional<WorstImperfection> worst_imperfection(const ReducedForm& form, con
   }
   // Both signs are tried at every angle: half a turn covers all shapes. Then the best one is refined.
   constexpr int angles = 36;
-  double best = 0, most = -HUGE_VAL;
+  double best = 0, most = -infinity;
   for (int i = 0; i < angles; ++i) {
     const double angle = std::numbers::pi * i / angles;
     const double value = attempt(angle);
@@ -267,12 +268,11 @@ std::optional<WorstImperfection> worst_imperfection(const ReducedForm& form, con
     most = std::max(most, value);
   }
   // Golden section: at a smooth maximum the coefficient has twice the digits of the angle.
-  constexpr double precision = 1e-7;
-  const double golden = (std::sqrt(5.0) - 1) / 2;
+  constexpr double golden = std::numbers::phi - 1;
   double low = best - std::numbers::pi / angles, high = best + std::numbers::pi / angles;
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double at_a = attempt(a), at_b = attempt(b);
-  while (high - low > precision) {
+  while (high - low > root_of_rounding) {
     if (at_a > at_b) {
       high = b;
       b = a;

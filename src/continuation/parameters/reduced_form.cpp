@@ -1,8 +1,8 @@
 // The equations at a singular point, reduced to the modes that vanish there.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/parameters/augmented.hpp"
 #include "springfold/continuation/imperfection.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -14,7 +14,7 @@ namespace {
 /// Singular values of dF/dx below this, relative to the largest one, vanish at a located point: those that do are its
 /// error, at most 1e-10 (the engine's contract), and the root of rounding lies two digits above. Two points whose
 /// values are both below lie so near that the located one stands for both.
-const double vanishing = std::sqrt(std::numeric_limits<double>::epsilon());
+const double vanishing = std::sqrt(rounding_unit);
 /// Largest entry of the nearest points of differences along directions: first and second derivatives of dF/dx.
 constexpr double first_step = 0x1p-8;
 constexpr double second_step = 0x1p-8;
@@ -65,7 +65,7 @@ class ReducedPlace {
 
  private:
   static double size_of(const Vector& along) {
-    return std::max(1e-300, along.lpNorm<Eigen::Infinity>());
+    return std::max(smallest_number, along.lpNorm<Eigen::Infinity>());
   }
   const Family& family_;
   const CriticalStart& at_;
@@ -172,19 +172,25 @@ std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStar
 
 std::optional<Vector> imperfection_part(const Family& family, const CriticalStart& start,
                                         const ReducedForm& form) {
-  const auto rate = six_point_derivative(
-      [&](double mu) -> std::optional<Vector> {
-        BaseTerms base;
-        if (!base_terms(family, start.x, start.lambda, mu, start.piece, base)) return std::nullopt;
-        return base.F;
-      },
-      start.mu, family.step);
-  if (!rate) return std::nullopt;
+  const auto rate_with = [&](double step) {
+    return six_point_derivative(
+        [&](double mu) -> std::optional<Vector> {
+          BaseTerms base;
+          if (!base_terms(family, start.x, start.lambda, mu, start.piece, base))
+            return std::nullopt;
+          return base.F;
+        },
+        start.mu, step);
+  };
+  const auto rate = rate_with(family.step), again = rate_with(0.5 * family.step);
+  if (!rate || !again) return std::nullopt;
   Vector gamma = form.W.transpose() * *rate;
-  // What does not act on the modes is zero but for the rounding of differences: beside what acts elsewhere, and beside
-  // what the load does to the modes.
-  constexpr double beside_others = 1e-9, beside_load = 1e-12;
-  if (gamma.norm() <= std::max(beside_others * rate->norm(), beside_load * form.mixed.norm()))
+  // What does not act on the modes is zero but for rounding: of the differences, which another step does not repeat, beside
+  // what acts elsewhere, and beside what the load does to the modes.
+  constexpr double repeated = tiny_share, beside_others = one_place, beside_load = residual_level;
+  const double change = (form.W.transpose() * *again - gamma).norm();
+  if (gamma.norm() <=
+      std::max({change / repeated, beside_others * rate->norm(), beside_load * form.mixed.norm()}))
     gamma.setZero();
   return gamma;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/parameters/augmented.hpp"
 #include "continuation/parameters/degeneracy.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -14,24 +15,14 @@ namespace {
 /// Borders are renewed when a null vector is this much longer than its projection on them.
 constexpr double poor_borders = 2.5;
 /// Unfolding coefficients above this: the parameter does not keep the branch [-].
-constexpr double kept_within = 1e-8;
+constexpr double kept_within = root_of_rounding;
 /// Points of a curve nearer than this, in arc length, are the same.
-constexpr double same_place = 1e-6;
-
-CriticalPoint critical_point(const CurvePoint& p, Index n) {
-  return {.s = p.s,
-          .x = p.x.head(n),
-          .lambda = p.x[n],
-          .mu = p.lambda,
-          .dx = p.tangent.dx.head(n),
-          .dlambda = p.tangent.dx[n],
-          .dmu = p.tangent.dlambda};
-}
+constexpr double same_place = poor;
 
 /// Newton's method for X at a fixed mu.
 std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
   constexpr int most = 12;
-  double before = HUGE_VAL;
+  double before = infinity;
   for (int i = 0; i < most; ++i) {
     Vector F, by_mu;
     Matrix J;
@@ -40,8 +31,7 @@ std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
     if (!step.allFinite() || step.norm() > 1) return std::nullopt;
     X += step;
     const double moved = step.norm();
-    // Rounding is reached when the steps are small and no longer shrink.
-    if (moved <= 1e-14 * (1 + X.norm()) || (moved < 1e-9 && moved > 0.1 * before)) return X;
+    if (has_settled(moved, before, refined_step * (1 + X.norm()), one_place)) return X;
     before = moved;
   }
   return std::nullopt;
@@ -135,7 +125,7 @@ class Follower {
                              const std::optional<Direction>& along, bool growing) {
     const auto rays = rays_from(system, X, mu, {}, options_).rays;
     const Ray* best = nullptr;
-    double largest = -HUGE_VAL;
+    double largest = -infinity;
     for (const Ray& ray : rays) {
       const double forward = along ? metric_product(system.metric(), *along, ray.tangent)
                                    : (growing ? ray.tangent.dlambda : -ray.tangent.dlambda);
@@ -207,7 +197,8 @@ class Follower {
     if (!curve.points.empty()) length_ += curve.points.back().s;
   }
 
-  /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own.
+  /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own, and what lies between the two, which
+  /// rounding tells apart, no point.
   void tidy() {
     const auto is_more = [](Degeneracy kind) {
       return kind == Degeneracy::cusp || kind == Degeneracy::isola_centre ||
@@ -224,6 +215,14 @@ class Follower {
                return is_more(other.kind) && std::abs(other.point.s - hit.point.s) <= same_place;
              });
     });
+    if (curve_.points.size() < 3 || curve_.hits.size() == all.size()) return;
+    const auto first = curve_.points.begin() + 1, last = curve_.points.end() - 1;
+    const auto at_hit = [&](const CriticalPoint& p) {
+      return std::any_of(all.begin(), all.end(), [&](const CriticalHit& hit) {
+        return is_more(hit.kind) && std::abs(hit.point.s - p.s) <= same_place;
+      });
+    };
+    curve_.points.erase(std::remove_if(first, last, at_hit), last);
   }
 
   const Family& family_;

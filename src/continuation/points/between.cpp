@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
 #include "continuation/points/step.hpp"
@@ -74,14 +74,13 @@ class Filler {
     if (!(length_ > 0) || !(h > 0)) return;
     per_s_ = length_ / h;
     // Not at the ends themselves: those are rows already.
-    constexpr double same = 1e-9;
-    const double first = std::floor(stretch.from.s / spacing_ + same) + 1;
-    const double last = std::ceil(stretch.to.s / spacing_ - same) - 1;
+    const double first = std::floor(stretch.from.s / spacing_ + one_place) + 1;
+    const double last = std::ceil(stretch.to.s / spacing_ - one_place) - 1;
     if (!(first <= last)) return;
     const Node a = node_of(stretch.from), b = node_of(stretch.to);
     // The cubic through the ends predicts the middle.
     const double half = 0.5 * length_;
-    const Vector guess = 0.5 * (a.u + b.u) + 0.25 * half * (a.rate - b.rate);
+    const Vector guess = 0.5 * (a.u + b.u) + half / 4 * (a.rate - b.rate);
     const auto m = node_near(half, guess, nullptr);
     if (m)
       between(a, *m, b, first, last, 0);
@@ -92,10 +91,9 @@ class Filler {
   }
 
  private:
-  static constexpr double exact = 1e-13;  // error of the polynomial that needs no correction
   /// Where the quintic is off by e at two nodes more, the polynomial through all five, of degree nine, is
   /// off by about e^(10/6): on a smooth curve each order more brings the same factor.
-  static constexpr double nearly_exact = 1e-9;
+  static constexpr double nearly_exact = one_place;
   static constexpr int deepest = 24;
 
   double way_of(double k) const { return (k * spacing_ - stretch_->from.s) * per_s_; }
@@ -153,7 +151,7 @@ class Filler {
       error = std::max(error, (inner[i]->u - u).lpNorm<Eigen::Infinity>());
     }
     const double scale = std::max(1.0, m.u.lpNorm<Eigen::Infinity>());
-    if (error <= exact * scale) return on_curve(curve, first, last);
+    if (error <= exact_model * scale) return on_curve(curve, first, last);
     if (error <= nearly_exact * scale)
       return on_curve(Hermite({&a, &*inner[0], &m, &*inner[1], &b}), first, last);
     const double seam = std::floor((m.t / per_s_ + stretch_->from.s) / spacing_);
@@ -177,10 +175,7 @@ class Filler {
         one_by_one(curve, k, k);
         continue;
       }
-      point.tangent = {rate_.head(n), rate_[n]};
-      const double length = length_of(walker_, point.tangent);
-      point.tangent.dx /= length;
-      point.tangent.dlambda /= length;
+      point.tangent = unit_direction(walker_, rate_);
       point.negative = stretch_->from.negative;
       result_.points.push_back(std::move(point));
     }
@@ -244,7 +239,7 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
     up_to(curve.points[i]);
     from = curve.points[i];
   }
-  take_hits(std::numeric_limits<double>::infinity());
+  take_hits(infinity);
   return stretches;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
+
 namespace springfold::continuation {
 
 Vector Interpolant::operator()(double t) const {
@@ -22,7 +24,7 @@ Vector Interpolant::operator()(double t) const {
 Vector Interpolant::slope(double t) const {
   // At a sample: a neighbour in the last digits is as good.
   if (std::find(at.begin(), at.end(), t) != at.end())
-    t += 1e-9 * (t > 0.5 * (a + b) ? a - b : b - a);
+    t += one_place * (t > 0.5 * (a + b) ? a - b : b - a);
   const Vector here = (*this)(t);
   Vector numerator = Vector::Zero(values.rows());
   double denominator = 0;
@@ -50,6 +52,22 @@ std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>
     p.barycentric.push_back((i % 2 ? -1.0 : 1.0) * (i == 0 || i == last ? 0.5 : 1.0));
   }
   return p;
+}
+
+std::optional<Interpolant> interpolate_value(const std::function<std::optional<double>(double)>& f,
+                                             double a, double b) {
+  const auto one = [&](double t) -> std::optional<Vector> {
+    const auto value = f(t);
+    return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
+  };
+  return interpolate(one, a, b);
+}
+
+std::array<double, 2> Interpolant::checks() const {
+  const auto between = [&](int k) {  // the k-th sample and the next one
+    return 0.5 * (a + b) + 0.5 * (b - a) * std::cos(std::numbers::pi * (k + 0.5) / (samples - 1));
+  };
+  return {between(2), between(5)};
 }
 
 std::pair<double, double> window_around(double t, double length, double a, double b) {

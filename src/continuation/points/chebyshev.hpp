@@ -2,6 +2,7 @@
 // Private to the engine.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,6 +22,9 @@ struct Interpolant {
 
   Vector operator()(double t) const;
   Vector slope(double t) const;
+  /// Two places half-way between neighbouring samples, where the polynomial is farthest off: one on each side of the middle
+  /// and not opposite to each other.
+  std::array<double, 2> checks() const;
   double first(double t) const { return (*this)(t)[0]; }
   double first_slope(double t) const { return slope(t)[0]; }
 };
@@ -28,6 +32,10 @@ struct Interpolant {
 /// f may fail (nothing) where its point cannot be computed; then there is no interpolant.
 std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
                                        double a, double b);
+
+/// The same of a function with one value.
+std::optional<Interpolant> interpolate_value(const std::function<std::optional<double>(double)>& f,
+                                             double a, double b);
 
 /// A window of the given length around t, inside [a, b].
 std::pair<double, double> window_around(double t, double length, double a, double b);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/diagram.hpp"
@@ -65,8 +67,10 @@ double length_of(const Walker& walker, const Direction& d) {
 }
 
 Direction unit_direction(const Walker& walker, const Vector& u) {
-  const Index n = u.size() - 1;
-  Direction d{u.head(n), u[n]};
+  return unit_direction(walker, Direction{u.head(u.size() - 1), u[u.size() - 1]});
+}
+
+Direction unit_direction(const Walker& walker, Direction d) {
   const double length = length_of(walker, d);
   d.dx /= length;
   d.dlambda /= length;
@@ -80,8 +84,9 @@ double cosine(const Walker& walker, const Direction& a, const Direction& b) {
 
 bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
   const double scale = std::max({1.0, a.x.norm(), std::abs(a.lambda)});
-  return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= 1e-7 * scale &&
-         std::abs(cosine(walker, a.tangent, direction_seen_from(walker, a.x, b))) >= 0.999;
+  return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= same_point * scale &&
+         std::abs(cosine(walker, a.tangent, direction_seen_from(walker, a.x, b))) >=
+             1 - nearly_same_line;
 }
 
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
@@ -93,8 +98,9 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
   const double h = std::max(to.s - from.s, metric_product(walker.weights, offset, from.tangent));
   set_between(walker, from, target, offset);
   const double along = metric_product(walker.weights, offset, from.tangent);
-  // The curve bends away from its tangent by no more than a fraction of the step.
-  if (!(along > 0 && along <= h) || length_of(walker, offset) > 1.2 * h) return std::nullopt;
+  // The curve bends away from its tangent by no more than a right angle's half.
+  if (!(along > 0 && along <= h) || length_of(walker, offset) > std::numbers::sqrt2 * h)
+    return std::nullopt;
   auto point = point_at(walker, from, along);
   if (!point) return std::nullopt;
   if (!coincide(walker, *point, target)) return std::nullopt;

@@ -2,6 +2,7 @@
 // to the engine.
 #pragma once
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
@@ -16,16 +17,14 @@ double length_of(const Walker& walker, const Direction& d);
 
 /// The direction (dx, dlambda) with length one.
 Direction unit_direction(const Walker& walker, const Vector& u);
+Direction unit_direction(const Walker& walker, Direction d);
 
 inline Direction opposite(const Direction& d) { return {-d.dx, -d.dlambda}; }
-
-/// Directions with a larger cosine are ways of one curve; the ways out of one point are further apart.
-inline constexpr double same_way = 0.98;
 
 /// Cosine of the angle between two directions.
 double cosine(const Walker& walker, const Direction& a, const Direction& b);
 
-/// Same place to 1e-7, same piece, tangents along one line.
+/// Same point to `same_point`, same piece, tangents along one line.
 bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
 
 /// Do two points lie on different sides of a surface, clear of it? Then they are two, however near: beside springs that

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"
 
@@ -27,7 +28,7 @@ std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from,
 
 std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
                                         const CurvePoint& to, double ds) {
-  constexpr double same_direction = 0.7;
+  constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
   const double h = to.s - from.s, t = ds / h;
   const double along = metric_product(walker.weights, to.tangent, from.tangent);
   if (!(h > 0) || !(along > 0)) return point_at(walker, from, ds);
@@ -44,7 +45,7 @@ std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& 
   const Direction slope{from.tangent.dx + t * (2 * a + 3 * t * b),
                         from.tangent.dlambda + t * (2 * a_l + 3 * t * b_l)};
   const double length = length_of(walker, slope);
-  if (metric_product(walker.weights, result.point->tangent, slope) < same_direction * length)
+  if (metric_product(walker.weights, result.point->tangent, slope) < half_a_right_angle * length)
     return std::nullopt;
   result.point->s = from.s + ds;
   return std::move(result.point);
@@ -55,7 +56,7 @@ std::optional<Located> locate(const Walker& walker, const CurvePoint& from, doub
   bool failed = false;
   const auto f = [&](double ds) -> double {
     const auto point = point_at(walker, from, ds);
-    const double v = point ? value(*point) : std::numeric_limits<double>::quiet_NaN();
+    const double v = point ? value(*point) : not_a_number;
     failed = failed || !std::isfinite(v);
     return failed ? 0.0 : v;
   };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/points/numerics.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/core/inertia.hpp"
@@ -13,17 +13,11 @@
 namespace springfold::continuation {
 namespace {
 
-/// Newton stops only when the next correction would be shorter than this.
-constexpr double refined_step = 1e-14;
-
 /// Corrections below this may be rounding of F, magnified by a nearly singular matrix.
-constexpr double noise_step = 1e-8;
+constexpr double noise_step = root_of_rounding;
 
 /// The same where the residual itself is no more than rounding.
-constexpr double blurred_step = 1e-6;
-
-/// Residuals that are reduced to this share of the ones before are not yet at their least.
-constexpr double still_falls = 0.1;
+constexpr double blurred_step = poor;
 
 /// Are these residuals no more than a few times the rounding errors that the terms of F have?
 bool is_rounding(double residual, const Linearisation& at, const Vector& x, double lambda,
@@ -36,7 +30,7 @@ bool is_rounding(double residual, const Linearisation& at, const Vector& x, doub
       sizes.array() += at.dF_dx.col(j).array().abs() * std::abs(x[j]);
   }
   sizes.array() += std::abs(lambda) * at.dF_dlambda.array().abs();
-  return residual <= 4 * (std::numeric_limits<double>::epsilon() * sizes.lpNorm<Eigen::Infinity>());
+  return residual <= few_roundings * sizes.lpNorm<Eigen::Infinity>();
 }
 
 double norm(const Vector& weights, const Direction& d) {
@@ -210,10 +204,11 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
       return ends(settled ? NewtonStatus::converged : NewtonStatus::singular);
     const double length =
         std::sqrt((weights.array() * step.head(n).array().square()).sum() + step[n] * step[n]);
-    if (!result.corrections.empty() && result.corrections.back() > 1e-9) {
+    if (!result.corrections.empty() && result.corrections.back() > one_place) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > 0.1 && (length < noise_step || (length < blurred_step && rounded())))
+      if (small && ratio > still_falls &&
+          (length < noise_step || (length < blurred_step && rounded())))
         return ends(NewtonStatus::converged);
       result.contraction = std::max(result.contraction, ratio);
       if (ratio > 1) return ends(NewtonStatus::diverges);

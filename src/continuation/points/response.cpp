@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "continuation/linear/bordered_factors.hpp"
+#include "continuation/numerics/numerics.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/finite.hpp"
 
@@ -61,8 +61,9 @@ class Regular {
   Vector rows_{}, columns_{}, u_{};
 };
 
-/// Numbers between 1/2 and 3/2 without symmetry, the same everywhere.
-Vector irregular(Index n) {
+/// Numbers between 1/2 and 3/2 without symmetry or pattern, the same everywhere: sampling.hpp's are spread evenly, and loads
+/// that alternate evenly leave the softest motions of a mechanism alone.
+Vector irregular_loads(Index n) {
   Vector v(n);
   std::uint64_t state = 0x9E3779B97F4A7C15;
   for (Index i = 0; i < n; ++i) {
@@ -86,7 +87,7 @@ std::optional<double> rate_of_matrix(ProblemView problem, const Vector& x, doubl
     return std::nullopt;
   // The geometric mean of an even number of factors: they alternate where eigenvalues come in pairs of both signs.
   constexpr int powers = 12, settled = 4;
-  Vector v = irregular(x.size());
+  Vector v = irregular_loads(x.size());
   double logarithms = 0;
   for (int k = 0; k < powers; ++k) {
     const Vector moved = here.units().cwiseProduct(v);
@@ -103,7 +104,7 @@ std::optional<double> rate_of_matrix(ProblemView problem, const Vector& x, doubl
 
 /// Length of dx in the metric, without entries that are nothing but what rounding leaves of loads that cancel.
 double motion(const Vector& weights, const Vector& dx, const Vector& units) {
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double rounding = 64 * rounding_unit;
   const double size = dx.cwiseQuotient(units).lpNorm<Eigen::Infinity>();
   double squares = 0;
   for (Index i = 0; i < dx.size(); ++i)
@@ -112,8 +113,7 @@ double motion(const Vector& weights, const Vector& dx, const Vector& units) {
 }
 
 double stiffness_of(const Vector& weights, Regular& here) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vector loads = (weights.array() > 0).select(irregular(weights.size()), 0);
+  Vector loads = (weights.array() > 0).select(irregular_loads(weights.size()), 0);
   const double size = loads.norm();
   if (!here.solve(loads)) return 0;
   const double moved = motion(weights, loads, here.units());
@@ -124,8 +124,7 @@ double stiffness_of(const Vector& weights, Regular& here) {
 double critical_way(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                     const Vector& dx, double moved, Regular& here) {
   // The rate is taken over a short way in x; where x does not move, over a way that the result itself asks for.
-  constexpr double infinity = std::numeric_limits<double>::infinity(), short_way = 1e-4, far = 1e3,
-                   farther = 1e12;
+  constexpr double short_way = told_apart, far = 1000, farther = 1 / residual_level;
   double d = moved > 0 ? short_way / moved : std::max(1.0, std::abs(lambda));
   double way = infinity;
   for (int i = 0; i < 4; ++i) {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/numerics.hpp"
 #include "continuation/points/words.hpp"
 #include "continuation/points/working_memory.hpp"
 

@@ -52,6 +52,7 @@ struct WorkingMemory {
   Vector periods{};
   std::vector<Index> double_covers{};
   ArcModel behind{}, chord{};  ///< the last step as a model, and a step between its ends only
+  ArcModel ahead{};            ///< the last step and the first half of the next one
 };
 
 /// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until

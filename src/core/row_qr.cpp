@@ -1,0 +1,88 @@
+#include "springfold/core/row_qr.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace springfold {
+
+void RowQr::compute(const Matrix& A) {
+  const Index m = A.rows(), n = A.cols();
+  factors_ = A.transpose();
+  tau_.setZero(m);
+  order_.resize(static_cast<std::size_t>(m));
+  for (Index k = 0; k < m; ++k) order_[static_cast<std::size_t>(k)] = k;
+  independent_ = m <= n;
+  double largest = 0;
+  for (Index k = 0; independent_ && k < m; ++k) {
+    Index pivot = k;
+    double longest = -1;
+    for (Index j = k; j < m; ++j) {
+      const double length = factors_.col(j).tail(n - k).squaredNorm();
+      if (length > longest) longest = length, pivot = j;
+    }
+    const double length = std::sqrt(longest);
+    largest = std::max(largest, length);
+    // As the rank of a factorisation with column pivots is counted.
+    independent_ =
+        length > std::numeric_limits<double>::epsilon() * static_cast<double>(m) * largest;
+    if (!independent_) return;
+    if (pivot != k) {
+      factors_.col(pivot).swap(factors_.col(k));
+      std::swap(order_[static_cast<std::size_t>(pivot)], order_[static_cast<std::size_t>(k)]);
+    }
+    const double first = factors_(k, k), beta = first >= 0 ? -length : length;
+    factors_.col(k).tail(n - k - 1) /= first - beta;
+    tau_[k] = (beta - first) / beta;
+    for (Index j = k + 1; j < m; ++j) reflect(k, factors_.col(j).data());
+    factors_(k, k) = beta;
+  }
+}
+
+/// x of the length of a column, mirrored: its entries from k on.
+void RowQr::reflect(Index k, double* x) const {
+  const Index n = factors_.rows();
+  const double* const v = factors_.col(k).data();
+  double sum = x[k];
+  for (Index i = k + 1; i < n; ++i) sum += v[i] * x[i];
+  sum *= tau_[k];
+  x[k] -= sum;
+  for (Index i = k + 1; i < n; ++i) x[i] -= sum * v[i];
+}
+
+Matrix RowQr::kernel() const {
+  const Index n = factors_.rows(), m = factors_.cols();
+  Matrix Z = Matrix::Zero(n, n - m);
+  for (Index j = 0; j < n - m; ++j) {
+    Z(m + j, j) = 1;
+    for (Index k = m; k-- > 0;) reflect(k, Z.col(j).data());
+  }
+  return Z;
+}
+
+Vector RowQr::least_norm(const Vector& b) const {
+  const Index m = factors_.cols();
+  Vector x = Vector::Zero(factors_.rows());
+  for (Index k = 0; k < m; ++k) {
+    double sum = b[order_[static_cast<std::size_t>(k)]];
+    for (Index i = 0; i < k; ++i) sum -= factors_(i, k) * x[i];
+    x[k] = sum / factors_(k, k);
+  }
+  for (Index k = m; k-- > 0;) reflect(k, x.data());
+  return x;
+}
+
+Vector RowQr::multipliers(const Vector& g) const {
+  const Index m = factors_.cols();
+  Vector y = g;
+  for (Index k = 0; k < m; ++k) reflect(k, y.data());
+  Vector mu(m);
+  for (Index k = m; k-- > 0;) {
+    y[k] /= factors_(k, k);
+    for (Index i = 0; i < k; ++i) y[i] -= factors_(i, k) * y[k];
+    mu[order_[static_cast<std::size_t>(k)]] = y[k];
+  }
+  return mu;
+}
+
+}  // namespace springfold

@@ -1,0 +1,100 @@
+#include "solve_beside.hpp"
+
+#include <limits>
+
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::statics {
+namespace {
+
+/// Sums of a few terms of a state's own size are rounded by no more than this, relative to it.
+constexpr double rounding_of_sums = 4 * std::numeric_limits<double>::epsilon();
+
+/// Newton's method with the factors of a neighbour's matrix: steps cost a residual each. They have to shrink fast and to
+/// end in rounding; otherwise false, and the state is of no use.
+bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& state, int& steps,
+                   double& residual) {
+  constexpr int most = 8;
+  constexpr double fast = 0.125;
+  Vector r, y = equations.pack(state), step(y.size());
+  double before = std::numeric_limits<double>::infinity();
+  for (steps = 0; steps < most; ++steps) {
+    if (!equations.residual(state, r)) return false;
+    residual = r.lpNorm<Eigen::Infinity>();
+    if (equations.vanishes(state, r, rounding_of_sums)) return true;
+    if (!(residual <= fast * before)) return false;
+    before = residual;
+    factors.solve(r, step);
+    y -= step;
+    equations.unpack(y, state);
+  }
+  return false;
+}
+
+}  // namespace
+
+double polish(StartEquations& equations, StartState& state, int& iterations) {
+  Vector r;
+  Matrix J;
+  double best = std::numeric_limits<double>::infinity();
+  StartState best_state = state;
+  for (int i = 0; i < 12; ++i) {
+    const bool finite = equations.residual(state, r);
+    const double size = r.lpNorm<Eigen::Infinity>();
+    if (!finite || !(size < best)) break;
+    const bool stagnates = size > 0.5 * best;
+    best = size;
+    best_state = state;
+    if (stagnates || size == 0 || !equations.jacobian(state, J)) break;
+    const Vector step = Lu(J).solve(r);
+    if (!step.allFinite()) break;
+    equations.unpack(equations.pack(state) - step, state);
+    ++iterations;
+  }
+  state = best_state;
+  return best;
+}
+
+double farthest_coordinate(const System& system, const Vector& a, const Vector& b) {
+  double moved = 0;
+  for (Index i = 0; i < system.size; ++i)
+    if (!system.is_wrench[static_cast<std::size_t>(i)])
+      moved = std::max(moved, std::abs(a[i] - b[i]));
+  return moved;
+}
+
+bool solve_beside(const System& system, const StartProblem& problem, StartEquations& equations,
+                  const StartState& guess, FirstEquilibrium& result) {
+  constexpr double beside =
+      0.125;              // of a length or a radian: farther away may be another equilibrium
+  constexpr int few = 3;  // with more steps factors are worth being renewed
+  const Foresight& foresight = problem.foresight;
+  StartState state = guess;
+  bool found = false;
+  int steps = 0;
+  if (foresight.factors) {
+    if (foresight.z.size() == state.z.size()) state.z = foresight.z;
+    if (foresight.rho.size() == state.inputs.rho.size()) state.inputs.rho = foresight.rho;
+    found = go_by_factors(equations, *foresight.factors, state, steps, result.residual) &&
+            farthest_coordinate(system, state.z, guess.z) <= beside;
+    result.iterations = steps;
+  }
+  if (found && steps <= few) result.factors = foresight.factors;
+  if (!found) {
+    state = guess;
+    result.iterations = 0;
+    result.residual = polish(equations, state, result.iterations);
+    if (!(farthest_coordinate(system, state.z, guess.z) <= beside) ||
+        !equations.solved(state, 1e-12))
+      return false;
+  }
+  Matrix J;
+  if (!result.factors && equations.jacobian(state, J)) result.factors = std::make_shared<Lu>(J);
+  result.z = state.z;
+  result.inputs = state.inputs;
+  result.attempts = 1;
+  result.status = StartStatus::found;
+  return true;
+}
+
+}  // namespace springfold::statics

@@ -1,0 +1,145 @@
+// The equations of a first equilibrium: its unknowns and rows, chosen out of those of the statics. Private to statics.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "springfold/statics/first_equilibrium.hpp"
+
+namespace springfold::statics {
+
+/// Which entries of (z, rho) are unknown and which rows of the residual must vanish.
+struct StartSelection {
+  std::vector<Index> unknowns{};  ///< numbers >= system.size are commands
+  std::vector<Index> rows{};
+};
+
+inline StartSelection start_selection(const System& system, const StartProblem& problem) {
+  StartSelection s;
+  const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
+  const auto of_body = [&](Index i) { return i >= body.t && i < body.t + body.count; };
+  const bool pose_given = problem.unknowns != StartUnknowns::pose;
+  for (Index i = 0; i < system.size; ++i) {
+    if (!(pose_given && of_body(i))) s.unknowns.push_back(i);
+    if (!(problem.unknowns == StartUnknowns::wrench && of_body(i))) s.rows.push_back(i);
+  }
+  if (problem.unknowns == StartUnknowns::commands)
+    for (Index i = 0; i < problem.inputs.rho.size(); ++i) s.unknowns.push_back(system.size + i);
+  return s;
+}
+
+struct StartState {
+  Vector z{};
+  Inputs inputs{};
+};
+
+/// The equilibrium equations in the selected unknowns; springs in the segments of the state itself.
+class StartEquations {
+ public:
+  StartEquations(const System& system, const StartProblem& problem)
+      : system_{system}, selection_{start_selection(system, problem)} {}
+
+  Vector pack(const StartState& state) const {
+    Vector y(static_cast<Index>(selection_.unknowns.size()));
+    for (Index i = 0; i < y.size(); ++i) {
+      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
+      y[i] = k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size];
+    }
+    return y;
+  }
+
+  void unpack(const Vector& y, StartState& state) const {
+    for (Index i = 0; i < y.size(); ++i) {
+      const Index k = selection_.unknowns[static_cast<std::size_t>(i)];
+      (k < system_.size ? state.z[k] : state.inputs.rho[k - system_.size]) = y[i];
+    }
+  }
+
+  bool is_wrench(Index unknown) const {
+    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
+    return k < system_.size && system_.is_wrench[static_cast<std::size_t>(k)];
+  }
+
+  bool is_pose(Index unknown) const {
+    const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
+    return k >= system_.first_pose && k < system_.size;
+  }
+
+  bool residual(const StartState& state, Vector& r) {
+    const bool finite = equilibrium_residual(system_, piece_at(system_, state.z, state.inputs.rho),
+                                             state.z, state.inputs, work_, full_);
+    r = full_(selection_.rows);
+    return finite;
+  }
+
+  bool solved(const StartState& state, double tolerance) {
+    Vector r;
+    return residual(state, r) &&
+           (vanishes(state, r, tolerance) || cancels_to_rounding(state, r, tolerance));
+  }
+
+  /// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
+  bool vanishes(const StartState& state, const Vector& r, double tolerance) const {
+    double size = 1, wrench = 1;
+    for (Index i = 0; i < system_.size; ++i) {
+      double& most = system_.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
+      most = std::max(most, std::abs(state.z[i]));
+    }
+    return largest(r, true) <= tolerance * size &&
+           largest(r, false) <= tolerance * std::max(size, wrench);
+  }
+
+  /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of force.
+  bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
+    constexpr double few_roundings = 4 * std::numeric_limits<double>::epsilon();
+    Matrix J;
+    if (!(largest(r, true) <= tolerance) || !jacobian(state, J)) return false;
+    const Vector sizes = J.cwiseAbs() * pack(state).cwiseAbs();
+    return largest(r, false) <= few_roundings * largest(sizes, false);
+  }
+
+  bool jacobian(const StartState& state, Matrix& J) {
+    const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z, state.inputs.rho),
+                                           state.z, state.inputs, work_, full_, A_, &dR_drho_);
+    Matrix wide(A_.rows(), A_.cols() + dR_drho_.cols());
+    wide << A_, dR_drho_;
+    J = wide(selection_.rows, selection_.unknowns);
+    return finite;
+  }
+
+  /// The closure equations alone and their derivatives by the unknowns `columns`.
+  bool closures(const StartState& state, const std::vector<Index>& columns, Vector& e, Matrix& J) {
+    Matrix all;
+    if (!jacobian(state, all)) return false;
+    std::vector<Index> rows;
+    for (std::size_t i = 0; i < selection_.rows.size(); ++i)
+      if (system_.is_wrench[static_cast<std::size_t>(selection_.rows[i])])
+        rows.push_back(static_cast<Index>(i));
+    Vector r = full_(selection_.rows);
+    e = r(rows);
+    J = all(rows, columns);
+    return true;
+  }
+
+ private:
+  /// Largest entry in the rows of the closures, or in those of the forces.
+  double largest(const Vector& rows, bool closures) const {
+    double result = 0;
+    for (Index i = 0; i < rows.size(); ++i)
+      if (system_
+              .is_wrench[static_cast<std::size_t>(selection_.rows[static_cast<std::size_t>(i)])] ==
+          closures)
+        result = std::max(result, std::abs(rows[i]));
+    return result;
+  }
+
+  const System& system_;
+  StartSelection selection_;
+  Workspace work_;
+  Vector full_;
+  Matrix A_, dR_drho_;
+};
+
+}  // namespace springfold::statics

@@ -1,0 +1,202 @@
+// What is said where a study cannot do what it was asked for.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "case_runs.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyResult;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A bar of length 1 on a hinge of stiffness c under a load along it: it buckles at lambda = c.
+const std::string upright = R"toml(
+[parameters]
+c = 1
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "linear", stiffness = "c" } },
+  { rigid = [0, 1] },
+]
+)toml";
+
+std::string upright_study(const std::string& keys) {
+  return upright + "[[study]]\nname = \"s\"\ncontrol = \"load\"\ndirection = [0, -1]\n" + keys;
+}
+
+TEST(StartOutsideOfLimits, IsSaidInTheSameWordsByAllKindsThatTrace) {
+  const std::string outside = "lambda is 0 at the start, outside of its limits 0.5 to 2";
+  const std::string until = "until = { lambda = [0.5, 2] }\n";
+  EXPECT_EQ(run(upright_study(until)).of("s").start.outside, outside);
+  for (const char* keys :
+       {"kind = \"critical_curve\"\ncritical_curve = { of = \"BP1\", parameter = \"c\", range = "
+        "[0.8, 1.2] }\n",
+        "kind = \"sensitivity\"\nsensitivity = { parameters = [\"c\"] }\n"}) {
+    const StudyResult result = run(upright_study(until + keys)).of("s");
+    EXPECT_FALSE(result.start.found);
+    EXPECT_EQ(result.start.message, outside);
+    EXPECT_EQ(result.start.where, "until.lambda");
+  }
+  const StudyResult threshold =
+      run(upright_study(
+              until + "kind = \"threshold\"\nthreshold = { of = \"loss_of_stability\", parameter = "
+                      "\"c\", range = [0.8, 1.2] }\n"))
+          .of("s");
+  EXPECT_THAT(threshold.doubts, ElementsAre(HasSubstr(outside)));
+}
+
+TEST(StartOutsideOfLimits, IsKnownBeforeAnythingIsTraced) {
+  const std::string outside = "lambda is 0 at the start, outside of its limits 0.5 to 2";
+  const std::string range = "parameter = \"c\", range = [0.8, 1.2] }\n";
+  for (const std::string& keys :
+       {"kind = \"critical_curve\"\ncritical_curve = { of = \"BP1\", " + range,
+        "kind = \"threshold\"\nthreshold = { of = \"loss_of_stability\", " + range,
+        "kind = \"critical_load\"\ncritical_load = { of = \"loss_of_stability\", values = 3, " +
+            range}) {
+    const Ran ran = run(upright_study("until = { lambda = [0.5, 2] }\n" + keys));
+    const auto& planned = ran.read.runs.front();
+    EXPECT_EQ(analysis::solve_start(planned.mechanism, planned.plan, nullptr)->outside, outside);
+  }
+}
+
+TEST(CriticalCurve, SaysThatThePathToItsPointStoppedEarlyAndWhy) {
+  const StudyResult result =
+      run(upright_study(
+              "until = { lambda = [-1, 2] }\ntrace = { maximum_points = 3, maximum_step = "
+              "0.01 }\nkind = \"critical_curve\"\ncritical_curve = { of = \"BP1\", "
+              "parameter = \"c\", range = [0.8, 1.2] }\n"))
+          .of("s");
+  EXPECT_FALSE(result.start.found);
+  EXPECT_THAT(result.start.message,
+              AllOf(HasSubstr("the curve has no BP1; its special points: none; "
+                              "it stopped early: "),
+                    HasSubstr("number of points")));
+}
+
+/// A slider along x, whose body has the pose x, y.
+std::string slider(const std::string& control) {
+  return R"toml(
+[[body]]
+name = "p"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "g"
+elements = [{ joint = "prismatic", axis = "x", name = "q", role = "preloaded", spring = { law = "linear", stiffness = 2 } }]
+[[study]]
+name = "s"
+direction = [1, 0]
+until = { lambda = [-1, 1] }
+control = ")toml" +
+         control + "\"\n";
+}
+
+TEST(PoseControl, SaysWhereTheJointsHoldADirectionOfThePoseAlready) {
+  const StudyResult result = run(slider("pose")).of("s");
+  EXPECT_FALSE(result.start.found);
+  EXPECT_EQ(result.start.where, "control");
+  EXPECT_THAT(result.start.message, HasSubstr("holds a direction that the joints hold already"));
+  EXPECT_THAT(result.start.advice, HasSubstr("control = \"mixed\""));
+  EXPECT_TRUE(complete(run(slider("mixed")).of("s")));
+}
+
+/// A point on two springs of free length 1, from (0, 0) and (1, 0.3).
+const std::string between_springs = R"toml(
+[[body]]
+name = "p"
+task_space = "xy"
+pose = [-0.5, 0.4]
+[[spring]]
+name = "a"
+from_at = [0, 0]
+to = "p"
+stiffness = 1
+free = 1
+[[spring]]
+name = "b"
+from_at = [1, 0.3]
+to = "p"
+stiffness = 1
+free = 1
+[[study]]
+name = "s"
+control = "load"
+direction = [0.1, -1]
+until = { lambda = [-3, 3] }
+)toml";
+
+TEST(CurveThatEndsWhereASpringHasNoLength, NamesTheSpringAndWhatIsLeftOfIt) {
+  const StudyResult result = run(between_springs).of("s");
+  const analysis::Branch& branch = result.branches.front();
+  for (const analysis::Stop& stop : {branch.backward, branch.forward}) {
+    EXPECT_FALSE(stop.complete);
+    EXPECT_THAT(stop.reason, AllOf(HasSubstr("the length of a has come down to "),
+                                   HasSubstr("at the length 0 its force has no direction"),
+                                   Not(HasSubstr("another branch"))));
+  }
+  // At (0, 0) spring a pushes with the force 1, in any direction: |load + force of b| = 1 there.
+  const double length = std::hypot(1, 0.3), pull = (length - 1) / length;
+  const double along = pull * (0.1 * 1 - 1 * 0.3) / std::hypot(0.1, 1);
+  const double root = std::sqrt(along * along + 1 - (length - 1) * (length - 1));
+  const std::vector<double> ends = lambdas(result, analysis::EventKind::unresolved);
+  ASSERT_EQ(ends.size(), 2U);
+  EXPECT_NEAR(ends[0], -along - root, 1e-5);
+  EXPECT_NEAR(ends[1], -along + root, 1e-5);
+}
+
+/// A bar of length 4 on a hinge between two cables that rest, r and l.
+const std::string guyed = R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 4]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "-z", name = "q", role = "preloaded", spring = { law = "linear", stiffness = 0.5 } },
+  { rigid = [0, 4] },
+]
+[[bar]]
+name = "r"
+from = "base"
+from_at = [3, 0]
+to = "tip"
+stiffness = 1
+tension_only = true
+[[bar]]
+name = "l"
+from = "base"
+from_at = [-3, 0]
+to = "tip"
+stiffness = 2
+tension_only = true
+[[study]]
+name = "s"
+kind = "snap_through"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-0.2, 6], bar.q = [-3, 3] }
+)toml";
+
+TEST(SwitchesOfAJump, LeaveOutCablesThatRestedAndAreSlackWhereItLands) {
+  const Ran ran = run(guyed);
+  const StudyResult& result = ran.of("s");
+  ASSERT_FALSE(result.snap->jumps.empty());
+  const auto& jump = result.snap->jumps.front();
+  ASSERT_EQ(jump.switches.size(), 1U);
+  EXPECT_THAT(jump.switches.front(), HasSubstr("spring r"));
+}
+
+}  // namespace
+}  // namespace springfold::io
