@@ -41,11 +41,8 @@ double stiffest_spring(const model::Mechanism& mechanism, const Setup& setup) {
 
 /// A unit of lambda in that of the setup, no longer than the range that is asked for.
 double within_range(const Study& study, const Setup& setup, double unit) {
-  for (const Limit& limit : study.until)
-    if (limit.quantity == "lambda" && limit.high > limit.low &&
-        std::isfinite(limit.high - limit.low))
-      unit = std::min(unit, (limit.high - limit.low) / setup.lambda_scale);
-  return power_of_two_near(unit);
+  const double range = range_of_lambda(study, setup);
+  return power_of_two_near(range > 0 ? std::min(unit, range) : unit);
 }
 
 /// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a large
@@ -117,6 +114,14 @@ bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) 
 
 }  // namespace
 
+double range_of_lambda(const Study& study, const Setup& setup) {
+  double range = std::numeric_limits<double>::infinity();
+  for (const Limit& limit : study.until)
+    if (limit.quantity == "lambda")
+      range = std::min(range, (limit.high - limit.low) / setup.lambda_scale);
+  return range;
+}
+
 void begin_at(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
   const auto b = static_cast<std::size_t>(study.body - 1);
   const auto& body = setup.system.body_slices[b];
@@ -168,14 +173,6 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
   const double unit = std::max(1.0, within_range(study, setup, factor));
   change_units({mechanism, study, family}, {setup.scales.force, unit * setup.lambda_scale}, first,
                setup);
-}
-
-double range_of_lambda(const Study& study, const Setup& setup) {
-  double range = std::numeric_limits<double>::infinity();
-  for (const Limit& limit : study.until)
-    if (limit.quantity == "lambda")
-      range = std::min(range, (limit.high - limit.low) / setup.lambda_scale);
-  return range;
 }
 
 void reach_range(const model::Mechanism& mechanism, const Study& study,

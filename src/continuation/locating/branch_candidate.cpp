@@ -57,7 +57,6 @@ void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
 bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
   const auto E = arc.matrix(point);
   if (!E) return false;
-  if (m >= E->rows()) return true;
   const Vector values = least_singular_values(*E, m + 1);
   return values[m - 1] <= small_share * values[m];
 }
@@ -176,9 +175,11 @@ std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double l
 
 std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
                                       const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+  const Index n = arc.from().x.size();
+  if (m > n)
+    return std::nullopt;  // dF/d(x, lambda) has no more rows that could depend on each other
   Candidate result{.at = place.at, .before = zeros.front().before, .after = zeros.back().after};
   result.point = arc.from();
-  const Index n = arc.from().x.size();
   result.point.x = place.u.head(n);
   result.point.lambda = place.u[n];
   result.point.tangent = unit_direction(arc.walker(), place.along);

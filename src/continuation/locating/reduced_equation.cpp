@@ -195,8 +195,6 @@ bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
 }
 
 std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at, int corank) {
-  if (corank < 1 || corank > at.x.size())
-    return std::nullopt;  // more than can vanish: counted in rounding
   ReducedEquation e{.walker = &walker, .piece = at.piece, .root = metric_roots(walker.weights)};
   e.U0 = scaled_point(at, e.root);
   e.k = corank;

@@ -7,6 +7,7 @@
 #include "continuation/numerics/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/core/finite.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -23,12 +24,6 @@ bool vanishes_along(const Vector& form, const Vector& direction, double first) {
   return std::abs(form.dot(direction)) <= vanishing_second * size * direction.norm();
 }
 
-/// Nothing but finite numbers gives 0 when multiplied by 0: many at once.
-template <class Numbers>
-bool is_finite(const Numbers& numbers) {
-  return (0.0 * numbers.array()).sum() == 0;
-}
-
 /// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
 bool solve_borders(const Matrix& M, Index k, Matrix& result) {
   result = Matrix::Zero(M.rows(), k);
@@ -40,7 +35,7 @@ bool solve_borders(const Matrix& M, Index k, Matrix& result) {
   } else {
     result = Lu(M).solve(result);
   }
-  return is_finite(result);
+  return all_finite(result);
 }
 
 /// The rotation that brings the columns of `left` nearest to those of `right`.
@@ -61,7 +56,7 @@ bool base_terms(const Family& family, const Vector& x, double lambda, double mu,
   terms.J.resize(n, n + 1);
   terms.J.leftCols(n) = terms.A;
   terms.J.col(n) = terms.b;
-  return is_finite(terms.F) && is_finite(terms.J);
+  return all_finite(terms.F) && all_finite(terms.J);
 }
 
 Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
