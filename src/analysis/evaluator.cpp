@@ -51,6 +51,12 @@ void Evaluator::put_state(const continuation::CurvePoint& point, const Turns* tu
   problem_.put_inputs(point.lambda, state.inputs);
 }
 
+/// Under dead load index_force is what the curve itself counts, which also knows its neighbourhood: beside a branch point
+/// rounding decides what the matrix of one point shows.
+bool Evaluator::is_index_of_curve(Kind kind, const continuation::CurvePoint& point) const {
+  return kind == Kind::index_force && control_ == ControlMode::load && point.negative;
+}
+
 double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePoint& point,
                         const Turns* turns) const {
   switch (q.kind) {
@@ -61,6 +67,7 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
     case Kind::tangent_determinant:
     case Kind::index_pose:
     case Kind::index_force: {
+      if (is_index_of_curve(q.kind, point)) return value_at(q, point, {});
       const Assembled* at = assemble(point);
       return at ? from_matrix(q, point, *at, {}) : undefined;
     }
@@ -113,6 +120,7 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
       return q.scale * (q.kind == Kind::shape_value ? shape.value : shape.slope);
     }
     case Kind::index:
+    case Kind::index_force:
       return point.negative ? static_cast<double>(*point.negative - problem_.closures())
                             : undefined;
     default:
@@ -173,7 +181,8 @@ double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::C
     case Kind::index_pose:
       return count(at.stability.pose_controlled);
     case Kind::index_force:
-      return count(at.stability.force_controlled);
+      return is_index_of_curve(q.kind, point) ? value_at(q, point, state)
+                                              : count(at.stability.force_controlled);
     case Kind::force:  // the residual at hand is that of force()
       if (at.is_plain && control_ != ControlMode::load)
         return q.scale * conjugate_.dot(at.r.segment(t_, d_));

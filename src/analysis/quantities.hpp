@@ -157,6 +157,8 @@ class Evaluator {
     statics::Inputs inputs{};
   };
   void put_state(const continuation::CurvePoint& point, const Turns* turns, State& state) const;
+  bool is_index_of_curve(QuantityDefinition::Kind kind,
+                         const continuation::CurvePoint& point) const;
   double value_at(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                   const State& state) const;
   double force(const continuation::CurvePoint& point) const;

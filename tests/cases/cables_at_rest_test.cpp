@@ -116,6 +116,38 @@ TEST(CablesAtRest, StretchedByAMillionthTheirBranchesSwitchRightBehindTheBranchP
   }
 }
 
+/// The load at which the cable on the side that the mast leans to goes slack, c = k = 1, free lengths sqrt(2) - stretch:
+/// s = sin q = 1 - (free/sqrt(2))^2, P s = c q + k (l - free) dl/dq with the other cable's l^2 - free^2 = 4 s.
+double load_at_slack(double stretch) {
+  const double share = stretch / std::sqrt(2.0), s = 2 * share - share * share, q = std::asin(s);
+  const double l = std::sqrt(2 + 2 * s), free = std::sqrt(2.0) - stretch;
+  return q / s + 4 * std::cos(q) / (l * (l + free));
+}
+
+TEST(CablesAtRest, StretchedByABillionthTheMastIsStableUntilOneGoesSlackAndFallsThen) {
+  for (const As as : {As::chain, As::spring})
+    for (const double stretch : {2e-9, 3e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+      SCOPED_TRACE(number(stretch) + (as == As::chain ? ", chain" : ", spring"));
+      const StudyResult result =
+          run(mast(1, cable("left", -1, stretch, as) + cable("right", 1, stretch, as))).of("press");
+      EXPECT_TRUE(complete(result));
+      ASSERT_EQ(result.branches.size(), 3u);
+      for (const std::size_t b : {1u, 2u}) {
+        const analysis::Branch& branch = result.branches[b];
+        const auto slack = std::find_if(branch.events.begin(), branch.events.end(), [](auto& e) {
+          return e.kind == EventKind::corner_limit_point;
+        });
+        ASSERT_NE(slack, branch.events.end());
+        EXPECT_NEAR(value(result, branch, slack->row, "lambda"), load_at_slack(stretch), 1e-12);
+        for (const char* index : {"index", "index_force"}) {
+          EXPECT_EQ(value(result, branch, slack->row - 1, index), 0);
+          EXPECT_EQ(value(result, branch, slack->row, index), 0);
+          EXPECT_EQ(value(result, branch, slack->row + 1, index), 1);
+        }
+      }
+    }
+}
+
 TEST(CablesAtRest, SlackByAMillionthTheyBearTheMastRightBehindTheBranchPoint) {
   // P = c = 0.3; a cable that has become taut bears the mast from there on, at a sway of a few millionths.
   for (const As as : {As::chain, As::spring})

@@ -32,6 +32,9 @@ struct Way {
   CurvePoint point{};  ///< the special point with the way's outward tangent and its piece
   CurvePoint start{};  ///< where a trace along it may begin
   int branch = -1;     ///< which branch runs along it; -1: none was traced
+  /// Farther out than the first switching surface, on the smooth continuation of the piece, where that surface lies just
+  /// beside the point.
+  std::optional<CurvePoint> beyond{};
 };
 
 /// A point at which branches meet, with all its ways.

@@ -11,6 +11,7 @@
 #include "continuation/branches/junction_ways.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/opening.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
@@ -26,6 +27,13 @@ struct Task {
   CurvePoint from{};
   int depth = 0;
   int kink = -1;  ///< junction of an ordinary kink at a start, of which this is way number `way`
+};
+
+/// What a trace begins with.
+struct Begin {
+  CurvePoint from{};
+  Ray ray{};
+  bool attached = true;  ///< nothing is left out between the junction and `from`
 };
 
 /// A junction that a branch meets, and its ways on the two sides of it.
@@ -52,6 +60,7 @@ class Tracer {
   void queue_ways(int junction);
   bool at_hit(const Hit& hit, bool ends = false);
   bool ends_at_once(const Task& task, Curve& curve) const;
+  Begin begin_of(const Task& task) const;
   void follow(const Task& task);
   /// The two curves that leave a start count as one branch.
   bool too_many(int start = -1) const {
@@ -246,6 +255,26 @@ bool Tracer::ends_at_once(const Task& task, Curve& curve) const {
   return !reason.empty();
 }
 
+/// Where the trace along a way begins: a little away from its junction, unless the curve in between is known.
+Begin Tracer::begin_of(const Task& task) const {
+  Begin begin{.from = task.from,
+              .ray = {task.from.piece, task.from.tangent, {}, {}, {}},
+              .attached = task.junction < 0};
+  if (begin.attached) return begin;
+  const Junction& junction = diagram_.junctions[static_cast<std::size_t>(task.junction)];
+  const Way& way = junction.ways[static_cast<std::size_t>(task.way)];
+  begin.attached = way.beyond && opening_of(walker_, way.point, *way.beyond);
+  if (begin.attached) {
+    begin.from = way.point;
+    begin.ray = {way.point.piece, way.point.tangent, {}, {}, way.beyond};
+    return begin;
+  }
+  const double gap = length_of(walker_, between(walker_, junction.point, task.from));
+  if (gap > 0) begin.ray.start = task.from;
+  if (gap > 0) begin.ray.start->s = gap;
+  return begin;
+}
+
 void Tracer::follow(const Task& task) {
   if (task.junction >= 0) {
     Way& way = diagram_.junctions[static_cast<std::size_t>(task.junction)]
@@ -273,14 +302,9 @@ void Tracer::follow(const Task& task) {
   diagram_.branches.push_back(
       {.start = task.start, .junction = task.junction, .depth = task.depth});
   if (ends_at_once(task, diagram_.branches.back().curve)) return;
-  Ray ray{task.from.piece, task.from.tangent, {}, {}};
-  if (task.junction >= 0) {
-    const double gap = length_of(walker_, between(walker_, at(task.junction).point, task.from));
-    if (gap > 0) ray.start = task.from;
-    if (gap > 0) ray.start->s = gap;
-  }
+  const Begin begin = begin_of(task);
   Curve curve =
-      trace_in_own_units(walker_.problem, task.from.x, task.from.lambda, ray, events_,
+      trace_in_own_units(walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_,
                          options_.trace, observer_, [this](const Hit& hit) { return at_hit(hit); });
   // A kink with several ways out ends the trace by itself.
   Branch& branch = diagram_.branches[static_cast<std::size_t>(current_)];
@@ -299,7 +323,7 @@ void Tracer::follow(const Task& task) {
       branch.curve.stop == StopReason::several_ways || branch.curve.stop == StopReason::no_way_out)
     if (!branch.curve.hits.empty()) branch.curve.hits.back().stops = true;
   note_early_end();
-  if (task.junction < 0) return;
+  if (begin.attached) return;
   const Junction& junction = at(task.junction);
   const Way& way = junction.ways[static_cast<std::size_t>(task.way)];
   if (!attach_to_junction(walker_, options_, junction.point, way, branch.curve))

@@ -51,7 +51,7 @@ void add_rays(const Walker& walker, const Hit& hit, const std::vector<Index>& ac
   for (const Ray& ray : rays.rays) {
     if (leaves_beside(walker, hit, ray)) continue;
     const CurvePoint leaving = point_on_ray(walker, point, ray);
-    junction.ways.push_back({leaving, start_on(walker, leaving, ray, surfaces)});
+    junction.ways.push_back({leaving, start_on(walker, leaving, ray, surfaces), -1, ray.beyond});
   }
 }
 
@@ -80,7 +80,7 @@ void add_exits(const Walker& walker, const DiagramOptions& options, const Hit& h
     CurvePoint point = hit.point;
     point.tangent = exit.tangent;
     point.negative.reset();
-    junction.ways.push_back({point, exit.start});
+    junction.ways.push_back({.point = point, .start = exit.start, .beyond = exit.beyond});
   }
 }
 

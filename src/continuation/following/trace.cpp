@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/following/keep_hits.hpp"
 #include "continuation/following/many_points.hpp"
 #include "continuation/following/narrow_places.hpp"
 #include "continuation/following/own_branch.hpp"
@@ -95,33 +96,6 @@ void end_at(const CurvePoint& start, StepEvents& found) {
     found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
     found.stops.erase(found.stops.begin() + static_cast<std::ptrdiff_t>(i));
   }
-}
-
-/// Has the step before reported this touch already? Each lies in the stretch on which the other is lost in rounding.
-bool is_reported(const Curve& curve, const Hit& hit) {
-  if (hit.kind != HitKind::touch || curve.hits.empty()) return false;
-  const Hit& last = curve.hits.back();
-  return last.kind == HitKind::touch && last.s_before < hit.point.s && hit.point.s < last.s_after &&
-         hit.s_before < last.point.s && last.point.s < hit.s_after;
-}
-
-/// Keeps the special points of a step and, between any two, a point of the curve with the index there.
-/// @returns whether the curve ends at one of them
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
-          Curve& curve) {
-  const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
-  for (std::size_t i = 0, next = 0; i < found.hits.size(); ++i) {
-    if (is_reported(curve, found.hits[i])) continue;
-    for (; next < between.size() && between[next].s < found.hits[i].point.s; ++next)
-      curve.points.push_back(between[next]);
-    const bool stops = found.stops[i];
-    curve.hits.push_back(found.hits[i]);
-    if (!stops && (!at_hit || at_hit(curve.hits.back()))) continue;
-    curve.stop = stops ? StopReason::event : StopReason::joined;
-    curve.stop_detail = curve.hits.back().name;
-    return true;
-  }
-  return false;
 }
 
 /// The middle of the last step, where it is known.
@@ -375,8 +349,14 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   progress.left = active_switches(walker, x, lambda);
   progress.ds = options.step.initial;
   Curve curve{.points = {progress.here}};
-  // The piece may be singular at the point itself, and the next surface as near as the way's first point.
-  if (start.start) {
+  const auto opening =
+      start.beyond ? opening_of(walker, progress.here, *start.beyond) : std::nullopt;
+  bool ended = false;
+  if (opening) {
+    progress.from_singular = true;
+    ended = pass_opening(walker, events, at_hit, *opening, progress, curve) == Outcome::stop;
+  } else if (start.start) {
+    // The piece may be singular at the point itself, and the next surface as near as the way's first point.
     progress.from_singular = true;
     progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
     if (start.start->x != x || start.start->lambda != lambda) {
@@ -386,7 +366,7 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
     }
   }
 
-  follow(walker, events, observer, at_hit, progress, curve);
+  if (!ended) follow(walker, events, observer, at_hit, progress, curve);
   settle_families(curve);
   check_narrow_places(walker, curve);
   // A curve that was asked to end is handed over at once.

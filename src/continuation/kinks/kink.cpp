@@ -112,7 +112,8 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
                                walker.problem.switch_name(grazed[i]));
     }
   }
-  collector.result.rays.push_back({at.piece, way.tangent, std::move(resting), way.start});
+  collector.result.rays.push_back(
+      {at.piece, way.tangent, std::move(resting), way.start, way.beyond});
 }
 
 Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {

@@ -95,6 +95,15 @@ std::vector<Beside> add_leaving(const Walker& walker, const std::vector<Ray>& ra
   return after;
 }
 
+/// Where one switch acts, its pieces differ by a multiple of dg: (dg . tau) det E is the same before and after, with
+/// E = | dF/dx dF/dlambda ; tau |. So lambda turns where the sign of det dF/dx changes, and only there.
+/// @returns false where what was seen of lambda and of the eigenvalues contradict each other
+bool fits(const KinkSearch& kink, const Hit& hit, int before, int after) {
+  const std::optional<Index>&first = hit.point.negative, &last = hit.leaving.front().negative;
+  if (kink.active.size() != 1 || before * after == 0 || !first || !last) return true;
+  return (before != after) == (std::abs(*last - *first) % 2 == 1);
+}
+
 /// Why the trace ends at this kink, if it does; labels the hit.
 std::optional<StopReason> dead_end(const KinkSearch& kink, const Rays& rays, Hit& hit) {
   if (hit.leaving.empty() && kink.active.size() <= most_active) return StopReason::no_way_out;
@@ -127,7 +136,8 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
   return point;
 }
 
-Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve) {
+Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve,
+                  const Beside* arriving) {
   Hit hit{.kind = HitKind::kink,
           .point = kink.point,
           .s_before = progress.here.s + kink.before,
@@ -135,7 +145,8 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   const Rays rays = ways_out(walker, kink, hit.point);
   hit.switches = crossed(kink, resting_switches(walker, progress.here, kink.point), rays.rays);
   hit.name = names_of(walker.problem, hit.switches);
-  const Beside before = beside(walker, hit.point, -1, hit.point.s - progress.here.s);
+  const Beside before =
+      arriving ? *arriving : beside(walker, hit.point, -1, hit.point.s - progress.here.s);
   if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
   const std::vector<Beside> after = add_leaving(walker, rays.rays, kink.active.size() > 1, hit);
@@ -160,6 +171,13 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   progress.here = hit.leaving.front();
   progress.left = kink.active;
   progress.ds = walker.options.step.initial;  // another curve begins
+  if (!fits(kink, hit, before.sense, next.sense)) {
+    Hit doubt = hit;
+    doubt.kind = HitKind::unresolved;
+    doubt.name = "unresolved: number of negative eigenvalues beside " + hit.name +
+                 " and the turn of lambda do not fit together";
+    curve.hits.push_back(std::move(doubt));
+  }
   curve.hits.push_back(std::move(hit));
   return Outcome::go_on;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/locating/events.hpp"
 
@@ -39,7 +40,9 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 /// further if need be up to 1e-2, and passage_events() looks for smooth special points only beyond
 /// that distance: the fold belongs to the kink and is reported once. A rate that stays zero
 /// belongs to a family; at its end the sign before the family counts.
-Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve);
+/// @param arriving  the curve just before the kink, where that is known already
+Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve,
+                  const Beside* arriving = nullptr);
 
 /// A short family that does not begin at a kink may as well be a flat stretch on which lambda turns
 /// several times within its rounding: it becomes unresolved.

@@ -9,6 +9,7 @@
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/numerics/numerics.hpp"
+#include "continuation/points/coincide.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/piecewise_form.hpp"
 
@@ -197,7 +198,8 @@ PieceWays singular_ways(const Walker& walker, const CurvePoint& at, const Surfac
   const Exits exits = exits_at(walker, at, kernel->corank, near_enough);
   PieceWays ways{.singular = true, .why = exits.why};
   for (const Exit& exit : exits.exits)
-    ways.list.push_back({exit.tangent, exit.start, std::max(exit.accuracy, regular_at_kinks)});
+    ways.list.push_back(
+        {exit.tangent, exit.start, std::max(exit.accuracy, regular_at_kinks), exit.beyond});
   return ways;
 }
 

@@ -15,6 +15,7 @@ struct PieceWay {
   std::optional<CurvePoint>
       start{};          ///< set where the piece is singular: the curve a little further
   double accuracy = 0;  ///< of the tangent
+  std::optional<CurvePoint> beyond{};  ///< as a Ray has it
 };
 
 struct PieceWays {

@@ -186,9 +186,12 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
                    .normalized());
   if (away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
   const Direction tangent = direction_of(e, e.N * limit.c);
+  const CurvePoint found = *start;
   if (near_enough && !bring_in(e, limit, ray, rho, tangent, near_enough, *start))
     doubt("a branch switches too near to the point to be followed");
-  result.exits.push_back({tangent, limit.accuracy, std::move(*start)});
+  Exit exit{tangent, limit.accuracy, std::move(*start)};
+  if (exit.start.s < found.s) exit.beyond = found;
+  result.exits.push_back(std::move(exit));
 }
 
 struct Search {

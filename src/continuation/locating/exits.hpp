@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Exit {
   double accuracy = 0;  ///< of `tangent`, estimated; beyond 1e-3 the result is not `complete`
   CurvePoint start{};   ///< a point of the branch a small distance away: residual at tolerance, its
                         ///< own unit tangent oriented outward, inertia counted; s is the distance
+  std::optional<CurvePoint> beyond{};  ///< set where the start was brought in: where it was found
 };
 
 struct Exits {

@@ -73,6 +73,7 @@ void check_ray(ProblemView problem, const Ray& ray) {
       (ray.tangent.dx.isZero(0) && ray.tangent.dlambda == 0))
     refuse("the tangent of the ray is zero or not finite");
   if (ray.start) expect(ray.start->x.size(), problem.size(), "the start of the ray");
+  if (ray.beyond) expect(ray.beyond->x.size(), problem.size(), "the point beyond of the ray");
 }
 
 }  // namespace springfold::continuation

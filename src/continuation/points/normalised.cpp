@@ -126,6 +126,7 @@ Ray Normalised::inside(const Ray& ray) const {
   Ray result = ray;
   result.tangent = {inside(ray.tangent.dx), ray.tangent.dlambda};
   if (ray.start) result.start = inside(*ray.start);
+  if (ray.beyond) result.beyond = inside(*ray.beyond);
   return result;
 }
 
@@ -133,6 +134,7 @@ Ray Normalised::outside(const Ray& ray) const {
   Ray result = ray;
   result.tangent = {ray.tangent.dx.cwiseProduct(unit_), ray.tangent.dlambda};
   if (ray.start) result.start = outside(*ray.start);
+  if (ray.beyond) result.beyond = outside(*ray.beyond);
   return result;
 }
 
@@ -204,6 +206,7 @@ Diagram Normalised::outside(Diagram diagram) const {
     for (Way& way : junction.ways) {
       way.point = outside(way.point);
       way.start = outside(way.start);
+      if (way.beyond) way.beyond = outside(*way.beyond);
     }
   }
   for (Doubt& doubt : diagram.doubts)
