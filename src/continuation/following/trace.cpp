@@ -86,6 +86,7 @@ struct Refusal {
   std::string reason{};
   bool special = false;  ///< because of special points on it
   bool passing = false;  ///< because branches pass each other on it
+  bool astray = false;   ///< because it does not continue the step before
 };
 
 /// Special points behind the place at which a curve closes were met at its start, one at this place now.
@@ -156,6 +157,7 @@ Outcome advance(const Walker& walker, const std::vector<Event>& events, const Hi
     if (behind && !leads_on(walker, *behind, known ? *known : progress.before, progress.here,
                             half_way, next)) {
       refusal = "the end is not where the curve leads: another branch may be near";
+      refused.astray = true;
       return Outcome::shorten;
     }
   }
@@ -268,12 +270,20 @@ void forget_last_crawl(const Anchor& anchor, Curve& curve) {
     if (hit.kind == HitKind::family) hit.s_after = std::min(hit.s_after, curve.points.back().s);
 }
 
+/// Where no step continues the last one, one of the two lies on another branch: which one is not known.
+void forget_last_step(double astray_at, Curve& curve) {
+  if (curve.points.size() > 1 && curve.points.back().s == astray_at &&
+      (curve.hits.empty() || curve.hits.back().point.s < astray_at))
+    curve.points.pop_back();
+}
+
 /// The main loop: steps until something ends the curve.
 void follow(const Walker& walker, const std::vector<Event>& events, const StepObserver& observer,
             const HitObserver& at_hit, Progress& progress, Curve& curve) {
   constexpr double level = flat_rate;
   curve.stop = StopReason::max_points;
   Anchor anchor;
+  double astray_at = -1;
   while (static_cast<int>(curve.points.size()) < walker.options.maximum_points) {
     if (anchor.set && (curve.hits.size() != anchor.hits ||
                        progress.here.s > anchor.before.here.s + anchor.before.ds))
@@ -288,6 +298,7 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
       if (refused.special && !anchor.set)
         anchor = {progress, curve.points.size(), curve.hits.size(), true, false, false};
       anchor.passing = anchor.passing || refused.passing;
+      if (refused.astray) astray_at = progress.here.s;
       progress.ds *= 0.5;
       const bool last = progress.ds < unresolved_length && anchor.set && !anchor.tried;
       const auto over =
@@ -301,6 +312,7 @@ void follow(const Walker& walker, const std::vector<Event>& events, const StepOb
     if (outcome == Outcome::shorten) {
       curve.stop = StopReason::step_too_small;
       curve.stop_detail = refused.reason;
+      forget_last_step(astray_at, curve);
       forget_last_crawl(anchor, curve);
       return;
     }
