@@ -12,6 +12,8 @@
 #include "not_held.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/number_text.hpp"
+#include "springfold/statics/shapes.hpp"
+#include "switch_words.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -183,14 +185,15 @@ class ControlRun {
     const statics::System& system = setup_.system;
     for (std::size_t j = 0; j < system.switches.size(); ++j) {
       const statics::Switch& s = system.switches[j];
-      const statics::CoordinateSpring& spring = system.springs[s.spring];
-      const std::size_t low = j - static_cast<std::size_t>(spring.first_switch);
-      const bool rests = std::abs(state.z[s.coordinate] - s.breakpoint) <=
-                         same * std::max(1.0, std::abs(s.breakpoint));
-      if (!rests || !spring.law.changes_at(low) || is_reported(k)) continue;
-      const bool rises = !last_ || last_->z[s.coordinate] <= s.breakpoint;
+      const auto value = [&](const CommandedState& at) {
+        return switch_value(system, j, at.z, at.inputs.rho);
+      };
+      const std::size_t low = j - first_switch_of(system, s);
+      const bool rests = std::abs(value(state)) <= same * std::max(1.0, std::abs(s.breakpoint));
+      if (!rests || !law_of(system, s).changes_at(low) || is_reported(k)) continue;
+      const bool rises = !last_ || value(*last_) <= 0;
       LegEvent event{.kind = EventKind::switching,
-                     .detail = "spring " + spring.name + " (segment " +
+                     .detail = "spring " + name_of(system, s) + " (segment " +
                                std::to_string(rises ? low : low + 1) + " to " +
                                std::to_string(rises ? low + 1 : low) + ")" + at_target,
                      .place = static_cast<double>(k),

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape_units.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/core/number_text.hpp"
+#include "springfold/statics/shapes.hpp"
 
 namespace springfold::analysis {
 
@@ -158,25 +160,30 @@ bool ControlProblem::derivatives(const Vector& y, double lambda, const Piece& pi
   return true;
 }
 
-bool ControlProblem::switches(const Vector& y, double, Vector& g) const {
-  // Switches belong to joints, which stand at the same place in y and in z: all before the poses.
-  // Springs of shapes are refused (check_mechanism).
-  const auto& list = setup_.system.switches;
-  g.resize(std::ssize(list));
-  for (Index j = 0; j < g.size(); ++j) {
-    const statics::Switch& s = list[static_cast<std::size_t>(j)];
-    g[j] = y[s.coordinate] - s.breakpoint;
-  }
+bool ControlProblem::switches(const Vector& y, double lambda, Vector& g) const {
+  const Vector z = expand(y, lambda);
+  const Vector rho = inputs(y, lambda).rho;
+  g.resize(switch_count());
+  for (Index j = 0; j < g.size(); ++j)
+    g[j] = switch_value(setup_.system, static_cast<std::size_t>(j), z, rho);
   return g.allFinite();
 }
 
-bool ControlProblem::switch_gradients(const Vector& y, double, Matrix& dg_dy,
+bool ControlProblem::switch_gradients(const Vector& y, double lambda, Matrix& dg_dy,
                                       Vector& dg_dlambda) const {
-  const auto& list = setup_.system.switches;
-  dg_dy = Matrix::Zero(std::ssize(list), y.size());
-  dg_dlambda = Vector::Zero(std::ssize(list));
-  for (Index j = 0; j < dg_dy.rows(); ++j)
-    dg_dy(j, list[static_cast<std::size_t>(j)].coordinate) = 1;
+  const Vector z = expand(y, lambda), target_rate = path_.target_rate(place(lambda), leg_);
+  const Vector rho = inputs(y, lambda).rho;
+  dg_dy.resize(switch_count(), y.size());
+  dg_dlambda.resize(switch_count());
+  statics::SwitchGradient at;
+  for (Index j = 0; j < dg_dy.rows(); ++j) {
+    if (!switch_gradient(setup_.system, static_cast<std::size_t>(j), z, rho, at)) return false;
+    for (Index k = 0; k < y.size(); ++k) {
+      const Index i = unknowns_[static_cast<std::size_t>(k)];
+      dg_dy(j, k) = i < size() ? at.z[i] : at.rho[i - size()];
+    }
+    dg_dlambda[j] = at.z(held_).dot(target_rate) / length_;
+  }
   return true;
 }
 
@@ -191,6 +198,11 @@ Vector ControlProblem::metric() const {
 
 std::string ControlProblem::switch_name(Index j) const {
   const statics::Switch& s = setup_.system.switches[static_cast<std::size_t>(j)];
+  if (s.of_shape()) {
+    const statics::PointShape& shape = setup_.system.shapes[s.spring];
+    return "spring " + shape.name + " passes " +
+           rounded(unit_of_value(shape.shape.kind, setup_.scales) * s.breakpoint);
+  }
   const double unit =
       setup_.system.is_length[static_cast<std::size_t>(s.coordinate)] ? setup_.scales.length : 1;
   return "spring " + setup_.system.springs[s.spring].name + " passes " +

@@ -177,10 +177,6 @@ void check_mechanism(const Study& study, const model::Mechanism& mechanism, Prob
       problems.push_back("kind: " + which + " has no potential: this kind needs loads that have " +
                          "one, such as forces of fixed direction");
   }
-  for (const model::ShapeSpring& spring : mechanism.shape_springs)
-    if (!model::compile(spring.law).breakpoints.empty())
-      problems.push_back("kind: spring \"" + spring.name + "\" between points has a law that " +
-                         "switches, which this kind does not have: need a smooth law");
   for (const model::Chain& chain : mechanism.chains)
     for (const model::Element& element : chain.elements)
       if (const auto* joint = std::get_if<model::Joint>(&element);

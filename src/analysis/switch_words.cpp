@@ -4,15 +4,25 @@
 
 namespace springfold::analysis {
 
+const model::CompiledSpring& law_of(const statics::System& system, const statics::Switch& s) {
+  return s.of_shape() ? system.shapes[s.spring].law : system.springs[s.spring].law;
+}
+
+const std::string& name_of(const statics::System& system, const statics::Switch& s) {
+  return s.of_shape() ? system.shapes[s.spring].name : system.springs[s.spring].name;
+}
+
+std::size_t first_switch_of(const statics::System& system, const statics::Switch& s) {
+  return static_cast<std::size_t>(s.of_shape() ? system.shapes[s.spring].first_switch
+                                               : system.springs[s.spring].first_switch);
+}
+
 std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
                              const Piece& before, const Piece& after) {
   std::string text;
   for (const Index j : hit.switches) {
     const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
-    const model::CompiledSpring& law =
-        s.of_shape() ? system.shapes[s.spring].law : system.springs[s.spring].law;
-    const std::string& name =
-        s.of_shape() ? system.shapes[s.spring].name : system.springs[s.spring].name;
+    const model::CompiledSpring& law = law_of(system, s);
     const auto segment_in = [&](const Piece& piece) {
       return s.of_shape() ? segment_of(system.shapes[s.spring], piece)
                           : segment_of(system.springs[s.spring], piece);
@@ -26,8 +36,8 @@ std::string switching_detail(const statics::System& system, const continuation::
                        : !was_flat && gets_flat ? "is released"
                        : k_to > k_from          ? "gets stiffer"
                                                 : "gets softer";
-    text += (text.empty() ? "spring " : ", spring ") + name + " " + word + " (segment " +
-            std::to_string(from) + " to " + std::to_string(to) + ")";
+    text += (text.empty() ? "spring " : ", spring ") + name_of(system, s) + " " + word +
+            " (segment " + std::to_string(from) + " to " + std::to_string(to) + ")";
   }
   return text;
 }
