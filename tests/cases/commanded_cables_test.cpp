@@ -97,7 +97,7 @@ TEST(CommandedCables, GoSlackWhereTheirLengthIsTheFreeOne) {
   const auto& events = way.branches[0].events;
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, EventKind::switching);
-  EXPECT_THAT(events[0].detail, HasSubstr("spring cable is released"));
+  EXPECT_THAT(events[0].detail, HasSubstr("spring cable passes 1"));
   // (1 - 0.2 - 0.2 t) sqrt(2) = 1 on the first leg; at (0.4, 0.2) the length is hypot(0.6, 0.8) = 1.
   EXPECT_NEAR(value(way, events[0].row, "path"), 1 + (0.8 - 1 / std::sqrt(2.0)) / 0.2, 1e-10);
   EXPECT_EQ(value(way, events[1].row, "path"), 3);

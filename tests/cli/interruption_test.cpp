@@ -121,7 +121,7 @@ std::string large_mechanism(int bodies) {
 
 TEST_F(Interruption, InTheMiddleOfALongStepEndsAllTheSame) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    EXPECT_EQ(interrupted(large_mechanism(250), signal, 2), 128 + signal);
+    EXPECT_EQ(interrupted(large_mechanism(400), signal, 2), 128 + signal);
     EXPECT_THAT(messages(), HasSubstr("0 of 1 runs are complete"));
     EXPECT_FALSE(fs::exists(scratch.path() / "out" / ".springfold.lock"));
   }
