@@ -112,7 +112,10 @@ void print(const Embedded& problem, const Draw& draw, const Followed& followed, 
     for (const CurvePoint& p : curve.points) {
       const Vector z = problem.base_point(p.x);
       std::printf("  point s %.8g lambda %.12g negative %td %s z", p.s, p.lambda,
-                  p.negative.value_or(-1), draw.on_curve(z, p.lambda) ? "on" : "OFF");
+                  p.negative.value_or(-1),
+                  !draw.on_curve               ? ""
+                  : draw.on_curve(z, p.lambda) ? "on"
+                                               : "OFF");
       print_z(z);
     }
   }
