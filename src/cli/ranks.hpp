@@ -35,7 +35,8 @@ class Ranks {
 
  private:
   int number_ = 0, count_ = 1;
-  bool begun_ = false, gave_up_ = false;
+  [[maybe_unused]] bool begun_ = false;  // without MPI nobody asks
+  bool gave_up_ = false;
 };
 
 }  // namespace springfold::cli

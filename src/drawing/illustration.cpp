@@ -28,13 +28,13 @@ Grid grid_for(std::size_t count, const IllustrationOptions& options) {
   return {columns, (count + columns - 1) / columns, options.small_width, options.small_height};
 }
 
-constexpr double line = 15;  // pixels from one line of words to the next
+constexpr double line_pitch = 15;  // pixels from one line of words to the next
 
 double lines_above(const std::vector<Panel>& panels) {
   std::size_t most = 0;
   for (const Panel& panel : panels)
     most = std::max(most, panel.notes.size() + (panel.title.empty() ? 0 : 1));
-  return line * static_cast<double>(most) + 6;
+  return line_pitch * static_cast<double>(most) + 6;
 }
 
 }  // namespace

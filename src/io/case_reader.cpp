@@ -116,7 +116,7 @@ void read_parameters(const std::vector<NodeEntry>& entries,
   const Place command_line{"--set", 0, 0};
   for (const auto& [name, text] : overrides) {
     const auto number = parameter_number(name, command_line, name, reading.book, reading.problems);
-    const Node node{.kind = Node::Kind::text, .place = command_line, .text = text};
+    const Node node = plain_node(Node::Kind::text, command_line, 0, text);
     const Definition definition =
         read_definition(node, name, "a number", reading.book, reading.problems);
     if (number) draft.parameters[*number].definition = definition;

@@ -191,7 +191,7 @@ FormulaBook::Added FormulaBook::add(const std::string& text) {
     known.emplace_back("pi");
     if (std::string problem = unit_problem(text, known); !problem.empty()) return {{}, problem};
   }
-  for (const unsigned char c : text)
+  for (const char c : text)
     if (c < 0x20 || c > 0x7e || c == '"' || c == '\'')
       return {{}, "formulas have letters, digits and + - * / ^ ( ) , . < > = ! & | ? : only"};
   if (text.find("**") != std::string::npos) return {{}, power_is_written};

@@ -77,14 +77,12 @@ class JsonNodes {
   Node root{};
 
   // The names are those that nlohmann::json_sax asks for.
-  bool null() { return add({.kind = Node::Kind::text, .text = "null"}); }
-  bool boolean(bool value) {
-    return add({.kind = Node::Kind::boolean, .number = value ? 1.0 : 0.0});
-  }
+  bool null() { return add(Node::Kind::text, 0, "null"); }
+  bool boolean(bool value) { return add(Node::Kind::boolean, value ? 1.0 : 0.0); }
   bool number_integer(std::int64_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) { return number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) { return number(value); }
-  bool string(const std::string& value) { return add({.kind = Node::Kind::text, .text = value}); }
+  bool string(const std::string& value) { return add(Node::Kind::text, 0, value); }
   bool binary(const std::vector<std::uint8_t>&) { return false; }
   bool start_object(std::size_t) { return open(Node::Kind::table); }
   bool start_array(std::size_t) { return open(Node::Kind::array); }
@@ -113,11 +111,10 @@ class JsonNodes {
     return false;
   }
 
-  bool number(double value) { return add({.kind = Node::Kind::number, .number = value}); }
+  bool number(double value) { return add(Node::Kind::number, value); }
 
-  bool add(Node node) {
-    node.place = cursor_.begin(file_);
-    return put(std::move(node));
+  bool add(Node::Kind kind, double number, std::string text = {}) {
+    return put(plain_node(kind, cursor_.begin(file_), number, std::move(text)));
   }
 
   bool put(Node node) {
@@ -135,7 +132,7 @@ class JsonNodes {
     if (open_.size() == deepest_json)
       return refuse(place, "",
                     "nested more than " + std::to_string(deepest_json) + " deep, need less");
-    open_.push_back({.kind = kind, .place = place});
+    open_.push_back(plain_node(kind, place));
     return true;
   }
 

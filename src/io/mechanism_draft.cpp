@@ -1,16 +1,12 @@
 #include "mechanism_draft.hpp"
 
 #include "bar_draft.hpp"
+#include "springfold/core/overloaded.hpp"
 
 namespace springfold::io {
 namespace {
 
 using Numbers = std::vector<double>;
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
 
 model::Vec3<double> direction_of(const AxisDraft& axis, const Numbers& numbers) {
   if (axis.entries.empty()) return axis.fixed;

@@ -20,10 +20,10 @@ struct Node {
   enum class Kind { boolean, number, text, date, array, table };
   Kind kind = Kind::table;
   Place place{};
-  double number = 0;                 ///< number (integers too), boolean as 0 or 1
-  std::string text{};                ///< text
-  std::vector<Node> items{};         ///< array
-  std::vector<NodeEntry> entries{};  ///< table, in the order of the file
+  double number = 0;               ///< number (integers too), boolean as 0 or 1
+  std::string text{};              ///< text
+  std::vector<Node> items;         ///< array
+  std::vector<NodeEntry> entries;  ///< table, in the order of the file
   /// Names that formulas here may use beside parameters: indices of repetitions, parameters of
   /// templates. Null: none.
   std::shared_ptr<const Bindings> bindings{};
@@ -41,6 +41,16 @@ struct NodeEntry {
   Place place{};  ///< of the key
   Node value{};
 };
+
+/// A value without items and entries.
+inline Node plain_node(Node::Kind kind, Place place, double number = 0, std::string text = {}) {
+  Node node;
+  node.kind = kind;
+  node.place = std::move(place);
+  node.number = number;
+  node.text = std::move(text);
+  return node;
+}
 
 /// What stands there, for messages: `"abc"`, `2.5`, `an array of 3`, `a table`.
 std::string described(const Node& node);

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "springfold/core/overloaded.hpp"
+
 namespace springfold::model {
 namespace {
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
 
 CompiledSpring from_slopes(const PiecewiseLinearSpring& law) {
   CompiledSpring spring;

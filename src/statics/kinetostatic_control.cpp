@@ -12,7 +12,7 @@ namespace springfold::statics {
 namespace {
 
 constexpr int most_iterations = 12;
-constexpr double tolerance = 1e-12;   // of the residual, scaled as in is_solved
+constexpr double solved_to = 1e-12;   // of the residual, scaled as in is_solved
 constexpr double last_step = 1e-8;    // after such a step Newton's error is below rounding
 constexpr double longest_newton = 3;  // of a coordinate: plain Newton is lost, KINSOL takes over
 
@@ -53,7 +53,7 @@ bool is_solved(const System& system, const ControlSolver& s) {
     worst = std::max(worst, std::abs(s.r[i]));
     largest = std::max(largest, std::abs(s.z[i]));
   }
-  return gap <= tolerance * size && force <= tolerance * std::max(size, wrench);
+  return gap <= solved_to * size && force <= solved_to * std::max(size, wrench);
 }
 
 void set_piece(const System& system, const Vector& z, const Vector& rho, Piece& piece) {

@@ -185,7 +185,7 @@ class SweepTracks : public SweepPointsTest {
       branch.events.push_back({.kind = analysis::EventKind::limit_point,
                                .label = "LP" + std::to_string(i + 1),
                                .row = i});
-      for (const std::size_t column : {1, 2, 3}) branch.samples[i].values[column] = lambdas[i];
+      for (const std::size_t column : {1u, 2u, 3u}) branch.samples[i].values[column] = lambdas[i];
     }
   }
 };

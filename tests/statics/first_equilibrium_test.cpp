@@ -75,7 +75,7 @@ TEST(FirstEquilibrium, TriesAgainFromSeededPerturbations) {
 
 TEST(FirstEquilibrium, IsTheSameToTheLastBitForTheSameSeed) {
   const System system = truss(0.5, 1, 0, 0, Vector{{1, 0}});
-  for (const std::uint64_t seed : {1, 2, 77}) {
+  for (const std::uint64_t seed : {1u, 2u, 77u}) {
     const StartProblem problem{
         .z = guess(system), .inputs = {Vector(0), Vector{{0, -1}}}, .seed = seed};
     const FirstEquilibrium a = first_equilibrium(system, problem);

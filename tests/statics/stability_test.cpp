@@ -122,7 +122,7 @@ State column(int links, double P) {
 TEST(Indices, OfAClampedColumnGrowByOneAtEachCriticalLoad) {
   // P_j = 4 sin^2((2j - 1) pi / (2 (2N + 1))) for N links and equal springs, the base included.
   const int N = 5;
-  const auto critical = [N](int j) {
+  const auto critical = [](int j) {
     const double sine = std::sin((2 * j - 1) * std::acos(-1.0) / (2 * (2 * N + 1)));
     return 4 * sine * sine;
   };
