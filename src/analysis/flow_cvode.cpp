@@ -5,7 +5,9 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <cstdint>
 
 #include "flow.hpp"
 #include "springfold/core/c_handles.hpp"
@@ -192,8 +194,10 @@ class Integrator {
   /// The largest speed lies between steps: the integrator's polynomial of the last one is searched, in parts first, then
   /// beside the fastest one by the golden section.
   void look_within(void* cvode, N_Vector y, double from, double to) {
-    constexpr int parts = 8, sections = 40;
-    constexpr double may_be_largest = 0.98, golden = 0.6180339887498949;
+    constexpr int parts = 8,
+                  bits = 26;  // at a maximum half of the digits of a place tell all of a value
+    constexpr double may_be_largest = 0.98;
+    std::uintmax_t most = 40;
     const auto inside = owned(made(N_VClone(y)), N_VDestroy);
     const auto speed = [&](double t) {
       if (CVodeGetDky(cvode, t, 0, inside.get()) != 0) return 0.0;
@@ -207,14 +211,9 @@ class Integrator {
       if (found > best) best = found, at = t;
     }
     if (best < may_be_largest * flow_.peak_speed) return;
-    double a = std::max(from, at - (to - from) / parts), b = std::min(to, at + (to - from) / parts);
-    for (int i = 0; i < sections; ++i) {
-      const double left = b - golden * (b - a), right = a + golden * (b - a);
-      if (speed(left) > speed(right))
-        b = right;
-      else
-        a = left;
-    }
+    const double a = std::max(from, at - (to - from) / parts);
+    const double b = std::min(to, at + (to - from) / parts);
+    boost::math::tools::brent_find_minima([&](double t) { return -speed(t); }, a, b, bits, most);
   }
 
   /// @returns false at rest
