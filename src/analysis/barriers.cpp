@@ -54,9 +54,7 @@ class Barriers {
         found_{found},
         first_{found.barriers.size()} {}
 
-  void find(const SnapSettings& settings) {
-    StateBook book = stretches_.book_at(frozen_);
-    search_all(book, settings);
+  void find(StateBook& book) {
     for (std::size_t s = 0; s < book.states().size(); ++s) look_at(book, s);
     find_lowest_ways(found_, first_);
     find_unjoined(book);
@@ -172,10 +170,9 @@ void search_all(StateBook& book, const SnapSettings& settings) {
 }
 
 void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,
-                   const SnapSettings& settings, double lambda, StudyResult& result,
+                   const Frozen& frozen, StateBook& book, StudyResult& result,
                    TransitionReport& found) {
-  const Frozen frozen = stretches.frozen(lambda);
-  Barriers(stretches, tracing, scales, frozen, result, found).find(settings);
+  Barriers(stretches, tracing, scales, frozen, result, found).find(book);
 }
 
 void find_lowest_ways(TransitionReport& report, std::size_t from) {

@@ -6,15 +6,15 @@
 namespace springfold::analysis {
 
 /// All states of rest of one lambda that can be found: uphill from all minima, from random states, and along strings
-/// between minima that nothing else joins.
+/// between minima that nothing else joins. What was searched around before is not searched around again.
 void search_all(StateBook& book, const SnapSettings& settings);
 
-/// All saddles with one unstable mode that a search finds at a dimensionless lambda, with the stretches whose states
-/// are beside them; for each pair of states the lowest one, and the lowest way over several of them. Doubts go to the
-/// result.
-/// @param stretches  with all minima that are known at this lambda
+/// All saddles of a search with one unstable mode, with the stretches whose states are beside them; for each pair of
+/// states the lowest one, and the lowest way over several of them. Doubts go to the result.
+/// @param frozen  of the lambda at which the book's states are
+/// @param book    after a search around all minima that are known there
 void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,
-                   const SnapSettings& settings, double lambda, StudyResult& result,
+                   const Frozen& frozen, StateBook& book, StudyResult& result,
                    TransitionReport& found);
 
 /// Fills what follows from the saddles between pairs of states: the lowest ways and the escapes.

@@ -51,16 +51,32 @@ Vector oriented(Vector v) {
   return v[largest] < 0 ? Vector(-v) : v;
 }
 
+double noise_of_force(const Landscape& landscape, const Vector& critical, const Piece& piece) {
+  const auto at = landscape.ground_on(critical, piece);
+  return clear_force * (at && at->hessian.size() > 0 ? std::max(1.0, at->hessian.norm()) : 1.0);
+}
+
 }  // namespace
+
+Departure shortened(const Landscape& landscape, const Vector& critical, const Departure& departure,
+                    double way) {
+  constexpr double part = 1e-3;
+  const auto piece = landscape.piece_at(departure.x);
+  if (!piece) return departure;
+  const double noise = noise_of_force(landscape, critical, *piece);
+  for (double a = part * way; a < departure.amplitude; a *= 2) {
+    const auto at = pushed(landscape, critical, departure.along, critical, {.amplitude = a});
+    if (at && at->force > noise && landscape.energy(at->x) < landscape.energy(critical))
+      return {departure.side, departure.along, at->x, a};
+  }
+  return departure;
+}
 
 Departures departures(const Landscape& landscape, const Vector& critical,
                       const std::vector<Piece>& pieces) {
   Departures result;
   for (const Piece& piece : pieces) {
-    const auto ground = landscape.ground_on(critical, piece);
-    const double noise =
-        clear_force *
-        (ground && ground->hessian.size() > 0 ? std::max(1.0, ground->hessian.norm()) : 1.0);
+    const double noise = noise_of_force(landscape, critical, piece);
     for (const Vector& direction : soft_directions(landscape, critical, piece))
       for (const int side : {1, -1}) {
         const Vector along = side * oriented(direction);
@@ -74,7 +90,7 @@ Departures departures(const Landscape& landscape, const Vector& critical,
           if (!at) break;
           decided = std::abs(at->force) > noise;
           if (decided && at->force > 0 && landscape.energy(at->x) < landscape.energy(critical))
-            result.list.push_back({side, along, at->x});
+            result.list.push_back({side, along, at->x, a});
         }
         result.is_flat |= !decided;
       }

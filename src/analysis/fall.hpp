@@ -6,20 +6,21 @@
 
 namespace springfold::analysis {
 
+/// Amplitude of the push [-].
+inline constexpr double push_size = 1e-3;
+
 /// One way to leave a critical state: a small push after which the energy is lower.
 struct Departure {
-  int side = 0;    ///< sign along `along`
-  Vector along{};  ///< unit direction of the moving unknowns, oriented outward
-  Vector x{};      ///< the state after the push, at rest but for the push
+  int side = 0;                  ///< sign along `along`
+  Vector along{};                ///< unit direction of the moving unknowns, oriented outward
+  Vector x{};                    ///< the state after the push, at rest but for the push
+  double amplitude = push_size;  ///< of the push
 };
 
 struct Departures {
   std::vector<Departure> list{};
   bool is_flat = false;  ///< in some direction the energy does not change beyond rounding
 };
-
-/// Amplitude of the push [-].
-inline constexpr double push_size = 1e-3;
 
 /// Leaves a critical state along its modes without stiffness, both ways; at a corner along the unstable
 /// modes of the pieces around it. For every amplitude along the mode all other motions are brought to
@@ -28,6 +29,11 @@ inline constexpr double push_size = 1e-3;
 /// @param pieces  those on both sides of the point
 Departures departures(const Landscape& landscape, const Vector& critical,
                       const std::vector<Piece>& pieces);
+
+/// The same departure with a smaller push: a thousandth of the straight way to where it leads, or as little more as the
+/// force along the mode is above rounding.
+Departure shortened(const Landscape& landscape, const Vector& critical, const Departure& departure,
+                    double way);
 
 /// Where a departure leads, and whether anything but the energy decides that.
 struct Fall {

@@ -1,6 +1,7 @@
 // Motions in a landscape: overdamped, and with masses. Private to analysis.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -24,6 +25,9 @@ struct Motion {
   /// All masses in a state; empty: none, the overdamped motion.
   std::function<std::vector<MassPoint>(const Vector& x)> masses{};
   double damping_factor = 1;  ///< of the landscape's damping
+  /// For every mass the second derivatives of its three coordinates by the moving unknowns. Empty: the integrator takes
+  /// difference quotients in place of the Jacobian.
+  std::function<std::vector<std::array<Matrix, 3>>(const Vector& x)> curvatures{};
 };
 
 struct FlowOptions {
@@ -43,11 +47,12 @@ struct Flow {
   End end = End::failed;
   RestState state{};
   double time = 0;        ///< until it was near rest
+  double settled = 0;     ///< until all but a ten-thousandth of the energy was dissipated
   double dissipated = 0;  ///< integral of x' . damping x'
-  double peak_speed = 0;  ///< largest |v| of a mass; overdamped: largest rate of a moving unknown
-  double peak_multiplier = 0;  ///< largest multiplier of a closure: a component of a chain's wrench
-  Vector peak_multipliers{};   ///< the same of each
-  double closure = 0;          ///< largest gap of the closures on the way
+  double peak_speed = 0;  ///< with masses: largest |v| of a mass
+  Vector
+      peak_multipliers{};  ///< with masses: largest size of every multiplier, a component of a chain's wrench
+  double closure = 0;             ///< largest gap of the closures on the way
   std::vector<Index> switched{};  ///< switches that changed side, in order
   int steps = 0;
   std::vector<std::pair<double, Vector>>
@@ -77,7 +82,16 @@ std::optional<Matrix> overdamped_jacobian(const Motion& motion, const Vector& x,
 std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, const Vector& v,
                                       const Piece& piece);
 
-/// By CVODE: backward differentiation formulas, the exact Jacobian (overdamped), roots where switches
+/// d(v')/d(x, v), n x 2n: exact but for the third derivatives, which are differences along v of fourth order.
+/// @pre  motion.curvatures
+/// @param at  as inertial_rate gave it
+std::optional<Matrix> inertial_jacobian(const Motion& motion, const Vector& x, const Vector& v,
+                                        const Piece& piece, const FlowRate& at);
+
+/// Derivatives of the closures by the moving unknowns.
+std::optional<Matrix> closures_at(const Landscape& landscape, const Vector& x, const Piece& piece);
+
+/// By CVODE: backward differentiation formulas, the exact Jacobian, states put on the closures, roots where switches
 /// change sides and where a coordinate leaves all bounds.
 Flow flow_by_cvode(const Motion& motion, const Vector& from, const FlowOptions& options = {});
 

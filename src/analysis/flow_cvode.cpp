@@ -11,6 +11,8 @@
 
 #include "flow.hpp"
 #include "springfold/core/c_handles.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -37,6 +39,36 @@ struct Integration {
   }
 };
 
+/// Directions along which the closures stay as they are.
+class Kept {
+ public:
+  explicit Kept(Matrix closing) : closing_{std::move(closing)}, rows_{closing_} {}
+  /// The nearest of them.
+  Vector operator()(const Vector& v) const {
+    const Vector gap = closing_ * v;
+    return v - (rows_.independent() ? rows_.least_norm(gap) : least_squares(closing_, gap));
+  }
+
+ private:
+  Matrix closing_;
+  RowQr rows_;
+};
+
+/// A state of the integration moved to the nearest one whose closures hold to rounding, and its rates to the nearest
+/// ones that keep them. @returns nothing where there is none near; what keeps the closures there
+std::optional<Kept> put_on_closures(Integration& data, Vector& y) {
+  const Landscape& landscape = data.motion->landscape;
+  data.put(y);
+  if (!landscape.close(data.x)) return std::nullopt;
+  const auto closing = closures_at(landscape, data.x, data.piece);
+  if (!closing) return std::nullopt;
+  Kept kept(*closing);
+  const Index n = data.moving();
+  y.head(n) = data.x(landscape.moving());
+  if (data.has_masses()) y.segment(n, n) = kept(data.speeds(y));
+  return kept;
+}
+
 // A positive return value tells CVODE to try a shorter step.
 int rate_callback(double, N_Vector y, N_Vector rate, void* user) {
   auto& data = *static_cast<Integration*>(user);
@@ -54,23 +86,49 @@ int rate_callback(double, N_Vector y, N_Vector rate, void* user) {
   return 0;
 }
 
-/// Of the overdamped motion. What was dissipated moves nothing; its own row is left to the next step's error
-/// control, as a quadrature: d(power)/dx = 2 D x' . d(rate)/dx.
+/// What was dissipated moves nothing; its own row is left to the next step's error control, as a quadrature:
+/// d(power)/d(rate) = 2 D rate.
 int jacobian_callback(double, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
                       N_Vector) {
   auto& data = *static_cast<Integration*>(user);
-  const auto rate = data.rate(view(y));
+  const Vector state = view(y);
+  const auto rate = data.rate(state);
   if (!rate) return 1;
-  const auto jacobian = overdamped_jacobian(*data.motion, data.x, data.piece, *rate);
+  const Motion& motion = *data.motion;
+  const Index n = data.moving(), size = data.size();
+  const auto jacobian =
+      data.has_masses() ? inertial_jacobian(motion, data.x, data.speeds(state), data.piece, *rate)
+                        : overdamped_jacobian(motion, data.x, data.piece, *rate);
   if (!jacobian) return 1;
-  const Index n = data.moving();
-  Eigen::Map<Matrix> out(SM_DATA_D(J), n + 1, n + 1);
+  Eigen::Map<Matrix> out(SM_DATA_D(J), size, size);
   out.setZero();
-  out.topLeftCorner(n, n) = *jacobian;
-  const Matrix& D = data.motion->landscape.terrain().damping;
-  const Vector force =
-      data.motion->damping_factor * (D.size() > 0 ? Vector(D * rate->rate) : rate->rate);
-  out.row(n).head(n) = 2 * force.transpose() * *jacobian;
+  const Matrix& D = motion.landscape.terrain().damping;
+  const Vector moves = data.has_masses() ? Vector(data.speeds(state)) : rate->rate;
+  const Vector force = motion.damping_factor * (D.size() > 0 ? Vector(D * moves) : moves);
+  if (data.has_masses()) {
+    out.block(0, n, n, n).setIdentity();
+    out.block(n, 0, n, 2 * n) = *jacobian;
+    out.row(2 * n).segment(n, n) = 2 * force.transpose();
+  } else {
+    out.topLeftCorner(n, n) = *jacobian;
+    out.row(n).head(n) = 2 * force.transpose() * *jacobian;
+  }
+  return 0;
+}
+
+/// Errors across the closures are taken away with the gaps.
+int projection_callback(double, N_Vector y, N_Vector correction, double, N_Vector error,
+                        void* user) {
+  auto& data = *static_cast<Integration*>(user);
+  Vector closed = view(y);
+  const auto kept = put_on_closures(data, closed);
+  if (!kept) return 1;
+  view(correction) = closed - view(y);
+  if (error == nullptr) return 0;
+  auto e = view(error);
+  const Index n = data.moving();
+  e.head(n) = (*kept)(e.head(n));
+  if (data.has_masses()) e.segment(n, n) = (*kept)(e.segment(n, n));
   return 0;
 }
 
@@ -132,7 +190,10 @@ class Integrator {
     prepared(CVodeInit(cvode.get(), rate_callback, 0, y.get()));
     prepared(CVodeSVtolerances(cvode.get(), options_.relative, tolerance.get()));
     prepared(CVodeSetLinearSolver(cvode.get(), solver.get(), J.get()));
-    if (!data_.has_masses()) CVodeSetJacFn(cvode.get(), jacobian_callback);
+    if (!data_.has_masses() || data_.motion->curvatures)
+      CVodeSetJacFn(cvode.get(), jacobian_callback);
+    if (!data_.motion->landscape.multipliers().empty())
+      prepared(CVodeSetProjFn(cvode.get(), projection_callback));
     CVodeSetMaxNumSteps(cvode.get(), options_.most_steps);
     prepared(CVodeRootInit(cvode.get(), static_cast<int>(data_.piece.size()) + 1, root_callback));
     integrate(cvode.get(), y.get());
@@ -149,15 +210,37 @@ class Integrator {
       const double before = t;
       const int flag = CVode(cvode, far, y, &t, CV_ONE_STEP);
       if (flag < 0) return;
-      if (data_.has_masses()) look_within(cvode, y, before, t);
+      if (data_.has_masses()) watch(cvode, y, before, t);
       const Vector state = view(y);
       flow_.time = t;
       flow_.dissipated = state[state.size() - 1];
+      taken_.emplace_back(t, flow_.dissipated);
       if (flag == CV_ROOT_RETURN && !pass_root(cvode, y, t)) return;
       const bool goes_on = observe(state);
       if (options_.keep_way) flow_.way.emplace_back(t, data_.x);
-      if (!goes_on) return;
+      if (!goes_on) {
+        flow_.settled = settled();
+        return;
+      }
     }
+  }
+
+  /// When only a small part of all energy was left; between steps what is left fades as an exponential does.
+  double settled() const {
+    constexpr double small_part = 1e-4;
+    const double all = flow_.dissipated, wanted = small_part * all;
+    double before = all, from = 0;
+    for (const auto& [t, taken] : taken_) {
+      const double left = all - taken;
+      if (left <= wanted) {
+        const double part =
+            left > 0 && before > left ? std::log(before / wanted) / std::log(before / left) : 1;
+        return from + part * (t - from);
+      }
+      before = left;
+      from = t;
+    }
+    return flow_.time;
   }
 
   /// Switches that change side; the step behind one begins afresh.
@@ -173,6 +256,10 @@ class Integrator {
       data_.piece[j] = static_cast<std::int8_t>(roots[j] > 0 ? 1 : -1);
       flow_.switched.push_back(static_cast<Index>(j));
     }
+    // Between steps the integrator interpolates.
+    Vector closed = view(y);
+    if (!put_on_closures(data_, closed)) return false;
+    view(y) = closed;
     CVodeReInit(cvode, t, y);
     return true;
   }
@@ -191,29 +278,56 @@ class Integrator {
     return largest;
   }
 
-  /// The largest speed lies between steps: the integrator's polynomial of the last one is searched, in parts first, then
-  /// beside the fastest one by the golden section.
-  void look_within(void* cvode, N_Vector y, double from, double to) {
-    constexpr int parts = 8,
-                  bits = 26;  // at a maximum half of the digits of a place tell all of a value
-    constexpr double may_be_largest = 0.98;
-    std::uintmax_t most = 40;
+  /// What peaks are told of: the largest speed of a mass, then the size of every multiplier.
+  Vector watched(const Vector& y) {
+    const auto rate = data_.rate(y);
+    if (!rate) return {};
+    Vector values(1 + rate->multipliers.size());
+    values << speeds_at(y).moving, rate->multipliers.cwiseAbs();
+    return values;
+  }
+
+  /// Peaks up to the end of a step.
+  void watch(void* cvode, N_Vector y, double from, double to) {
+    const Vector end = watched(view(y));
+    if (end.size() == 0) return;
+    if (peaks_.size() == 0) peaks_ = last_ = end;
+    peaks_ = peaks_.cwiseMax(end);
+    look_within(cvode, y, {from, last_}, {to, end});
+    last_ = end;
+    flow_.peak_speed = peaks_[0];
+    flow_.peak_multipliers = peaks_.tail(peaks_.size() - 1);
+  }
+
+  struct Seen {
+    double t = 0;
+    const Vector& values;
+  };
+
+  /// A peak lies between two steps where what is watched rises behind the first and falls before the second: there the
+  /// integrator's polynomial is searched for it.
+  void look_within(void* cvode, N_Vector y, const Seen& begin, const Seen& end) {
+    constexpr double may_be_largest = 0.98, beside = 1e-3;  // of the largest so far; of the step
+    constexpr int bits = 26;  // at a maximum half of the digits of a place tell all of a value
+    const Vector larger = begin.values.cwiseMax(end.values);
+    if ((larger.array() < may_be_largest * peaks_.array()).all()) return;
     const auto inside = owned(made(N_VClone(y)), N_VDestroy);
-    const auto speed = [&](double t) {
-      if (CVodeGetDky(cvode, t, 0, inside.get()) != 0) return 0.0;
-      const double found = speeds_at(view(inside.get())).moving;
-      flow_.peak_speed = std::max(flow_.peak_speed, found);
-      return found;
+    const auto at = [&](double t) -> Vector {
+      if (CVodeGetDky(cvode, t, 0, inside.get()) != 0) return Vector::Zero(peaks_.size());
+      Vector closed = view(inside.get());
+      const Vector found = put_on_closures(data_, closed) ? watched(closed) : Vector{};
+      return found.size() == peaks_.size() ? found : Vector::Zero(peaks_.size());
     };
-    double best = 0, at = to;
-    for (int i = 1; i <= parts; ++i) {
-      const double t = from + (to - from) * i / parts, found = speed(t);
-      if (found > best) best = found, at = t;
+    const double part = beside * (end.t - begin.t);
+    const Vector after = at(begin.t + part), before = at(end.t - part);
+    for (Index i = 0; i < peaks_.size(); ++i) {
+      const bool is_peak = after[i] > begin.values[i] && before[i] > end.values[i];
+      if (!is_peak || larger[i] < may_be_largest * peaks_[i]) continue;
+      std::uintmax_t most = 40;
+      const auto peak = boost::math::tools::brent_find_minima([&](double t) { return -at(t)[i]; },
+                                                              begin.t, end.t, bits, most);
+      peaks_[i] = std::max(peaks_[i], -peak.second);
     }
-    if (best < may_be_largest * flow_.peak_speed) return;
-    const double a = std::max(from, at - (to - from) / parts);
-    const double b = std::min(to, at + (to - from) / parts);
-    boost::math::tools::brent_find_minima([&](double t) { return -speed(t); }, a, b, bits, most);
   }
 
   /// @returns false at rest
@@ -221,20 +335,8 @@ class Integrator {
     const auto rate = data_.rate(y);
     if (!rate) return false;
     const Landscape& landscape = data_.motion->landscape;
-    if (rate->multipliers.size() > 0) {
-      if (flow_.peak_multipliers.size() == 0)
-        flow_.peak_multipliers.setZero(rate->multipliers.size());
-      flow_.peak_multipliers = flow_.peak_multipliers.cwiseMax(rate->multipliers.cwiseAbs());
-      flow_.peak_multiplier = flow_.peak_multipliers.maxCoeff();
-    }
-    double speed = rate->rate.lpNorm<Eigen::Infinity>();
-    if (data_.has_masses()) {
-      const Speeds largest = speeds_at(y);
-      flow_.peak_speed = std::max(flow_.peak_speed, largest.moving);
-      speed = std::max(largest.moving, largest.turning);
-    } else {
-      flow_.peak_speed = std::max(flow_.peak_speed, speed);
-    }
+    const Speeds largest = data_.has_masses() ? speeds_at(y) : Speeds{};
+    const double speed = std::max(largest.moving, largest.turning);
     Vector r;
     if (landscape.terrain().problem.residual(data_.x, landscape.terrain().lambda, data_.piece, r) &&
         !landscape.multipliers().empty())
@@ -263,6 +365,8 @@ class Integrator {
   FlowOptions options_;
   Integration data_{};
   Flow flow_{};
+  std::vector<std::pair<double, double>> taken_{};  ///< times, and what was dissipated until then
+  Vector peaks_{}, last_{};  ///< of what is watched: the largest, those at the last step
 };
 
 }  // namespace

@@ -141,12 +141,15 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
                                                  frozen.landscape().damping(*there));
   }
   const Landscape landscape(std::move(terrain));
-  FlowOptions options{.goes_on = goes_on};
+  // Errors of the energy add up over many swings.
+  FlowOptions options{.relative = 1e-9, .absolute = 1e-12, .goes_on = goes_on};
   if (is_massive)
     options.most_steps =
         steps_until_rest(there->hessian, masses.along_motions(*there), landscape.damping(*there));
-  const Flow flow = flow_by_cvode({landscape, [&masses](const Vector& x) { return masses.at(x); }},
-                                  from, options);
+  Motion moving{landscape};
+  moving.masses = [&masses](const Vector& x) { return masses.at(x); };
+  moving.curvatures = [&masses](const Vector& x) { return masses.curvatures_at(x); };
+  const Flow flow = flow_by_cvode(moving, from, options);
   InertialMotion& motion = result.motion;
   motion.end = end_of(flow.end);
   if (flow.end == Flow::End::rest) result.landing = flow.state;
@@ -155,7 +158,7 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
            motion.peak_force_of);
   put_peak(frozen, flow.peak_multipliers, false, scales.moment(), motion.peak_moment,
            motion.peak_moment_of);
-  motion.duration = flow.time * time;
+  motion.duration = flow.settled * time;
   motion.dissipated = flow.dissipated * scales.moment();
   motion.closure = flow.closure;
   return result;

@@ -16,6 +16,8 @@ class Masses {
   double largest() const { return largest_; }  ///< 0: there are none
   /// In units of the largest.
   std::vector<MassPoint> at(const Vector& x) const;
+  /// Second derivatives of the coordinates of each of them by the moving unknowns.
+  std::vector<std::array<Matrix, 3>> curvatures_at(const Vector& x) const;
   /// Of all motions that keep the closures, k x k.
   Matrix along_motions(const Ground& ground) const;
 
@@ -25,6 +27,8 @@ class Masses {
     std::size_t point = 0;
     bool has_speed = true;
   };
+  /// The coordinates of a mass's point in a state of all unknowns of the statics.
+  Vector variables_of(const statics::PointSlice& slice, const Vector& z) const;
   const Frozen& frozen_;
   statics::System system_{};  ///< as the landscape's, with a point at every mass
   Matrix spread_{};           ///< derivative of the statics' unknowns by the moving ones

@@ -56,19 +56,49 @@ Masses::Masses(const Frozen& frozen) : frozen_{frozen} {
   }
 }
 
+Vector Masses::variables_of(const statics::PointSlice& slice, const Vector& z) const {
+  const Vector rho = frozen_.problem().inputs(0).rho;
+  Vector v(slice.point.variable_count());
+  for (Index k = 0; k < v.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    v[k] = (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
+  }
+  return v;
+}
+
+std::vector<std::array<Matrix, 3>> Masses::curvatures_at(const Vector& x) const {
+  const Vector z = frozen_.unknowns(x);
+  std::vector<std::array<Matrix, 3>> list;
+  model::PointMotion<double> motion;
+  for (const Mass& mass : masses_) {
+    const statics::PointSlice& slice = system_.points[mass.point];
+    const Vector v = variables_of(slice, z);
+    model::evaluate_point<double>(slice.point, v, motion);
+    Matrix spread = Matrix::Zero(v.size(), spread_.cols());
+    for (Index k = 0; k < v.size(); ++k)
+      if (const Index i = slice.z[static_cast<std::size_t>(k)]; i >= 0)
+        spread.row(k) = spread_.row(i);
+    std::array<Matrix, 3> second;
+    second.fill(Matrix(v.size(), v.size()));
+    for (Index j = 0; j < v.size(); ++j)
+      for (Index k = 0; k < v.size(); ++k) {
+        const model::Vec3<double> bend = model::second_displacement<double>(motion, j, k);
+        for (std::size_t r = 0; r < 3; ++r) second[r](j, k) = bend[static_cast<Index>(r)];
+      }
+    for (Matrix& of_coordinate : second)
+      of_coordinate = spread.transpose() * of_coordinate * spread;
+    list.push_back(std::move(second));
+  }
+  return list;
+}
+
 std::vector<MassPoint> Masses::at(const Vector& x) const {
   const Vector z = frozen_.unknowns(x);
-  const Vector rho = frozen_.problem().inputs(0).rho;
   std::vector<MassPoint> list;
   model::PointMotion<double> motion;
   for (const Mass& mass : masses_) {
     const statics::PointSlice& slice = system_.points[mass.point];
-    Vector v(slice.point.variable_count());
-    for (Index k = 0; k < v.size(); ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      v[k] =
-          (slice.z[i] >= 0 ? z[slice.z[i]] : 0.0) + (slice.rho[i] >= 0 ? rho[slice.rho[i]] : 0.0);
-    }
+    const Vector v = variables_of(slice, z);
     model::evaluate_point<double>(slice.point, v, motion);
     Matrix jacobian = Matrix::Zero(3, spread_.cols());
     for (Index k = 0; k < v.size(); ++k)

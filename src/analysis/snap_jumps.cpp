@@ -71,7 +71,7 @@ class Jumper {
               "a way down ended at no state that is known to be stable: the verdict is open");
       settle(frozen, event, way, down, book, jump);
       write(frozen, state_of(frozen, branch, loss.stable_row), down, book, jump);
-      if (settings_.inertia) move_with_masses(frozen, event, way, down, book, jump);
+      if (settings_.inertia) move_with_masses(frozen, event, critical, way, down, book, jump);
       findings_.report.jumps.push_back(std::move(jump));
     }
   }
@@ -151,11 +151,16 @@ class Jumper {
   }
 
   /// The motion with masses; where the answer is unambiguous it has to end at the landing.
-  void move_with_masses(const Frozen& frozen, const Event& event, const Departure& way,
-                        const Fall& down, StateBook& book, Jump& jump) {
+  void move_with_masses(const Frozen& frozen, const Event& event, const Vector& critical,
+                        const Departure& way, const Fall& down, StateBook& book, Jump& jump) {
     const RestState* landing = down.landing ? &book.states()[*down.landing] : nullptr;
+    const auto& moving = frozen.landscape().moving();
+    const double far = landing == nullptr ? 0 : Vector((landing->x - critical)(moving)).norm();
+    const Departure begin =
+        landing == nullptr ? way : shortened(frozen.landscape(), critical, way, far);
     Inertial inertial =
-        inertial_motion(frozen, scales_, *settings_.inertia, way.x, landing, goes_on());
+        inertial_motion(frozen, scales_, *settings_.inertia, begin.x, landing, goes_on());
+    if (landing != nullptr) inertial.motion.push = begin.amplitude / far;
     if (inertial.landing) {
       inertial.motion.landing = written(frozen, *inertial.landing);
       inertial.motion.released = jump.critical.energy - inertial.motion.landing.energy;
@@ -268,8 +273,19 @@ class Jumper {
     return result;
   }
 
+  /// Height of the lowest saddle from which a way down leads to a minimum; infinite where there is none.
+  double barrier_around(std::size_t minimum, const Fall& fall, StateBook& book) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const std::size_t s : fall.saddles) {
+      const std::vector<std::size_t>& beside = book.ways_from(s).minima;
+      if (std::find(beside.begin(), beside.end(), minimum) != beside.end())
+        lowest = std::min(lowest, book.states()[s].energy - book.states()[minimum].energy);
+    }
+    return scales_.moment() * lowest;
+  }
+
   /// @param before  a state on the stable side of the point that is left
-  void write(const Frozen& frozen, const Vector& before, const Fall& fall, const StateBook& book,
+  void write(const Frozen& frozen, const Vector& before, const Fall& fall, StateBook& book,
              Jump& jump) {
     jump.verdict = fall.verdict;
     jump.may_run_away = fall.may_run_away;
@@ -278,6 +294,9 @@ class Jumper {
     for (const std::size_t s : fall.saddles)
       jump.saddles.push_back(written(frozen, book.states()[s]));
     if (!fall.landing) return;
+    jump.barriers = {barrier_around(*fall.landing, fall, book)};
+    for (const std::size_t m : fall.minima)
+      if (m != fall.landing) jump.barriers.push_back(barrier_around(m, fall, book));
     const RestState& landing = book.states()[*fall.landing];
     jump.landing = written(frozen, landing);
     jump.released = jump.critical.energy - jump.landing.energy;

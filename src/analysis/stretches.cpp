@@ -18,15 +18,6 @@ using Kind = QuantityDefinition::Kind;
 /// States of one lambda that are farther apart than this are different before they are polished.
 constexpr double far_apart = 0.1;
 
-bool is_near(const Frozen& frozen, const Vector& a, const Vector& b) {
-  const Landscape& landscape = frozen.landscape();
-  for (const Index i : landscape.moving()) {
-    const double d = a[i] - b[i], period = landscape.periods()[i];
-    if (std::abs(period > 0 ? std::remainder(d, period) : d) > far_apart) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Stretches::Stretches(const Tracing& t, const Scales& scales, const SnapSettings& settings,
@@ -44,9 +35,10 @@ bool Stretches::is_full() const { return count() >= settings_.transitions->maxim
 void Stretches::follow(const continuation::DiagramStart& from) {
   if (is_full()) return;
   auto stretch = trace_stable(t_, from);
-  if (stretch)
+  if (stretch) {
+    tracks_.push_back(track_of(*stretch));
     list_.push_back(std::move(*stretch));
-  else
+  } else
     result_.doubts.push_back("a stable state was found from which no single branch leads on");
 }
 
@@ -58,7 +50,6 @@ void Stretches::follow_new(const Frozen& frozen, const RestState& state) {
   point.piece = state.piece;
   if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return;
   follow({point.x, point.lambda, point.piece});
-  write_branches();
 }
 
 void Stretches::write_branches() {
@@ -72,45 +63,67 @@ void Stretches::write_branches() {
 }
 
 int Stretches::number_of(const Frozen& frozen, const Vector& x) const {
-  for (std::size_t b = 0; b < result_.branches.size(); ++b)
-    if (const auto near = near_on(frozen, b); near && is_near(frozen, *near, x)) {
-      const auto state = rest_near(frozen.landscape(), *near);
+  for (std::size_t b = 0; b < list_.size(); ++b)
+    if (passes(frozen, b, x)) {
+      const auto state = rest_near(frozen.landscape(), *near_on(frozen, b));
       if (state && frozen.landscape().same(state->x, x)) return static_cast<int>(b) + 1;
     }
   return 0;
 }
 
-/// The stretch's state at this lambda, between its rows.
-std::optional<Vector> Stretches::near_on(const Frozen& frozen, std::size_t branch) const {
-  const auto& samples = result_.branches[branch].samples;
-  for (std::size_t r = 0; r + 1 < samples.size(); ++r) {
-    if (samples[r].values[index_] > 0 && samples[r + 1].values[index_] > 0) continue;
-    const double from = samples[r].values[lambda_] / t_.lambda_scale - frozen.lambda();
-    const double to = samples[r + 1].values[lambda_] / t_.lambda_scale - frozen.lambda();
-    if (from * to > 0 || from >= to) continue;
-    const Vector p = unknowns_in(samples[r].values, t_.quantities, size_);
-    const Vector q = unknowns_in(samples[r + 1].values, t_.quantities, size_);
-    return frozen.reduced(p + from / (from - to) * (q - p));
+Stretches::Track Stretches::track_of(const StableStretch& stretch) const {
+  Track track;
+  const Frozen any = frozen(stretch.rows.branch.samples.front().values[lambda_] / t_.lambda_scale);
+  for (const Sample& sample : stretch.rows.branch.samples) {
+    track.lambda.push_back(sample.values[lambda_] / t_.lambda_scale);
+    track.x.push_back(any.reduced(unknowns_in(sample.values, t_.quantities, size_)));
+    track.is_stable.push_back(!(sample.values[index_] > 0));
+  }
+  return track;
+}
+
+std::optional<Stretches::Place> Stretches::place_on(const Track& track, double lambda) {
+  for (std::size_t r = 0; r + 1 < track.lambda.size(); ++r) {
+    const double from = track.lambda[r] - lambda, to = track.lambda[r + 1] - lambda;
+    if (from * to > 0 || from >= to || !(track.is_stable[r] || track.is_stable[r + 1])) continue;
+    return Place{r, from / (from - to)};
   }
   return std::nullopt;
 }
 
+std::optional<Vector> Stretches::near_on(const Frozen& frozen, std::size_t stretch) const {
+  const Track& track = tracks_[stretch];
+  const auto at = place_on(track, frozen.lambda());
+  if (!at) return std::nullopt;
+  return Vector(track.x[at->row] + at->part * (track.x[at->row + 1] - track.x[at->row]));
+}
+
+bool Stretches::passes(const Frozen& frozen, std::size_t stretch, const Vector& x) const {
+  const Track& track = tracks_[stretch];
+  const auto at = place_on(track, frozen.lambda());
+  if (!at) return false;
+  const Landscape& landscape = frozen.landscape();
+  const Vector &from = track.x[at->row], &to = track.x[at->row + 1];
+  return std::all_of(landscape.moving().begin(), landscape.moving().end(), [&](Index i) {
+    const double d = from[i] + at->part * (to[i] - from[i]) - x[i];
+    const double period = landscape.periods()[i];
+    return std::abs(period > 0 ? std::remainder(d, period) : d) <= far_apart;
+  });
+}
+
 StateBook Stretches::book_at(const Frozen& frozen) const {
   StateBook book(frozen.landscape());
-  for (std::size_t b = 0; b < result_.branches.size(); ++b)
+  for (std::size_t b = 0; b < list_.size(); ++b)
     if (const auto near = near_on(frozen, b))
       if (const auto state = rest_near(frozen.landscape(), *near)) book.add(*state);
   if (!book.states().empty()) return book;
-  for (std::size_t b = 0; b < result_.branches.size(); ++b) {
-    const auto& samples = result_.branches[b].samples;
-    const auto distance = [&](const Sample& sample) {
-      return std::abs(sample.values[lambda_] / t_.lambda_scale - frozen.lambda());
-    };
-    const auto nearest = std::min_element(
-        samples.begin(), samples.end(),
-        [&](const Sample& p, const Sample& q) { return distance(p) < distance(q); });
-    if (nearest == samples.end()) continue;
-    Vector x = frozen.reduced(unknowns_in(nearest->values, t_.quantities, size_));
+  for (const Track& track : tracks_) {
+    const auto distance = [&](double lambda) { return std::abs(lambda - frozen.lambda()); };
+    const auto nearest =
+        std::min_element(track.lambda.begin(), track.lambda.end(),
+                         [&](double p, double q) { return distance(p) < distance(q); });
+    if (nearest == track.lambda.end()) continue;
+    Vector x = track.x[static_cast<std::size_t>(nearest - track.lambda.begin())];
     if (frozen.landscape().close(x)) book.ways_down(x);
   }
   return book;

@@ -51,7 +51,23 @@ class Stretches {
   const std::vector<Loss>& losses() const { return losses_; }
 
  private:
-  std::optional<Vector> near_on(const Frozen& frozen, std::size_t branch) const;
+  /// A stretch's states, to find one by its lambda.
+  struct Track {
+    std::vector<double> lambda{};
+    std::vector<Vector> x{};        ///< unknowns of the landscape
+    std::vector<bool> is_stable{};  ///< beyond the ends it is not
+  };
+  /// Between two rows: row + part of the way to the next one.
+  struct Place {
+    std::size_t row = 0;
+    double part = 0;
+  };
+  Track track_of(const StableStretch& stretch) const;
+  static std::optional<Place> place_on(const Track& track, double lambda);
+  /// The stretch's state at this lambda, not polished.
+  std::optional<Vector> near_on(const Frozen& frozen, std::size_t stretch) const;
+  /// Does the stretch come near a state of this lambda?
+  bool passes(const Frozen& frozen, std::size_t stretch, const Vector& x) const;
   std::size_t end_row(std::size_t branch, int direction) const;
 
   const Tracing& t_;
@@ -61,7 +77,8 @@ class Stretches {
   std::size_t lambda_, index_;
   Index size_;
   std::vector<StableStretch> list_{};
-  std::vector<Loss> losses_{};  ///< of all stretches
+  std::vector<Track> tracks_{};  ///< of the same
+  std::vector<Loss> losses_{};   ///< of all stretches
 };
 
 }  // namespace springfold::analysis

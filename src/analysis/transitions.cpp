@@ -1,7 +1,10 @@
 #include "transitions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 
 #include "barriers.hpp"
 #include "stretches.hpp"
@@ -42,8 +45,10 @@ class Explorer {
     connect(found);
     judge_transitions(found);
     for (const double lambda : settings_.transitions->barriers_at)
-      if (goes_on())
-        find_barriers(stretches_, t_, scales_, settings_, lambda / t_.lambda_scale, result_, found);
+      if (goes_on()) {
+        Searched& at = searched_at(lambda / t_.lambda_scale);
+        find_barriers(stretches_, t_, scales_, at.frozen, at.book, result_, found);
+      }
     if (!goes_on() && t_.crawl.factor() == 1)
       result_.doubts.push_back("interrupted: states and transitions are missing");
   }
@@ -74,16 +79,37 @@ class Explorer {
 
   /// Until all states of this lambda to which jumps lead are among those that the search began with or found.
   void search(double lambda) {
-    const Frozen frozen = stretches_.frozen(lambda);
+    Searched& at = searched_at(lambda);
     std::size_t known = 0;
     do {
-      StateBook book = stretches_.book_at(frozen);
-      search_all(book, settings_);
-      for (const RestState& state : book.states())
-        if (is_minimum(state) && goes_on()) stretches_.follow_new(frozen, state);
-      known = stretches_.book_at(frozen).states().size();
+      search_all(at.book, settings_);
+      for (const RestState& state : at.book.states())
+        if (is_minimum(state) && goes_on()) stretches_.follow_new(at.frozen, state);
+      take_known(at);
+      known = at.book.states().size();
       follow_jumps();
-    } while (stretches_.book_at(frozen).states().size() > known && goes_on());
+      take_known(at);
+    } while (at.book.states().size() > known && goes_on());
+  }
+
+  /// One lambda with all that was found there.
+  struct Searched {
+    Searched(const Stretches& stretches, double lambda)
+        : frozen{stretches.frozen(lambda)}, book{stretches.book_at(frozen)} {}
+    Frozen frozen;
+    StateBook book;
+  };
+
+  Searched& searched_at(double lambda) {
+    auto& at = searches_[lambda];
+    if (!at) at = std::make_unique<Searched>(stretches_, lambda);
+    return *at;
+  }
+
+  /// The states of all stretches.
+  void take_known(Searched& at) const {
+    const StateBook known = stretches_.book_at(at.frozen);
+    for (const RestState& state : known.states()) at.book.add(state);
   }
 
   /// Jumps and handovers from the ends of the stretches from .. to.
@@ -138,15 +164,29 @@ class Explorer {
     });
   }
 
+  /// Where a stretch reaches the study's limit of lambda, that number itself: states that end there end at one place.
+  double end_of(int stretch, int direction) const {
+    constexpr double located = 1e-10;
+    const double end = t_.lambda_scale * stretches_.end_of(stretch, direction);
+    if (stretches_.ends(stretch, direction)) return end;
+    for (const Limit& limit : t_.study.until) {
+      const double bound = direction > 0 ? limit.high : limit.low;
+      if (limit.quantity == "lambda" &&
+          std::abs(end - bound) <= located * std::max(t_.lambda_scale, std::abs(bound)))
+        return bound;
+    }
+    return end;
+  }
+
   void describe(TransitionReport& found) const {
     for (int b = 1; b <= stretches_.count(); ++b) {
       const Branch& branch = result_.branches[static_cast<std::size_t>(b - 1)];
       const Sample& start = branch.samples[branch.start_row];
       StableState state{.label = "S" + std::to_string(b), .branch = b};
-      state.low = t_.lambda_scale * stretches_.end_of(b, -1);
-      state.high = t_.lambda_scale * stretches_.end_of(b, 1);
       state.low_is_limit = !stretches_.ends(b, -1);
       state.high_is_limit = !stretches_.ends(b, 1);
+      state.low = end_of(b, -1);
+      state.high = end_of(b, 1);
       state.found = {start.values, start.piece,     std::numeric_limits<double>::quiet_NaN(), 0,
                      state.branch, branch.start_row};
       const double lambda =
@@ -215,7 +255,8 @@ class Explorer {
   SnapReport& report_;
   Stretches stretches_;
   Index size_;
-  int done_ = 0;  ///< stretches whose ends were left
+  int done_ = 0;                                            ///< stretches whose ends were left
+  std::map<double, std::unique_ptr<Searched>> searches_{};  ///< by dimensionless lambda
 };
 
 }  // namespace

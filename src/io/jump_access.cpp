@@ -30,11 +30,13 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Height of the lowest saddle of the jump's basin above a state.
+/// How far the lowest saddle beside the landing, or beside another state of the jump, lies above it.
 double barrier_of(const Jump& jump, const SnapState& state) {
-  double lowest = nothing;
-  for (const SnapState& saddle : jump.saddles) lowest = std::fmin(lowest, saddle.energy);
-  return lowest - state.energy;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < jump.others.size(); ++i)
+    if (&jump.others[i] == &state) number = i + 1;
+  const double height = number < jump.barriers.size() ? jump.barriers[number] : nothing;
+  return std::isfinite(height) ? height : nothing;
 }
 
 double value_of(const StudyResult& result, const Jump& jump, const SnapState& state,

@@ -74,8 +74,9 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
               (motion.peak_force_of.empty() ? ""
                                             : ", peak force " + rounded(motion.peak_force, few) +
                                                   " (" + motion.peak_force_of + ")") +
-              ", " + rounded(motion.duration, few) +
-              " after a push of 1e-3 radian or sizes of the mechanism");
+              ", settled " + rounded(motion.duration, few) + " after a push of " +
+              (std::isnan(motion.push) ? "1e-3 radian or sizes of the mechanism"
+                                       : rounded(motion.push, few) + " of the way to the landing"));
   return text;
 }
 
@@ -91,6 +92,9 @@ std::string lines_of(const StudyResult& result, const Jump& jump, const std::str
         "", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
     text += summary_line("", "released " + rounded(jump.released, summary_digits) + energy +
                                  ", overdamped time scale " + rounded(jump.time_scale, 4));
+    if (!jump.barriers.empty() && std::isfinite(jump.barriers.front()))
+      text += summary_line("", "held there by a barrier of " +
+                                   rounded(jump.barriers.front(), summary_digits) + energy);
   }
   for (const SnapState& other : jump.others)
     text += summary_line(
@@ -145,6 +149,7 @@ Json inertial_json(const StudyResult& result, const Jump& jump) {
           {"massless", motion.massless},
           {"landing", by_quantity(result, motion.landing)},
           {"released", motion.released},
+          {"push", motion.push},
           {"peak_speed", motion.peak_speed},
           {"peak_force", motion.peak_force},
           {"peak_force_of", motion.peak_force_of},
@@ -174,6 +179,7 @@ Json json_of(const StudyResult& result, const Jump& jump) {
           {"landing", by_quantity(result, jump.landing)},
           {"others", list_of(result, jump.others)},
           {"saddles", list_of(result, jump.saddles)},
+          {"barriers", jump.barriers},
           {"may_run_away", jump.may_run_away},
           {"time_scale", jump.time_scale},
           {"switches", jump.switches},
@@ -200,6 +206,15 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
         summary_line(handover.at, "no jump: branch " + std::to_string(handover.branch) +
                                       " hands over to branch " + std::to_string(handover.next) +
                                       (handover.towards.empty() ? "" : ", " + handover.towards));
+  const bool claims_one = std::any_of(report.jumps.begin(), report.jumps.end(), [](const Jump& j) {
+    return j.verdict == analysis::SnapVerdict::unambiguous;
+  });
+  if (claims_one && !report.transitions)
+    text +=
+        summary_line("jumps",
+                     "checked: landings are stable, and the energy falls on the whole way there; "
+                     "\"unambiguous\" rests on a search: no other state was found below the "
+                     "critical energy");
   return text + cycle_lines(result, units) + transition_lines(result, units);
 }
 

@@ -161,6 +161,10 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
   text +=
       summary_line("", report->is_closed ? "every transition within the range leads to one of them"
                                          : "NOT CLOSED: a transition leads nowhere that is known");
+  text += summary_line(
+      "",
+      "checked: every state is stable within its stretch, where that ends, and where the "
+      "overdamped motion goes from there; searched only: further states, lower saddles");
   if (report->limit_reached) text += summary_line("", "NOT COMPLETE: as many states as allowed");
   text += summary_line("memory", "return-point memory " + memory_word(report->memory) + ", " +
                                      std::to_string(report->loops) + " loops gone through");

@@ -202,8 +202,7 @@ TEST(MotionWithMasses, IsAsFastAsTheReleasedEnergyAllows) {
   const double all = std::sqrt(2 * jump->released / mass);
   EXPECT_LT(jump->inertial->peak_speed, all);
   EXPECT_GT(jump->inertial->peak_speed, 0.9 * all);
-  constexpr double of_a_step = 1e-8;                  // of the coordinates, which are of order 1
-  EXPECT_LT(jump->inertial->closure, 3 * of_a_step);  // a few steps' errors, until they fade
+  EXPECT_LT(jump->inertial->closure, 1e-12);
 }
 
 TEST(MotionWithMasses, IsRefusedWhereNothingWithAMassMoves) {

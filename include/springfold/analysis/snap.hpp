@@ -59,13 +59,15 @@ struct InertialMotion {
   SnapState landing{};
   double released =
       std::numeric_limits<double>::quiet_NaN();  ///< Pi(critical) - Pi(landing) [energy]
+  /// The push after which it begins, as a part of the straight way to the overdamped landing; NaN: there is none.
+  double push = std::numeric_limits<double>::quiet_NaN();
   double peak_speed = std::numeric_limits<double>::quiet_NaN();  ///< of a mass [length/time]
   double peak_force = std::numeric_limits<double>::quiet_NaN();  ///< component of a chain's wrench
   std::string peak_force_of{};                                   ///< "leg.Fx"
   double peak_moment = std::numeric_limits<double>::quiet_NaN();
   std::string peak_moment_of{};
-  double duration =
-      std::numeric_limits<double>::quiet_NaN();  ///< from the push until nearly at rest [time]
+  double duration = std::numeric_limits<
+      double>::quiet_NaN();  ///< from the push until 0.9999 of the energy is dissipated [time]
   double dissipated = std::numeric_limits<double>::quiet_NaN();  ///< work of the dampers [energy]
   double closure = 0;  ///< largest gap of the closures on the way [-]
 };
@@ -95,7 +97,9 @@ struct Jump {
   SnapState critical{}, landing{};   ///< landing: empty values if there is none
   std::vector<SnapState> others{};   ///< further minima in the same part of {Pi < Pi(critical)}
   std::vector<SnapState> saddles{};  ///< the saddles in it that join them
-  bool may_run_away = false;         ///< a way without end leads out of it too
+  /// How far the lowest saddle beside the landing, then beside each of the others, lies above it [energy].
+  std::vector<double> barriers{};
+  bool may_run_away = false;  ///< a way without end leads out of it too
   double released =
       std::numeric_limits<double>::quiet_NaN();  ///< Pi(critical) - Pi(landing) [energy]
   double time_scale =
