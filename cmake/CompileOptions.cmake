@@ -20,7 +20,8 @@ if(SPRINGFOLD_SANITIZE)
   # Everything that is linked together must agree on these, so they go into all targets.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
-  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  # Compilers tell the sources in different ways that sanitizers are on; this is the same for all.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS SPRINGFOLD_SANITIZED)
   # Eigen moves null pointers of matrices without entries; nothing is read there.
   add_compile_options($<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=pointer-overflow>)
   add_link_options(-fsanitize=address,undefined)

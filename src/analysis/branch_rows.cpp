@@ -100,11 +100,16 @@ std::vector<Entry> reversed(std::vector<Entry> entries) {
   return entries;
 }
 
-/// Does the force turn back at a switching although it is regular on both sides?
+/// Does the force turn back at a switching although it is regular on both sides? A rate that is nothing beside that on the
+/// other side, at the end of a dead band, has no sign.
 bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quantities) {
-  for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (quantities[q].kind == QuantityDefinition::Kind::force)
-      return event.rates_before[q] * event.rates_after[q] < 0;
+  constexpr double rounding = 1e-12;
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (quantities[q].kind != QuantityDefinition::Kind::force) continue;
+    const double before = event.rates_before[q], after = event.rates_after[q];
+    const double least = rounding * std::max(std::abs(before), std::abs(after));
+    return before * after < 0 && std::abs(before) > least && std::abs(after) > least;
+  }
   return false;
 }
 

@@ -11,7 +11,7 @@ namespace springfold::analysis {
 namespace {
 
 /// Lambda crawls where x moves by less than this share of it.
-constexpr double alone = 1.0 / 64;
+constexpr double alone = 1.0 / 8;
 
 /// A curve has become steeper by orders of magnitude.
 constexpr double much_steeper = 16;
@@ -19,8 +19,9 @@ constexpr double much_steeper = 16;
 /// Over so many units of arc length, 160 of the longest default steps, before the unit is taken to be too small.
 constexpr double long_way = 16;
 
-/// Where x stands still at the start its response says nothing: the unit comes from the first critical load, and the others
-/// may be orders of magnitude away. After a long way it grows by this factor, no farther than a finite range asks for.
+/// Where x hardly moves up to the first critical load the unit comes from that, and everything else may be orders of magnitude
+/// away: on a trivial branch, and where the curve begins just beside a critical point. After a long way the unit grows by this
+/// factor, no farther than a finite range asks for.
 constexpr double next_unit = 16;
 
 double length_in(const Vector& weights, const Vector& dx) {
@@ -58,16 +59,15 @@ bool LambdaCrawl::sees(const continuation::CurvePoint& point) {
   by_x_ += dx;
   by_lambda_ += dlambda;
   last_ = point;
-  if (trivial) {
-    const double wanted =
-        std::isfinite(range_) ? power_of_two_near(range_ / longest_straight_way) : 1;
-    if (by_lambda_ >= longest_straight_way)
-      factor_ = std::max(1.0, std::min({largest_, next_unit, wanted}));
-    return factor_ > 1;
-  }
-  if (by_lambda_ < long_way || by_x_ > slope_at_start_ / much_steeper * by_lambda_) return false;
-  factor_ =
-      std::min(largest_, power_of_two_near(continuation::slopes_in_a_unit * by_lambda_ / by_x_));
+  const double by_response =
+      trivial ? 1 : power_of_two_near(continuation::slopes_in_a_unit * by_lambda_ / by_x_);
+  if (!trivial && by_lambda_ >= long_way && by_x_ <= slope_at_start_ / much_steeper * by_lambda_)
+    factor_ = std::min(largest_, by_response);
+  else if (by_lambda_ >= longest_straight_way)
+    factor_ = std::max(
+        1.0, std::min({largest_, next_unit,
+                       std::isfinite(range_) ? power_of_two_near(range_ / longest_straight_way)
+                                             : by_response}));
   return factor_ > 1;
 }
 

@@ -1,8 +1,8 @@
 #include "springfold/analysis/run.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "branch_rows.hpp"
 #include "branches.hpp"
@@ -224,10 +224,22 @@ RedundantClosures redundant_closures(const Setup& setup) {
 
 }  // namespace
 
+void require_usable(const model::Mechanism& mechanism, const Study& study) {
+  std::vector<std::string> problems = model::problems_in(mechanism);
+  if (problems.empty()) problems = problems_in(study, mechanism);
+  if (problems.empty()) return;
+  std::string all;
+  for (const std::string& problem : problems) all += (all.empty() ? "" : "; ") + problem;
+  throw std::invalid_argument(all);
+}
+
 StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
                       const ParameterFamily* family, const Observer& observer,
                       const RunOptions& options) {
-  assert(problems_in(study, mechanism).empty());
+  require_usable(mechanism, study);
+  if (study.kind == StudyKind::force_deflection && study.control == ControlMode::parameter &&
+      family == nullptr)
+    throw std::invalid_argument("control: parameter needs a family of mechanisms");
   if (study.kind == StudyKind::control) return run_control(mechanism, study, observer);
   if (study.kind == StudyKind::map) return run_map(mechanism, study, observer, options);
   if (study.kind == StudyKind::workspace) return run_workspace(mechanism, study, observer);
@@ -357,7 +369,7 @@ Study first_curve_of(const Study& study) {
 
 std::optional<StartReport> solve_start(const model::Mechanism& given, const Study& of,
                                        const ParameterFamily* family) {
-  assert(problems_in(of, given).empty());
+  require_usable(given, of);
   const bool can_trace = of.control != ControlMode::parameter || family != nullptr;
   const Study study = can_trace ? first_curve_of(of) : of;
   if (study.kind == StudyKind::control) return run_control(given, first_target(study), {}).start;

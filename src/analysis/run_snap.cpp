@@ -121,6 +121,7 @@ std::string to_string(LoadCycle::End end) {
 SnapResult run_with_jumps(const model::Mechanism& mechanism, const Study& study,
                           const ParameterFamily* family, const SnapSettings& settings,
                           const Observer& observer) {
+  require_usable(mechanism, study);
   SnapResult snap;
   snap.traced = run_from_start(mechanism, study, family, observer,
                                [&](const Tracing& tracing, const Scales& scales,

@@ -23,10 +23,13 @@ std::size_t end_of_font(std::string_view text, std::size_t begin) {
 std::string gnuplot_string(std::string_view text) {
   std::string one_line{text};
   std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  // A doubled quote stands for one only behind another character (gnuplot 5.4): a quote is a string of its own, by its code.
   std::string result = "'";
   for (const char c : shown(one_line)) {
-    if (c == '\'') result += '\'';
-    result += c;
+    if (c == '\'')
+      result += "'.\"\\047\".'";
+    else
+      result += c;
   }
   return result + "'";
 }

@@ -1,9 +1,9 @@
 // Memory from the heap: none for the equations of a path, and for a step only what is kept of it.
 #include <gtest/gtest.h>
 
-#include "allocations.hpp"
 #include "path_problems.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "statics/allocations.hpp"
 
 #ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
 long allocations = 0;

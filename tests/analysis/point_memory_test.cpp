@@ -1,9 +1,9 @@
 // Loads and springs at points of a path's equations: no memory from the heap either.
 #include <gtest/gtest.h>
 
-#include "allocations.hpp"
 #include "analysis/path_problem.hpp"
 #include "command_mechanisms.hpp"
+#include "statics/allocations.hpp"
 
 #ifdef SPRINGFOLD_COUNTS_ALLOCATIONS
 namespace springfold::analysis {

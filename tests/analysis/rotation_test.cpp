@@ -3,7 +3,6 @@
 
 #include <numbers>
 
-#include "allocations.hpp"
 #include "analysis/column.hpp"
 #include "analysis/path_problem.hpp"
 #include "analysis/quaternion.hpp"
@@ -11,6 +10,7 @@
 #include "springfold/analysis/run.hpp"
 #include "springfold/core/differences.hpp"
 #include "springfold/model/elastic_link.hpp"
+#include "statics/allocations.hpp"
 
 namespace springfold::analysis {
 namespace {

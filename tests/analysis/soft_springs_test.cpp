@@ -116,6 +116,26 @@ TEST_P(SoftSprings, HaveEverySpecialPointOfTheClosedFormUnderEveryControl) {
   }
 }
 
+/// At -sqrt(1/2) the branch point is at the start itself. The unit of lambda that it promises beside it is a thousand times
+/// too small for the rest of the curve.
+TEST(StartBesideACriticalPoint, LeadsToEverySpecialPointAsAnyOther) {
+  for (const double Kv : {0.0, 1e-6, 0.01})
+    for (const ControlMode control : {ControlMode::load, ControlMode::mixed}) {
+      SCOPED_TRACE(testing::Message() << to_string(control) << " with " << Kv);
+      constexpr double start = -0.716;
+      const ClosedForm truth(Kv, start);
+      analysis::Study study = diagonal_study(start);
+      study.control = control;
+      const auto result = run_study(planar_orthoglide(linear_knee(Kv)), study);
+      ASSERT_TRUE(complete(result));
+      EXPECT_LE(result.branches.front().samples.size(), 500u);
+      expect_events(result, EventKind::limit_point, zeros([&](double s) { return truth.along(s); }),
+                    truth);
+      expect_events(result, EventKind::branch_point,
+                    zeros([&](double s) { return truth.across(s); }), truth);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(FromNothingToStiff, SoftSprings,
                          testing::Values(0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.05,
                                          0.1, 1, 1e3));

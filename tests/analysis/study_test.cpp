@@ -1,6 +1,7 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <limits>
+#include <stdexcept>
 
 #include "cases/planar_orthoglide.hpp"
 
@@ -9,6 +10,8 @@ namespace {
 
 using analysis::EventKind;
 using analysis::StudyResult;
+using testing::AllOf;
+using testing::HasSubstr;
 
 StudyResult within(std::vector<analysis::Limit> until) {
   auto study = diagonal_study(0.454);
@@ -132,6 +135,35 @@ TEST(Study, GivesTheSameBitsTwice) {
       const double x = a.branches[0].samples[i].values[q], y = b.branches[0].samples[i].values[q];
       EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y)));
     }
+}
+
+TEST(StudiesOfTheLibrary, ThatCannotBeUsedAreRefusedWithAllThatIsWrong) {
+  const auto mechanism = planar_orthoglide(linear_knee(0.01));
+  const auto said_by = [](const model::Mechanism& given, const analysis::Study& study) {
+    try {
+      run_study(given, study);
+    } catch (const std::invalid_argument& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  const auto study = diagonal_study(0.454);
+  auto wrong = study;
+  wrong.start.pose = Vector::Zero(3);
+  wrong.direction = Vector::Zero(2);
+  EXPECT_THAT(said_by(mechanism, wrong), AllOf(HasSubstr("start.pose"), HasSubstr("direction")));
+  wrong = study;
+  wrong.body = 2;
+  EXPECT_THAT(said_by(mechanism, wrong), HasSubstr("no such moving body"));
+  wrong = study;
+  wrong.control = analysis::ControlMode::parameter;
+  wrong.parameter = "Kv";
+  EXPECT_THAT(said_by(mechanism, wrong), HasSubstr("needs a family"));
+  auto broken = mechanism;
+  broken.bodies[0].mass = -1;
+  broken.chains[1].to = 7;
+  EXPECT_THAT(said_by(broken, study), AllOf(HasSubstr("mass"), HasSubstr("no such body")));
+  EXPECT_THROW(solve_start(broken, study), std::invalid_argument);
 }
 
 }  // namespace

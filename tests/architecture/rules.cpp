@@ -34,7 +34,7 @@ const std::map<std::string, Layers> rooms_below{
     {"kinks", {"numerics", "linear", "points", "locating"}},
     {"branches", {"numerics", "linear", "points", "locating", "kinks"}},
     {"following", {"numerics", "linear", "points", "locating", "kinks"}},
-    {"parameters", {"numerics", "linear"}},
+    {"parameters", {"numerics", "linear", "points"}},
 };
 
 struct Library {

@@ -35,7 +35,7 @@ int rows_that_differ(const analysis::StudyResult& result, const std::string& one
 }
 
 TEST(EveryCase, CountsTheSameModesUnstableUnderLoadControlAsUnderDeadLoad) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef SPRINGFOLD_SANITIZED
   GTEST_SKIP() << "takes minutes with sanitizers; other tests run the same code with them";
 #endif
   int studies = 0;

@@ -51,7 +51,7 @@ class FigureText : public testing::Test {
   /// A text that gnuplot, its macros, its markup and its strings would each like to take apart.
   std::string bait(const std::string& name) const {
     const std::string touch = "touch " + (scratch.path() / "pwned").string();
-    return name + " `" + touch + "` $(" + touch +
+    return "''" + name + "'' `" + touch + "` $(" + touch +
            ") @ink {/Symbol q} K_v^2 \\n \\ &{x} ' \" <b> &lt; %g\n!" + touch + "\n'; system('" +
            touch + "') # \"; system(\"" + touch + "\")";
   }

@@ -51,7 +51,8 @@ TEST(WithoutMarkup, IsAboutWhatIsSeen) {
 }
 
 TEST(GnuplotString, EndsOnlyWhereItShould) {
-  EXPECT_EQ(gnuplot_string("it's\n`a` \\"), "'it''s `a` \\'");
+  EXPECT_EQ(gnuplot_string("it's\n`a` \\"), R"('it'."\047".'s `a` \')");
+  EXPECT_EQ(gnuplot_string("''"), R"(''."\047".''."\047".'')");
   EXPECT_EQ(gnuplot_string(std::string{"\r\t\x1b\0", 4}), "'\\r\\t\\x1b\\x00'");
 }
 

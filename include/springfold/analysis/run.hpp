@@ -32,8 +32,8 @@ struct RunOptions {
 /// First equilibrium, then the branch through it in both directions; kinds control, map and
 /// workspace: their rows as the only branch.
 /// @param family needed for control mode `parameter` only, otherwise nullptr
-/// @pre problems_in(study, mechanism).empty()
 /// Never throws for numerical reasons: what could not be done is said in the result.
+/// @throws std::invalid_argument with all that problems_in() says of the mechanism and of the study
 StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
                       const ParameterFamily* family = nullptr, const Observer& observer = {},
                       const RunOptions& options = {});

@@ -251,7 +251,8 @@ struct SnapResult {
 /// Traces the study to `branches.depth`, and every jump from every loss of stability on its branches, in
 /// both senses of loading. A landing on no branch within the study's limits is traced as a further one,
 /// until no landing is new. Doubts about jumps are among those of `traced`.
-/// @pre problems_in(study, mechanism).empty(); the kind is force_deflection, the path arc_length
+/// @pre the kind is force_deflection, the path arc_length
+/// @throws std::invalid_argument as run_study does
 SnapResult run_with_jumps(const model::Mechanism& mechanism, const Study& study,
                           const ParameterFamily* family = nullptr,
                           const SnapSettings& settings = {}, const Observer& observer = {});

@@ -24,6 +24,7 @@ struct Between {
 /// these agree and no special point lies between; otherwise it is counted at the point.
 /// @param curve    what trace() or davidenko() returned for this problem
 /// @param spacing  > 0, arc length
+/// @throws std::invalid_argument where sizes do not fit together, or the spacing is not positive
 Between points_between(ProblemView problem, const Curve& curve, double spacing,
                        const TraceOptions& options);
 

@@ -57,7 +57,8 @@ struct SearchResult {
 /// Unknowns with a period (problem.periods()) are given within half a period from the middle of the
 /// box, and are the same when they differ by periods. Double covers are given on the side of the
 /// middle, and are the same with changed signs.
-/// @pre problems_in(options, problem.size()).empty(); `known` satisfy F = 0
+/// @pre `known` satisfy F = 0
+/// @throws std::invalid_argument where sizes do not fit together, or problems_in(options, problem.size()) is not empty
 SearchResult search_at(ProblemView problem, double lambda, const std::vector<Vector>& known,
                        const SearchOptions& options);
 

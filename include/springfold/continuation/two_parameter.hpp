@@ -107,6 +107,7 @@ struct CriticalCurve {
 ///
 /// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may
 /// turn back; a caller's event ends the curve.
+/// @throws std::invalid_argument where sizes do not fit together, at the start or at another mu
 /// @param growing  which way first: mu grows, or falls
 CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,
                               const std::vector<CriticalEvent>& events, const TraceOptions& options,

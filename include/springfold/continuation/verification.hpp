@@ -35,6 +35,7 @@ std::string_view to_string(ArcEvidence evidence);
 /// piece. Problems in structured form are not tested: their arcs are `sampled`.
 /// @param curve  as trace() returns it, of this problem
 /// @returns arcs in order, without gaps on each piece
+/// @throws std::invalid_argument where sizes do not fit together
 std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
                                const TraceOptions& options);
 

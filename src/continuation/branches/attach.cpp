@@ -152,12 +152,14 @@ CurvePoint turned(CurvePoint p, double length) {
   return p;
 }
 
-/// A family on which the curve begins reaches to the junction itself.
-void begin_families_at(const CurvePoint& junction, double length, Curve& curve) {
+/// A family on which the curve begins reaches to the junction itself, and is not told once more on the way back.
+void begin_families_at(const CurvePoint& junction, double length, Curve& curve,
+                       std::vector<Hit>& met) {
   for (Hit& hit : curve.hits) {
     if (hit.kind != HitKind::family || hit.s_before != 0) continue;
     hit.point = junction;
     hit.point.s = hit.s_before = -length;
+    std::erase_if(met, [](const Hit& h) { return h.kind == HitKind::family; });
   }
 }
 
@@ -189,7 +191,7 @@ bool attach_to_junction(const Walker& walker, const DiagramOptions& options,
       hits.push_back(std::move(hit));
     }
   }
-  begin_families_at(way.point, length, curve);
+  begin_families_at(way.point, length, curve, hits);
   prepend(points, hits, length, curve);
   return true;
 }

@@ -1,11 +1,11 @@
 #include "springfold/continuation/search.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <random>
 
 #include "continuation/numerics/numerics.hpp"
+#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -309,7 +309,7 @@ std::vector<std::string> problems_in(const SearchOptions& options, Index size) {
 
 SearchResult search_at(ProblemView problem, double lambda, const std::vector<Vector>& known,
                        const SearchOptions& options) {
-  assert(problems_in(options, problem.size()).empty());
+  check_search(problem, lambda, known, options);
   SearchTask task{problem,
                   lambda,
                   options,

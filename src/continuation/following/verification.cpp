@@ -7,6 +7,7 @@
 #include "continuation/locating/determined.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
 
 namespace springfold::continuation {
@@ -186,6 +187,7 @@ std::string_view to_string(ArcEvidence evidence) {
 std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
                                const TraceOptions& options) {
   std::vector<Arc> arcs;
+  check_curve(problem, curve);
   if (curve.points.empty()) return arcs;
   const CurvePoint& start = curve.points.front();
   const Normalised own(problem, start.x, start.lambda, start.piece);

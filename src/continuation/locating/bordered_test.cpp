@@ -180,7 +180,9 @@ double rate_noise(const ExtendedMatrix& E) {
   if (!solution || !row) return infinity;
   const Vector tangent = solution->col(0) / solution->col(0).norm();
   const double noise = few_roundings * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));
-  return std::isfinite(noise) ? noise : infinity;
+  // No entry of a unit tangent is better than a rounding of its length: where lambda itself is what Newton's method left
+  // of zero, in a dead band, the equations' own rounding says nothing.
+  return std::isfinite(noise) ? std::max(noise, few_roundings) : infinity;
 }
 
 }  // namespace springfold::continuation

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "continuation/linear/small_lu.hpp"
 #include "continuation/numerics/numerics.hpp"
@@ -45,6 +47,17 @@ Matrix aligned(const Matrix& left, const Matrix& right) {
   return left * (svd.U * svd.V.transpose());
 }
 
+/// All members of a family have the unknowns and the switches of the first one.
+void check_shape(ProblemView problem, Index size, const Piece& piece) {
+  if (problem.size() != size)
+    throw std::invalid_argument("a problem of the family has " + std::to_string(problem.size()) +
+                                " unknowns, needed: " + std::to_string(size));
+  if (problem.switch_count() != static_cast<Index>(piece.size()))
+    throw std::invalid_argument("a problem of the family has " +
+                                std::to_string(problem.switch_count()) +
+                                " switches, the piece has " + std::to_string(piece.size()));
+}
+
 }  // namespace
 
 bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
@@ -52,6 +65,7 @@ bool base_terms(const Family& family, const Vector& x, double lambda, double mu,
   const auto problem = family.at(mu);
   if (!problem) return false;
   const Index n = x.size();
+  check_shape(*problem, n, piece);
   if (!problem->equations(x, lambda, piece, terms.F, terms.A, terms.b)) return false;
   terms.J.resize(n, n + 1);
   terms.J.leftCols(n) = terms.A;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/parameters/augmented.hpp"
 #include "continuation/parameters/degeneracy.hpp"
+#include "continuation/points/entry_checks.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -37,7 +39,24 @@ std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
   return std::nullopt;
 }
 
+/// Sizes of what the caller gives; the equations are checked wherever they are asked for (base_terms).
+void check_start(const Family& family, const CriticalStart& start) {
+  if (!family.at) throw std::invalid_argument("the family has no problems");
+  const auto problem = family.at(start.mu);
+  if (!problem) return;  // not defined there: told as such
+  check_point(*problem, start.x, start.lambda, start.piece);
+  if (start.kind == CriticalKind::branch_point &&
+      (start.corank < 1 || start.corank > start.x.size()))
+    throw std::invalid_argument("corank: need a number from 1 to that of the unknowns");
+  if (start.kind == CriticalKind::surface && !start.value &&
+      (start.switching < 0 || start.switching >= problem->switch_count()))
+    throw std::invalid_argument("switching: there is no such switch");
+  if (start.kind == CriticalKind::zero && !start.value)
+    throw std::invalid_argument("value: a point of kind zero needs one");
+}
+
 std::optional<Augmented> system_at(const Family& family, const CriticalStart& start) {
+  check_start(family, start);
   NullVectors borders;
   const bool bordered =
       start.kind == CriticalKind::limit_point || start.kind == CriticalKind::branch_point;

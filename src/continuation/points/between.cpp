@@ -1,11 +1,12 @@
 #include "springfold/continuation/between.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
 #include "continuation/points/step.hpp"
 
@@ -247,7 +248,8 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
 
 Between points_between(ProblemView problem, const Curve& curve, double spacing,
                        const TraceOptions& options) {
-  assert(spacing > 0);
+  if (!(spacing > 0)) throw std::invalid_argument("spacing: must be positive");
+  check_curve(problem, curve);
   Between result;
   if (curve.points.empty()) return result;
   const CurvePoint& start = curve.points.front();

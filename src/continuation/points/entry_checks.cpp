@@ -14,6 +14,10 @@ void expect(Index found, Index needed, const std::string& what) {
     refuse(what + " has size " + std::to_string(found) + ", needed: " + std::to_string(needed));
 }
 
+void check_size(ProblemView problem) {
+  if (problem.size() < 0 || problem.switch_count() < 0) refuse("a problem has a negative size");
+}
+
 void check_piece(ProblemView problem, const Piece& piece) {
   const Index m = problem.switch_count();
   // A piece may be left out where no switch acts.
@@ -59,7 +63,32 @@ void check_evaluation(ProblemView problem, const Vector& x, double lambda, const
 void check_entry(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                  const TraceOptions& options) {
   for (const std::string& wrong : problems_in(options)) refuse(wrong);
-  if (problem.size() < 0 || problem.switch_count() < 0) refuse("a problem has a negative size");
+  check_point(problem, x, lambda, piece);
+}
+
+void check_search(ProblemView problem, double lambda, const std::vector<Vector>& known,
+                  const SearchOptions& options) {
+  check_size(problem);
+  for (const std::string& wrong : problems_in(options, problem.size())) refuse(wrong);
+  if (!std::isfinite(lambda)) refuse("lambda is not finite");
+  for (const Vector& solution : known)
+    expect(solution.size(), problem.size(), "a solution that is known");
+  check_constants(problem);
+}
+
+void check_curve(ProblemView problem, const Curve& curve) {
+  check_size(problem);
+  check_constants(problem);
+  for (const CurvePoint& point : curve.points) {
+    expect(point.x.size(), problem.size(), "a point of the curve");
+    if (point.tangent.dx.size() > 0)
+      expect(point.tangent.dx.size(), problem.size(), "a tangent of the curve");
+    check_piece(problem, point.piece);
+  }
+}
+
+void check_point(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
+  check_size(problem);
   expect(x.size(), problem.size(), "the point x");
   if (!x.allFinite() || !std::isfinite(lambda)) refuse("the point (x, lambda) is not finite");
   check_piece(problem, piece);

@@ -6,6 +6,7 @@
 
 #include "continuation/linear/bordered_factors.hpp"
 #include "continuation/numerics/numerics.hpp"
+#include "continuation/points/entry_checks.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/finite.hpp"
 
@@ -142,6 +143,7 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
 
 std::optional<Response> response_at(ProblemView problem, const Vector& x, double lambda,
                                     const Piece& piece) {
+  check_point(problem, x, lambda, piece);
   const Vector weights = problem.metric();
   Regular here;
   Vector dx;
