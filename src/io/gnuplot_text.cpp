@@ -21,10 +21,13 @@ std::size_t end_of_font(std::string_view text, std::size_t begin) {
 }  // namespace
 
 std::string gnuplot_string(std::string_view text) {
-  std::string one_line{text};
-  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
-  std::string result = "'";
-  for (const char c : shown(one_line)) {
+  const std::string line = shown_in_line(text);
+  // A doubled quote is one within a string, but gnuplot takes it for an empty string where it comes first: quotes there
+  // stand between double quotes.
+  const std::size_t quotes = std::min(line.find_first_not_of('\''), line.size());
+  std::string result = quotes == 0 ? "" : '"' + line.substr(0, quotes) + "\" . ";
+  result += '\'';
+  for (const char c : line.substr(quotes)) {
     if (c == '\'') result += '\'';
     result += c;
   }
@@ -56,9 +59,8 @@ std::string without_markup(std::string_view text) {
 }
 
 std::string tex_text(std::string_view text) {
-  std::string one_line{text}, escaped;
-  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
-  for (const char c : shown(one_line)) {
+  std::string escaped;
+  for (const char c : shown_in_line(text)) {
     if (std::string_view{"{}$&#%_"}.find(c) != std::string_view::npos)
       escaped += std::string{'\\', c};
     else if (c == '\\')
