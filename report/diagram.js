@@ -24,6 +24,8 @@ function plotOf(run, number, xColumn, yColumn) {
   return {run, branch, number, x, y, kinds: stabilitiesAlong(run, branch), special, between: pointsBetween(run, branch, x, y)};
 }
 
+/** @type {number[]} */ const nothingBetween = [];
+
 /** Numbers of ticks in as few digits as they have, 0 where only rounding is left.
  * @param {any} scale @returns {(value: number) => string} */
 function ticksOf(scale) {
@@ -233,7 +235,7 @@ class Diagram {
         lastX = ax;
         lastY = ay;
       }
-      const between = plot.between[i] || [];
+      const between = plot.between.length > 0 ? plot.between[i] : nothingBetween;
       for (let k = 0; k < between.length; k += 2) {
         const px = x.begin + x.slope * between[k], py = y.begin + y.slope * between[k + 1];
         if (Math.abs(px - lastX) + Math.abs(py - lastY) < 0.7) continue;

@@ -162,6 +162,7 @@ async function inSpace() {
 async function modes() {
   const place = join(folder, "dome");
   await tab.load(join(place, "report.html"));
+  await tab.choose("run", "press, run 2: 60°");
   const table = await tableOf(place);
   await value("document.getElementById('diagram').focus()");
   for (let i = 0; i < 20 && !table.at(await row(), "event").startsWith("BP"); ++i) await key(i < 10 ? "n" : "p", i < 10 ? "KeyN" : "KeyP");
