@@ -2,7 +2,7 @@
 # file into the script once for each format.
 #
 # Besides the values listed in style.gp the program has set:
-#   curve_parts   names of data blocks with lines, "stable_1 stable_2 driven_1 unstable_1 ..."; the
+#   curve_parts   names of data blocks with lines, "stable_1 stable_2 unknown_1 driven_1 unstable_1 ..."; the
 #                 number is that of the curve; a block holds x y, empty lines between separate parts
 #   curve_hues    one number per curve: 0, its colour tells its stability; n, it is the n-th branch of a
 #                 diagram and has the n-th colour, its dashes tell its stability
@@ -21,14 +21,15 @@
 #   key_codes     those of them that are seen
 # Labels and their leader lines are set already: they hang on points of the axes.
 
-part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : 2
-part_kind(part) = part[1:6] eq 'stable' ? 'stable' : \
+part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : part[1:6] eq 'unknow' ? 8 : 2
+part_kind(part) = part[1:6] eq 'stable' ? 'stable' : part[1:6] eq 'unknow' ? 'stability not known' : \
                   part[1:6] eq 'driven' ? 'unstable under dead load' : 'unstable'
 part_hue(part) = part eq 'nothing' ? 0 : int(word(curve_hues, int(part[strstrt(part, '_') + 1:*])))
 own_color(part) = part eq 'nothing' ? 'by_hue' : word(curve_colors, int(part[strstrt(part, '_') + 1:*]))
 part_color(part) = own_color(part) ne 'by_hue' ? own_color(part) : part_hue(part) > 0 \
     ? word(branch_colors, (part_hue(part) - 1) % words(branch_colors) + 1) \
-    : part[1:6] eq 'stable' ? stable_color : part[1:6] eq 'driven' ? driven_color : unstable_color
+    : part[1:6] eq 'stable' ? stable_color : part[1:6] eq 'driven' ? driven_color : \
+    part[1:6] eq 'unknow' ? ink : unstable_color
 # Lines of a diagram or a sweep stand in the key in ink: their colours tell branches or values.
 is_first(part) = strstrt(' '.first_parts.' ', ' '.part.' ') > 0
 key_color(part) = part_hue(part) > 0 || own_color(part) ne 'by_hue' ? ink : part_color(part)
@@ -57,7 +58,8 @@ set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
 set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
 key_rows = (words(first_parts) + words(key_codes) + mixed_in_key + quantities + regions + 2) / 3
-set key at screen (frame_left + frame_right) / 2, screen frame_top + 0.07 top center \
+set key at screen (frame_left + frame_right) / 2, \
+    screen frame_top + 4.5 * figure_font_size / figure_height top center \
     vertical maxrows key_rows Left reverse noenhanced samplen 3 \
     spacing (key_rows > 2 ? 0.9 : 1.25) font key_font textcolor rgb ink
 

@@ -37,11 +37,12 @@ point_label_color = ink
 curve_label_font = sized(figure_font_size)
 curve_label_color = ink
 
-# 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 7 beneath a line on which a less stable
-# one lies, 3 grid, 4 line from a label to its point, 5 axes through zero
+# 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 8 stability not known, 7 beneath a line on
+# which a less stable one lies, 3 grid, 4 line from a label to its point, 5 axes through zero
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
 set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4, 5)
 set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14, 6)
+set style line 8 linecolor rgb ink linewidth 3.2 dashtype (14, 4, 3, 4)
 set style line 7 linecolor rgb mixed_color linewidth 11 dashtype solid
 set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid

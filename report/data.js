@@ -2,8 +2,8 @@
 // What springfold wrote into the page, as numbers.
 
 /**
- * @typedef {{name: string, unit: string, rounding: number}} Quantity
- * @typedef {{label: string, code: string, row: number, detail: string, sentence: string, motion?: string,
+ * @typedef {{name: string, title: string, unit: string, rounding: number}} Quantity
+ * @typedef {{label: string, code: string, row: number, detail: string, sentence: string, motion?: string, modes?: string[],
  *            stiffness?: number[][]}} SpecialPoint
  * @typedef {{name: string, form: string, file: string, rows: number, start: number, values: string, points: string,
  *            springs: string, loads: string, layout: number[] | null, status: {texts: string[], of: number[]} | null,
@@ -11,7 +11,7 @@
  * @typedef {{dimension: number, points: number, right: number[], up: number[], chains: string[],
  *            links: {from: number, to: number, chain: number, rail: boolean}[],
  *            joints: {name: string, shape: string, role: string, at: number, axis: number}[],
- *            springs: {name: string, line: boolean, from: number, at: number, to: number}[],
+ *            springs: {name: string, line: boolean, from: number, at: number, to: number, member: string}[],
  *            outlines: {name: string, corners: number[]}[],
  *            stops: {spring: number, at: number, tip: number, slide: boolean}[],
  *            bodies: {name: string, origin: number, corners: number[]}[],
@@ -85,11 +85,11 @@ function columnOf(run, name) {
   return run.quantities.findIndex(q => q.name === name);
 }
 
-/** "deflection [m]".
+/** "deflection [m]"; what drives along a rotation is called a moment.
  * @param {Run} run @param {number} column */
 function titleOf(run, column) {
   const q = run.quantities[column];
-  return q ? q.name + (q.unit ? ` [${q.unit}]` : "") : "";
+  return q ? q.title + (q.unit ? ` [${q.unit}]` : "") : "";
 }
 
 /** @param {Run} run @param {WrittenBranch} branch @param {number} row @param {number} column */
@@ -108,6 +108,16 @@ function valuesAlong(run, branch, column) {
  * @param {Run} run @param {WrittenBranch} branch @param {number} row */
 function stabilityAt(run, branch, row) {
   if (branch.form === "jump") return "moving";
+  // Where an eigenvalue is zero its own count says nothing.
+  const counted = countedAt(run, branch, row), singular = ["LP", "BP", "TP", "SC"];
+  const isSingular = branch.events.some(e => e.row === row && singular.includes(e.code));
+  const ends = isSingular && counted !== "unstable" && [row - 1, row + 1].some(i => i >= 0 && i < branch.rows && countedAt(run, branch, i) === "stable");
+  return ends ? "critical" : counted;
+}
+
+/** As the columns of unstable modes say.
+ * @param {Run} run @param {WrittenBranch} branch @param {number} row */
+function countedAt(run, branch, row) {
   const driven = valueAt(run, branch, row, columnOf(run, "index"));
   const dead = valueAt(run, branch, row, columnOf(run, "index_force"));
   const constrained = valueAt(run, branch, row, columnOf(run, "index_driven"));

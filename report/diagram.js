@@ -7,7 +7,7 @@ const d3 = /** @type {any} */ (window)["d3"];
 /**
  * A list of rows as it is drawn.
  * @typedef {{run: Run, branch: WrittenBranch, number: number, x: Float64Array, y: Float64Array, kinds: string[],
- *            special: Uint8Array}} Plot
+ *            special: Uint8Array, between: number[][]}} Plot
  * @typedef {{kind: string, plot: Plot, path: string, spots: number[]}} Line
  */
 
@@ -20,8 +20,11 @@ function plotOf(run, number, xColumn, yColumn) {
   };
   const special = new Uint8Array(branch.rows + 1);
   for (const event of branch.events) special[event.row] = 1;
-  return {run, branch, number, x: along(xColumn), y: along(yColumn), kinds: stabilitiesAlong(run, branch), special};
+  const x = along(xColumn), y = along(yColumn);
+  return {run, branch, number, x, y, kinds: stabilitiesAlong(run, branch), special, between: pointsBetween(run, branch, x, y)};
 }
+
+/** @type {number[]} */ const nothingBetween = [];
 
 /** Numbers of ticks in as few digits as they have, 0 where only rounding is left.
  * @param {any} scale @returns {(value: number) => string} */
@@ -64,12 +67,16 @@ class Diagram {
     this.marks = plane.append("g").attr("clip-path", `url(#${id})`);
     this.labels = plane.append("g").attr("class", "labels").attr("pointer-events", "none");
     this.cursor = plane.append("circle").attr("class", "cursor").attr("r", 5);
+    this.hover = plane.append("g").attr("class", "labels hover").attr("pointer-events", "none").attr("display", "none");
+    this.hover.append("circle").attr("r", 4);
+    this.hover.append("text");
     plane.call(this.zoom).on("dblclick.zoom", null);
     this.follow(/** @type {SVGRectElement} */ (sheet.node()));
   }
 
   /**
-   * Dragging moves along the branch, once for each frame; with shift it moves the diagram. Over a map nothing has to be held.
+   * Dragging moves along the branch, once for each frame; with shift it moves the diagram. Over a map nothing has to be held;
+   * over curves the mouse alone shows the values of the nearest row.
    * @param {SVGRectElement} sheet */
   follow(sheet) {
     let drags = false;
@@ -84,9 +91,17 @@ class Diagram {
       event.preventDefault();
       this.svg.focus();
       drags = true;
+      this.hover.attr("display", "none");
       want(event);
     });
-    sheet.addEventListener("mousemove", event => { if (this.map && !event.buttons) want(event); });
+    /** @type {MouseEvent | null} */ let over = null;
+    sheet.addEventListener("mousemove", event => {
+      if (event.buttons) return;
+      if (this.map) return want(event);
+      if (!over) requestAnimationFrame(() => { const at = over; over = null; if (at && !drags) this.showNear(at); });
+      over = event;
+    });
+    this.svg.addEventListener("mouseleave", () => { over = null; this.hover.attr("display", "none"); });
     window.addEventListener("mousemove", event => { if (drags) want(event); });
     window.addEventListener("mouseup", () => { drags = false; });
     sheet.addEventListener("touchmove", event => {
@@ -97,14 +112,17 @@ class Diagram {
     }, {passive: false});
   }
 
-  /**
-   * The row whose mark is nearest on the screen.
+  /** A place of the screen in the diagram.
    * @param {{clientX: number, clientY: number}} event */
-  chooseNear(event) {
+  placeOf(event) {
     const frame = this.svg.getBoundingClientRect();
-    const px = (event.clientX - frame.left) * this.width / frame.width;
-    const py = (event.clientY - frame.top) * this.height / frame.height;
-    if (this.map) return this.choose(0, this.map.nodeNear(this.map.sliceOf(this.row), this.x.invert(px), this.y.invert(py)));
+    return {px: (event.clientX - frame.left) * this.width / frame.width, py: (event.clientY - frame.top) * this.height / frame.height};
+  }
+
+  /**
+   * The row whose mark is nearest on the screen; null where there is none.
+   * @param {number} px @param {number} py */
+  nearest(px, py) {
     const [x, y] = [this.line(this.x), this.line(this.y)];
     let best = Infinity, branch = this.branch, row = this.row;
     for (const plot of this.plots) {
@@ -116,7 +134,31 @@ class Diagram {
         if (away < best) { best = away; branch = plot.number; row = i; }
       }
     }
-    if (best < Infinity) this.choose(branch, row);
+    return best < Infinity ? {branch, row} : null;
+  }
+
+  /** @param {{clientX: number, clientY: number}} event */
+  chooseNear(event) {
+    const {px, py} = this.placeOf(event);
+    if (this.map) return this.choose(0, this.map.nodeNear(this.map.sliceOf(this.row), this.x.invert(px), this.y.invert(py)));
+    const near = this.nearest(px, py);
+    if (near) this.choose(near.branch, near.row);
+  }
+
+  /** The values of the row nearest to the mouse, beside it.
+   * @param {{clientX: number, clientY: number}} event */
+  showNear(event) {
+    const {px, py} = this.placeOf(event), near = this.run && this.nearest(px, py);
+    const spot = near ? this.spot(near.branch, near.row) : [NaN, NaN];
+    const seen = Number.isFinite(spot[0] + spot[1]) && Math.hypot(spot[0] - px, spot[1] - py) < 60;
+    this.hover.attr("display", seen ? null : "none");
+    if (!near || !seen) return;
+    const plot = this.plots[near.branch], isRight = spot[0] > this.width / 2;
+    const words = `${brief(plot.x[near.row])}, ${brief(plot.y[near.row])}`;
+    this.hover.select("circle").attr("cx", spot[0]).attr("cy", spot[1]);
+    this.hover.select("text").text(this.plots.length > 1 ? `${words} (${plot.branch.name})` : words)
+        .attr("text-anchor", isRight ? "end" : "start").attr("x", spot[0] + (isRight ? -9 : 9))
+        .attr("y", Math.max(this.edges.top + 12, spot[1] - 9));
   }
 
   /** A linear scale as a straight line: D3's own calls take far longer on many rows.
@@ -193,6 +235,15 @@ class Diagram {
         lastX = ax;
         lastY = ay;
       }
+      const between = plot.between.length > 0 ? plot.between[i] : nothingBetween;
+      for (let k = 0; k < between.length; k += 2) {
+        const px = x.begin + x.slope * between[k], py = y.begin + y.slope * between[k + 1];
+        if (Math.abs(px - lastX) + Math.abs(py - lastY) < 0.7) continue;
+        path.push(`${px.toFixed(1)},${py.toFixed(1)}`);
+        spots.push(px, py);
+        lastX = px;
+        lastY = py;
+      }
       const ends = i + 1 === last || comesSpecial || kinds[i + 1] !== kind;
       if (!ends && Math.abs(bx - lastX) + Math.abs(by - lastY) < 0.7) continue;
       path.push(`${bx.toFixed(1)},${by.toFixed(1)}`);
@@ -205,6 +256,7 @@ class Diagram {
 
   redraw() {
     if (!this.run) return;
+    this.hover.attr("display", "none");
     this.xAxis.call(d3.svg.axis().scale(this.x).orient("bottom").ticks(6).tickFormat(ticksOf(this.x)));
     this.yAxis.call(d3.svg.axis().scale(this.y).orient("left").ticks(6).tickFormat(ticksOf(this.y)));
     /** @type {Line[]} */ const lines = [];

@@ -6,7 +6,7 @@ const svgSpace = "http://www.w3.org/2000/svg";
 /** @typedef {{x: number, y: number}} Spot */
 
 /** @param {string} stability */
-function hasColour(stability) { return ["stable", "driven", "unstable"].includes(stability); }
+function hasColour(stability) { return ["stable", "driven", "unstable", "critical"].includes(stability); }
 
 /** Distance of the eye in sizes of the mechanism, as in springfold's own drawings. */
 const eyeDistance = 2.5;
@@ -27,6 +27,8 @@ class MechanismView {
     this.up = this.parts.up;
     this.isPerspective = false;
     this.largestLoad = 0;
+    /** @type {Spot[][]} */ this.arrows = [];
+    /** Is there a spring that does not act in some row? */ this.hasIdle = false;
     svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.measure(run);
     this.fit();
@@ -46,7 +48,8 @@ class MechanismView {
     });
     const forces = run.mechanisms.map(parts => parts.loads.flatMap((load, i) => load.direction ? [] : [3 * i]));
     for (const branch of run.branches) {
-      const {points, loads} = numbersIn(branch), offsets = offsetsIn(run, branch);
+      const {points, loads, springs} = numbersIn(branch), offsets = offsetsIn(run, branch);
+      for (let i = 0; i < springs.length && !this.hasIdle; i += 2) this.hasIdle = springs[i] === 0;
       for (let row = 0; row < branch.rows; ++row) {
         if (offsets.layout[row] < 0) continue;
         for (const offset of used[offsets.layout[row]])
@@ -174,14 +177,16 @@ class MechanismView {
     parts.springs.forEach((spring, i) => {
       const k = springs + 2 * i;
       const acts = numbers.springs[k] > 0, force = numbers.springs[k + 1];
-      // Bars between nodes, perhaps on rollers: there is no link that could show stability.
-      const shows = spring.line && parts.links.every((link) => link.rail);
+      // Bars, and springs where there is no link that could show stability.
+      const shows = spring.line && (spring.member || parts.links.every((link) => link.rail));
       const colour = !shows ? "spring" : hasColour(stability) ? stability : "ink";
+      const width = spring.member === "strut" ? 4.5 : spring.member === "bar" ? 3 : 1.8;
       /** @type {Object<string, string | number>} */
-      const ink = acts ? {stroke: `var(--${colour})`, "stroke-width": 1.8} : {stroke: "var(--grey)", "stroke-dasharray": "3 2"};
-      const title = `spring ${spring.name}${acts ? "" : ", does not act"}, force ${brief(force)}`;
+      const ink = acts ? {stroke: `var(--${colour})`, "stroke-width": width} : {stroke: "var(--grey)", "stroke-dasharray": "3 2"};
+      const title = `${spring.member || "spring"} ${spring.name}${acts ? "" : ", does not act"}, force ${brief(force)}`;
       const from = at(spring.from), to = at(spring.to);
-      if (spring.line && Math.hypot(to.x - from.x, to.y - from.y) < shortestCoil)
+      if (spring.member) this.line([from, to], ink, title);
+      else if (spring.line && Math.hypot(to.x - from.x, to.y - from.y) < shortestCoil)
         this.add("circle", {cx: to.x, cy: to.y, r: 8, fill: "none", ...ink}, title);
       else if (spring.line) this.line(coilOf(from, to), ink, title);
       else this.line(spiralOf(at(spring.at), at(spring.from), at(spring.to)), ink, title);
@@ -195,6 +200,7 @@ class MechanismView {
       this.line(ends, {stroke: acts ? "var(--unstable)" : "var(--grey)", "stroke-width": 2});
     }
     for (const joint of parts.joints) this.drawJoint(joint, at(joint.at), at(joint.axis));
+    this.arrows = [];
     parts.loads.forEach((load, i) => this.drawLoad(load, numbers.loads, loads, loads + 3 * i, at(load.at)));
     for (const body of parts.bodies) {
       const o = at(body.origin), k = first + d * body.origin;
@@ -203,6 +209,19 @@ class MechanismView {
       if (d === 3) mark.setAttribute("data-z", String(numbers.points[k + 2]));
     }
     this.drawNames(at);
+  }
+
+  /** What the marks mean that occur. */
+  words() {
+    const parts = this.run.mechanisms, some = (/** @type {(p: Parts) => boolean} */ holds) => parts.some(holds);
+    const words = [];
+    if (some(p => p.joints.some(j => j.role === "actuated"))) words.push("filled joints are actuated");
+    if (some(p => p.joints.some(j => j.role === "preloaded"))) words.push("green joints have a spring");
+    if (some(p => p.springs.some(s => s.member === "cable") && p.springs.some(s => s.member === "strut"))) words.push("thin lines are cables, thick ones struts");
+    if (this.hasIdle) words.push("grey dashes: a spring that does not act");
+    if (some(p => p.outlines.length > 0)) words.push("green dashes: areas, lines or planes that springs and pressures act on");
+    if (some(p => p.loads.length > 0)) words.push("arrows: loads, dashed where the study only drives");
+    return words.length ? `In the picture ${words.join("; ")}.` : "";
   }
 
   /** Bodies have names, where these cover no link and no other name.
@@ -215,6 +234,7 @@ class MechanismView {
       const a = at(part.from), b = at(part.to);
       addDots(a.x, a.y, b.x, b.y, dots);
     }
+    for (const [a, b] of this.arrows) addDots(a.x, a.y, b.x, b.y, dots);
     for (const body of this.parts.bodies) {
       const o = at(body.origin), place = placeOfName(o.x, o.y, body.name, dots, boxes, room);
       if (!place) continue;
@@ -272,6 +292,7 @@ class MechanismView {
     }
     const begin = {x: at.x + 8 * u.x, y: at.y + 8 * u.y}, tip = {x: at.x + (8 + long) * u.x, y: at.y + (8 + long) * u.y};
     this.line([begin, tip], ink, title);
+    this.arrows.push([begin, tip]);
     const back = {x: tip.x - 8 * u.x, y: tip.y - 8 * u.y};
     this.line([{x: back.x - 4 * u.y, y: back.y + 4 * u.x}, tip, {x: back.x + 4 * u.y, y: back.y - 4 * u.x}], {...ink, "stroke-dasharray": "none"}, title);
   }

@@ -24,7 +24,8 @@ class ReportPage {
     this.page = page;
     this.run = page.runs[0];
     this.branch = this.row = 0;
-    this.plays = this.moves = false;
+    this.plays = false;
+    /** Number of the motion at a special point that is played, -1: none. */ this.moves = -1;
     /** @type {MechanismView | null} */ this.view = null;
     /** @type {MapView | null} */ this.map = null;
     this.shownTables = "";
@@ -105,7 +106,7 @@ class ReportPage {
       case "b": if (this.run.branches.length) { this.stop(); this.go((this.branch + 1) % this.run.branches.length, 0); } return true;
       case "r": this.reset(); return true;
       case "v": byId("perspective").checked = !byId("perspective").checked; this.look(); return true;
-      case "m": this.vibrate(); return true;
+      case "m": this.vibrate(this.moves + 1); return true;
     }
     return false;
   }
@@ -127,13 +128,13 @@ class ReportPage {
     const run = this.run;
     this.branch = this.row = 0;
     byId("run").value = String(number);
-    fill(byId("x"), run.quantities.map(q => q.name));
-    fill(byId("y"), run.quantities.map(q => q.name));
+    fill(byId("x"), run.quantities.map(q => q.title));
+    fill(byId("y"), run.quantities.map(q => q.title));
     const column = (/** @type {string} */ name) => String(Math.max(0, columnOf(run, name)));
     byId("x").value = column(run.axes[0]);
     byId("y").value = column(run.axes[1]);
     this.map = run.map && run.map.axes.length > 1 && run.branches.length ? new MapView(run, run.map) : null;
-    fill(byId("colour"), this.map ? run.quantities.map(q => q.name) : []);
+    fill(byId("colour"), this.map ? run.quantities.map(q => q.title) : []);
     if (this.map) byId("colour").value = String(this.map.column);
     byId("colour-choice").hidden = !this.map;
     byId("x").disabled = byId("y").disabled = this.map !== null;
@@ -149,6 +150,7 @@ class ReportPage {
     this.showAxes();
     this.showTables();
     this.showKey();
+    byId("parts").textContent = this.view ? this.view.words() : "";
     this.go(0, run.branches.length ? run.branches[0].start : 0);
   }
 
@@ -201,7 +203,7 @@ class ReportPage {
     const names = ["lambda", "deflection", "force", "index", "index_force", "K_eig1"].filter(n => runs.some(r => columnOf(r, n) >= 0));
     const varied = runs.length > 1 ? this.run.varied : [];
     const head = append(append(table, "thead"), "tr"), body = append(table, "tbody");
-    for (const text of ["point", ...(runs.length > 1 ? ["run"] : []), ...varied, "branch", ...names, "what"]) append(head, "th", text);
+    for (const text of ["point", ...(runs.length > 1 ? ["run"] : []), ...varied, "branch", ...names.map(n => this.run.quantities.find(q => q.name === n)?.title ?? n), "what"]) append(head, "th", text);
     for (const run of runs)
       run.branches.forEach((branch, k) => branch.events.forEach(event => {
         const line = append(body, "tr"), number = this.page.runs.indexOf(run);
@@ -230,7 +232,7 @@ class ReportPage {
   /** @param {number} branch @param {number} row */
   go(branch, row) {
     const run = this.run;
-    this.moves = false;
+    this.moves = -1;
     if (!run.branches.length) {
       byId("point").textContent = run.start ? `No start point: ${run.start}` : "Of this run the table of its study has a row, and no curve was kept.";
       byId("values").textContent = byId("posture").textContent = byId("key").textContent = "";
@@ -248,9 +250,10 @@ class ReportPage {
     const stability = stabilityAt(run, b, this.row);
     if (this.view) this.view.draw(b, this.row, stability);
     /** @type {Object<string, string>} */
-    const words = {stable: "stable under dead load", driven: "held as driven, unstable under dead load", unstable: "unstable",
+    const words = {stable: "stable under dead load", driven: "held as driven, unstable under dead load", unstable: "unstable", critical: "critical, stability ends here",
                    unknown: "stability not known", moving: "not at rest"};
     const status = b.status ? b.status.texts[b.status.of[this.row]] : "";
+    byId("shown").textContent = `${run.study}, run ${run.run}${run.label ? `: ${run.label}` : ""}`;
     byId("posture").textContent = `${b.name}, row ${this.row + 1} of ${b.rows}: ${words[stability]}${status ? ` (${status})` : ""}.`;
     this.showPoint();
     this.showValues();
@@ -263,15 +266,20 @@ class ReportPage {
     for (const event of b.events.filter(e => e.row === this.row)) {
       append(place, "h2", `${event.label}: ${event.detail || event.code}`);
       append(place, "p", event.sentence);
+      const values = ["lambda", "deflection", "force"].map(n => this.run.quantities.findIndex(q => q.name === n))
+          .filter(i => i >= 0 && wordsAt(this.run, b, this.row, i) !== "")
+          .map(i => { const q = this.run.quantities[i]; return `${q.title} = ${wordsAt(this.run, b, this.row, i)}${q.unit ? ` ${q.unit}` : ""}`; });
+      if (values.length) append(place, "p", values.join(", "));
       const eigenvalues = ["K_eig1", "K_eig2", "K_eig3"].map(n => wordsAt(this.run, b, this.row, columnOf(this.run, n)))
           .filter(text => text !== "");
       if (eigenvalues.length) append(place, "p", `Eigenvalues of the stiffness: ${eigenvalues.join(", ")}`);
       if (event.stiffness) append(place, "p", `Stiffness: ${event.stiffness.map(r => r.map(v => brief(v)).join("  ")).join(";  ")}`);
-      if (!event.motion || !this.view) continue;
-      const button = append(place, "button", event.code === "LP" ? "Show the buckling mode" : "Show the motion along the branch");
-      button.type = "button";
-      button.addEventListener("click", () => this.vibrate());
     }
+    this.motionsHere().forEach(({title}, number) => {
+      const button = append(place, "button", title);
+      button.type = "button";
+      button.addEventListener("click", () => this.vibrate(number));
+    });
     for (const line of document.querySelectorAll("#events tbody tr")) {
       const data = /** @type {HTMLElement} */ (line).dataset;
       line.classList.toggle("here", Number(data.run) === this.page.runs.indexOf(this.run) && Number(data.branch) === this.branch && Number(data.row) === this.row);
@@ -285,7 +293,7 @@ class ReportPage {
       table.dataset.run = `${this.run.study}/${this.run.run}`;
       for (const q of this.run.quantities) {
         const line = append(table, "tr");
-        append(line, "td", q.name + (q.unit ? ` [${q.unit}]` : ""));
+        append(line, "td", q.title + (q.unit ? ` [${q.unit}]` : ""));
         append(line, "td").dataset.quantity = q.name;
       }
     }
@@ -320,21 +328,39 @@ class ReportPage {
     byId("play").setAttribute("aria-pressed", "false");
   }
 
-  /** Moves the mechanism to and fro along the branch's direction at a special point, much enlarged. */
-  vibrate() {
+  /**
+   * What the mechanism can be moved along at the special points of this row: the mode in which it buckles, and the branch.
+   * @returns {{title: string, motion: string}[]} */
+  motionsHere() {
+    const b = this.run.branches[this.branch], modes = [], ways = [];
+    for (const event of b && this.view ? b.events.filter(e => e.row === this.row) : []) {
+      const several = (event.modes || []).length > 1;
+      for (const [k, motion] of (event.modes || []).entries())
+        modes.push({title: `Show the buckling mode${several ? ` ${k + 1}` : ""}`, motion});
+      if (event.motion) ways.push({title: event.code === "LP" ? "Show the buckling mode" : "Show the motion along the branch", motion: event.motion});
+    }
+    return [...modes, ...ways].filter(({motion}) => numbersOf(motion).some(v => Math.abs(v) > 0));
+  }
+
+  /**
+   * Moves the mechanism to and fro along a motion at a special point, much enlarged; the same once more ends it.
+   * @param {number} number */
+  vibrate(number) {
     this.stop();
     const b = this.run.branches[this.branch], view = this.view, row = this.row, branch = this.branch;
-    const event = b && b.events.find(e => e.row === row && e.motion);
-    if (!event || !event.motion || !view) return;
-    if (this.moves) { this.moves = false; view.draw(b, row, stabilityAt(this.run, b, row)); return; }
-    const motion = numbersOf(event.motion);
+    const chosen = this.motionsHere()[number];
+    if (!chosen || !view || this.moves === number) {
+      this.moves = -1;
+      this.drawPosture();
+      return;
+    }
+    const motion = numbersOf(chosen.motion), d = view.parts.dimension;
     let largest = 0;
-    for (const v of motion) largest = Math.max(largest, Math.abs(v));
-    if (!(largest > 0)) return;
+    for (let i = 0; i < motion.length; i += d) largest = Math.max(largest, Math.hypot(...motion.subarray(i, i + d)));
     const amplitude = 0.08 * view.size / largest, began = performance.now();
-    this.moves = true;
+    this.moves = number;
     const frame = (/** @type {number} */ now) => {
-      if (!this.moves || this.row !== row || this.branch !== branch || this.view !== view) return;
+      if (this.moves !== number || this.row !== row || this.branch !== branch || this.view !== view) return;
       view.draw(b, row, stabilityAt(this.run, b, row), motion, amplitude * Math.sin((now - began) / 350));
       requestAnimationFrame(frame);
     };

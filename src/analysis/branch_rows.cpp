@@ -8,6 +8,7 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
+#include "null_modes.hpp"
 #include "row_indices.hpp"
 #include "switch_words.hpp"
 #include "vanishing_lengths.hpp"
@@ -161,6 +162,19 @@ Event end_event(const Entry& entry, std::size_t row, const Stop& stop, const Eva
   return event;
 }
 
+/// The modes of a branch point as rates of the quantities.
+std::vector<std::vector<double>> modes_of(const Entry& entry, const Evaluator& evaluator,
+                                          const std::vector<QuantityDefinition>& quantities,
+                                          const PathProblem& problem) {
+  std::vector<std::vector<double>> modes;
+  CurvePoint point = entry.point;
+  for (Vector& mode : null_modes(problem, entry.point, entry.hit->multiplicity)) {
+    point.tangent = {std::move(mode), 0};
+    modes.push_back(evaluator.rates(quantities, point, &entry.turns));
+  }
+  return modes;
+}
+
 /// A special point in its row; `next`: the row behind it, if there is one.
 Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
@@ -171,6 +185,8 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   event.compliance = evaluator.rigid_compliance(entry.point);
   event.rates_before = evaluator.rates(quantities, entry.point, &entry.turns);
   event.rates_after = event.rates_before;
+  if (hit.kind == HitKind::branch_point || hit.kind == HitKind::touch)
+    event.modes = modes_of(entry, evaluator, quantities, problem);
   if (next == nullptr || next->hit != entry.hit) return event;
   event.rates_after = evaluator.rates(quantities, next->point, &next->turns);
   event.stiffness_after = evaluator.platform_stiffness(next->point);

@@ -54,10 +54,11 @@ bool add_override(const std::string& text, std::map<std::string, std::string>& o
   return false;
 }
 
-/// A name that ends in .svg or .png.
+/// A name that ends in .svg, .png or .pdf.
 std::string picture_problem(const std::string& name) {
   const auto extension = std::filesystem::path{name}.extension();
-  return extension == ".svg" || extension == ".png" ? "" : "need a name that ends in .svg or .png";
+  const bool is_known = extension == ".svg" || extension == ".png" || extension == ".pdf";
+  return is_known ? "" : "need a name that ends in .svg, .png or .pdf";
 }
 
 void add_run_and_colours(CLI::App& command, Arguments& arguments) {
@@ -74,8 +75,9 @@ void add_run_and_colours(CLI::App& command, Arguments& arguments) {
 void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
   for (CLI::App* command : {&draw, &check})
     command
-        ->add_option("--output", arguments.picture_file,
-                     "File for the picture, .svg or .png (drawing.svg in the results' folder)")
+        ->add_option(
+            "--output", arguments.picture_file,
+            "File for the picture, .svg, .png or .pdf (drawing.svg in the results' folder)")
         ->type_name("FILE")
         ->check(picture_problem);
   check.add_flag("--draw", arguments.draws, "Draw the mechanism as it was understood");
@@ -120,13 +122,13 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
           ->type_name("LABEL");
   const auto to =
       animate.add_option("--to", arguments.film_to, "End at this one")->type_name("LABEL");
-  const auto mode =
-      animate
-          .add_option("--mode", arguments.film_mode,
-                      "To and fro in the mode of this limit point instead of along the curve")
-          ->type_name("LABEL")
-          ->excludes(from)
-          ->excludes(to);
+  const auto mode = animate
+                        .add_option("--mode", arguments.film_mode,
+                                    "To and fro in the mode of this limit point or branch point "
+                                    "instead of along the curve")
+                        ->type_name("LABEL")
+                        ->excludes(from)
+                        ->excludes(to);
   animate
       .add_option("--jump", arguments.film_jump,
                   "The jump of this label to its landing instead of along the curve")

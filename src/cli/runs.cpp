@@ -68,6 +68,7 @@ class Runner {
         ended_ = 0;
         counting_ = false;
         written_ = {};  // the first row is put on the disk at once
+        progress_.begin_runs(batch.count);
       }
       in_parallel(batch.count, is_map ? 1 : threads(),
                   [&](std::size_t i) { run_one(batch, batch.first + i, is_map); });
@@ -137,6 +138,7 @@ class Runner {
     const std::scoped_lock lock{busy_};
     begun_[i] = has_ended;
     ++ended_;
+    progress_.end_run();
     if (is_counted(batch, is_map) && !closed_)
       progress_.part(static_cast<double>(ended_) / static_cast<double>(batch.count));
   }
@@ -148,12 +150,22 @@ class Runner {
     return !is_map && batch.count >= many;
   }
 
+  /// Points that a curve may have, both ways; 0 where there may be more branches or stages.
+  static int most_points(const PlannedRun& planned) {
+    const analysis::Study& plan = planned.plan;
+    const bool is_one_curve = plan.kind == analysis::StudyKind::force_deflection &&
+                              plan.branches.depth == 0 && plan.branches.search_at.empty() &&
+                              !plan.snap;
+    return is_one_curve ? 2 * plan.trace.maximum_points : 0;
+  }
+
   StudyResult computed(const PlannedRun& planned, bool is_map) {
     StudyResult result = is_map ? run_map(arguments_, folder_, case_, planned, session_, progress_)
-                                : session_.run_study(planned, [this](int points, double) {
+                                : session_.run_study(planned, [this, &planned](int points, double) {
                                     if (session_.signal() != 0) return false;
                                     const std::scoped_lock lock{busy_};
-                                    if (!closed_ && !counting_) progress_.points(points);
+                                    if (!closed_ && !counting_)
+                                      progress_.points(points, most_points(planned));
                                     return true;
                                   });
     result.study = planned.study;

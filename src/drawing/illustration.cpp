@@ -61,6 +61,7 @@ Picture illustrate(const std::vector<Panel>& panels, const IllustrationOptions& 
   Picture picture{.width = grid.width * static_cast<double>(grid.columns), .title = options.title};
   double top = edge - 4;
   add_line(options.title, 14, true, edge, picture.width - 2 * edge, top, picture);
+  if (panels.size() > 1 && !options.title.empty()) top += edge;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double left = grid.width * static_cast<double>(i % grid.columns);
     double y = top + (above + grid.height) * static_cast<double>(i / grid.columns);

@@ -49,6 +49,7 @@ class Legend {
           entries_.push_back({text, {colour, "", 3, {}}});
       };
       add(stable_colour, "stable under dead load");
+      add(critical_colour, "critical: stability ends here");
       add(driven_colour, "held as driven, unstable under dead load");
       add(unstable_colour, "unstable");
       add(ink_colour, "stability not known");
@@ -97,6 +98,9 @@ class Legend {
       });
     };
     if (any(has_own_colour)) entries_.push_back({"spring", {spring_colour, "", 1.8, {}}});
+    const auto has_outline = [](const Scene& scene) { return !scene.outlines.empty(); };
+    if (any(has_outline))
+      entries_.push_back({"area, surface, line or plane", {spring_colour, "", 1.2, {5, 3}}});
     if (any(has_idle))
       entries_.push_back({"spring that does not act here", {passive_colour, "", 1.2, {3, 2}}});
   }

@@ -17,7 +17,7 @@ Box widened(const Box& box, const Ink& ink) {
   return {box.left - by, box.top - by, box.right + by, box.bottom + by};
 }
 
-bool is_free(const Box& box, const Picture& picture) {
+bool is_free(const Box& box, const Picture& picture, bool keeps_off_all) {
   for (const Mark& mark : picture.marks) {
     if (const auto* words = std::get_if<Words>(&mark)) {
       if (overlap(box, box_of(*words))) return false;
@@ -25,7 +25,8 @@ bool is_free(const Box& box, const Picture& picture) {
       const Place c = disc->centre;
       const double r = disc->radius;
       if (overlap(box, {c.x - r, c.y - r, c.x + r, c.y + r})) return false;
-    } else if (const auto& path = std::get<Path>(mark); path.is_obstacle) {
+    } else if (const auto& path = std::get<Path>(mark);
+               path.is_obstacle || (keeps_off_all && path.is_avoided)) {
       const Box wide = widened(box, path.ink);
       for (std::size_t i = 0; i + 1 < path.places.size(); ++i)
         if (crosses(path.places[i], path.places[i + 1], wide)) return false;
@@ -52,7 +53,7 @@ void place_names(const std::vector<WantedName>& names, const Box& room, Picture&
   for (const WantedName& name : names) {
     if (name.words.text.empty()) continue;
     bool is_placed = false;
-    for (double away = name.distance + 4; away < name.distance + 34 && !is_placed; away += 6)
+    const auto try_sides = [&](double away, bool keeps_off_all) {
       for (const Side& side : sides) {
         Words words = name.words;
         words.anchor = side.anchor;
@@ -60,11 +61,15 @@ void place_names(const std::vector<WantedName>& names, const Box& room, Picture&
         words.at = {name.at.x + side.x * away,
                     name.at.y + side.y * (away + 0.25 * words.size) + 0.3 * words.size};
         const Box box = box_of(words);
-        if (!is_within(box, room) || !is_free(box, picture)) continue;
+        if (!is_within(box, room) || !is_free(box, picture, keeps_off_all)) continue;
         picture.marks.push_back(words);
         is_placed = true;
-        break;
+        return;
       }
+    };
+    for (const bool keeps_off_all : {true, false})
+      for (double away = name.distance + 4; away < name.distance + 34 && !is_placed; away += 6)
+        try_sides(away, keeps_off_all);
   }
 }
 

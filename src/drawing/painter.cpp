@@ -14,6 +14,16 @@ namespace {
 
 using Vec = model::Vec3<double>;
 
+constexpr double spring_width = 1.8;  // of lines [px]
+
+double member_width(Member member) {
+  return member == Member::strut ? 4.5 : member == Member::cable ? spring_width : 3;
+}
+
+std::string member_word(Member member) {
+  return member == Member::strut ? "strut" : member == Member::cable ? "cable" : "bar";
+}
+
 class Painter {
  public:
   Painter(const Panel& panel, const Sheet& sheet, const Box& room, Picture& picture)
@@ -118,7 +128,7 @@ class Painter {
   }
 
   void paint(const SpringPart& spring) {
-    Ink ink{spring_colour, "", 1.8, {}};
+    Ink ink{spring.member == Member::none ? spring_colour : ink_colour, "", spring_width, {}};
     if (!spring.acts) ink = {passive_colour, "", 1.2, {3, 2}};
     std::string title = "spring " + spring.name;
     title += spring.is_one_sided ? (spring.acts ? ", acts" : ", does not act") : "";
@@ -131,6 +141,11 @@ class Painter {
       ink.width = 2.4;
     }
     const Place from = place(spring.from), to = place(spring.to), at = place(spring.at);
+    if (spring.member != Member::none) {
+      if (spring.acts) ink.width += member_width(spring.member) - spring_width;
+      add({{from, to}, false, ink, member_word(spring.member) + title.substr(title.find(' '))});
+      return;
+    }
     if (!spring.is_line) {
       add({spiral(at, from - at, to - at, 1.3 * sheet_.joint, 2.4 * sheet_.joint), false, ink,
            title});
@@ -148,7 +163,8 @@ class Painter {
     Path path{.is_closed = outline.corners.size() > 2,
               .ink = {spring_colour, "", 1.2, {5, 3}},
               .title = "spring or pressure " + outline.name,
-              .is_obstacle = false};
+              .is_obstacle = false,
+              .is_avoided = true};
     for (const PointId corner : outline.corners) path.places.push_back(place(corner));
     add(std::move(path));
   }
@@ -272,10 +288,27 @@ class Painter {
         names_.push_back({0.5 * (place(spring.from) + place(spring.to)),
                           {.text = spring.name, .size = 11, .colour = spring_colour},
                           1.6 * sheet_.joint});
+    for (std::size_t i = 0; i < scene_.outlines.size(); ++i)
+      if (i == 0 || scene_.outlines[i].name != scene_.outlines[i - 1].name)
+        want_outline(scene_.outlines[i]);
     if (scene_.joints.size() <= few)
       for (const JointPart& joint : scene_.joints)
         want(joint.at, joint.name.substr(joint.name.find('.') + 1), false, "#555555");
     place_names(names_, room_, picture_);
+  }
+
+  /// At the middle of its longest side.
+  void want_outline(const OutlinePart& outline) {
+    const std::size_t count = outline.corners.size();
+    double longest = -1;
+    Place middle;
+    for (std::size_t i = 0; i < (count > 2 ? count : count - 1); ++i) {
+      const Place a = place(outline.corners[i]), b = place(outline.corners[(i + 1) % count]);
+      if (length(b - a) <= longest) continue;
+      longest = length(b - a);
+      middle = 0.5 * (a + b);
+    }
+    names_.push_back({middle, {.text = outline.name, .size = 11, .colour = spring_colour}, 3});
   }
 
   /// At the middle of the chain's longest link.
@@ -301,36 +334,6 @@ class Painter {
 };
 
 }  // namespace
-
-std::string ramp_colour(double t) {
-  constexpr double light[] = {158, 188, 218}, dark[] = {63, 0, 75};
-  const double part = std::clamp(t, 0.0, 1.0);
-  std::string text = "#";
-  for (int i = 0; i < 3; ++i) {
-    const auto value = static_cast<unsigned>(std::lround(light[i] + part * (dark[i] - light[i])));
-    text += "0123456789abcdef"[value / 16];
-    text += "0123456789abcdef"[value % 16];
-  }
-  return text;
-}
-
-std::string stability_colour(const Panel& panel) {
-  if (panel.unstable_driven && *panel.unstable_driven > 0) return unstable_colour;
-  if (!panel.unstable_dead) return ink_colour;
-  if (*panel.unstable_dead == 0) return stable_colour;
-  return panel.unstable_driven ? driven_colour : unstable_colour;
-}
-
-bool has_colour_of_stability(const Scene& scene, const SpringPart& spring, Colouring colouring) {
-  const bool no_member = std::all_of(scene.links.begin(), scene.links.end(),
-                                     [](const LinkPart& link) { return link.is_rail; });
-  return colouring == Colouring::stability && no_member && spring.is_line && spring.acts;
-}
-
-bool has_colour_of_value(const SpringPart& spring, Colouring colouring) {
-  return spring.acts &&
-         (colouring == Colouring::energy || (colouring == Colouring::force && spring.is_line));
-}
 
 std::vector<PointId> places_of(const Scene& scene) {
   std::vector<PointId> places;

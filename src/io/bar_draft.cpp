@@ -142,6 +142,16 @@ void check_bars(const MechanismDraft& draft, const Numbers& numbers,
       problems.add(bar.place, bar.key, problem, when);
 }
 
+std::map<std::string, drawing::Member> members_of(const MechanismDraft& draft) {
+  using drawing::Member;
+  std::map<std::string, Member> members;
+  for (const BarDraft& bar : draft.bars)
+    members[bar.name] = bar.acts == BarDraft::Acts::in_tension       ? Member::cable
+                        : bar.acts == BarDraft::Acts::in_compression ? Member::strut
+                                                                     : Member::bar;
+  return members;
+}
+
 void list_nodes(const MechanismDraft& draft, Case& the_case) {
   for (const SupportDraft& node : draft.supports) the_case.nodes.push_back({node.name, false, {}});
   for (const BodyDraft& body : draft.bodies)

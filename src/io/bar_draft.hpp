@@ -1,6 +1,9 @@
 // Bars as line springs; nodes and bars for listings.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "mechanism_draft.hpp"
 #include "springfold/io/case_file.hpp"
 
@@ -20,6 +23,9 @@ std::vector<const BarDraft*> bars_of(const MechanismDraft& draft, bool line);
 /// Reports bars without length, and pretensions that no free length gives.
 void check_bars(const MechanismDraft& draft, const std::vector<double>& numbers,
                 const model::Mechanism& mechanism, const std::string& when, Problems& problems);
+
+/// PlannedRun::members.
+std::map<std::string, drawing::Member> members_of(const MechanismDraft& draft);
 
 /// Case::nodes and Case::bars.
 void list_nodes(const MechanismDraft& draft, Case& the_case);

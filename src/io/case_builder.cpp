@@ -80,6 +80,7 @@ class Builder {
       for (const std::size_t p : study.vary->parameters)
         planned.varied.push_back(draft_->parameters[p].name);
     planned.mechanism = build_mechanism(draft_->mechanism, of_mechanism);
+    planned.members = members_of(draft_->mechanism);
     for (model::Load& load : build_loads(study.loads, numbers))
       planned.mechanism.loads.push_back(std::move(load));
     const auto body = static_cast<std::size_t>(study.body - 1);

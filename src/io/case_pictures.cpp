@@ -40,7 +40,7 @@ std::string panel_title(const PictureSpec& spec, const PlannedRun& planned,
                                                   : planned.label;
   std::string title = has_other_study ? planned.study : "";
   if (!run.empty()) title += (title.empty() ? "" : ", ") + run;
-  return title + (title.empty() ? "" : ": ") + label;
+  return shown_in_line(title + (title.empty() ? "" : ": ") + label);
 }
 
 /// The postures of one label.
@@ -62,36 +62,42 @@ void add_panels(const PictureSpec& spec, const PostureSpec& posture, const Plann
 }
 
 /// The picture's files in the work folder, in the formats that could be made.
-/// @param failure  why there is no PNG file
+/// @param failure  why some are missing
 std::vector<std::string> draw_files(const PictureSpec& spec, const std::string& name,
                                     const drawing::Picture& picture, const fs::path& work,
                                     const PlotOptions& options, std::string& failure) {
-  const auto wants = [&spec](const char* format) {
-    return std::find(spec.formats.begin(), spec.formats.end(), format) != spec.formats.end();
-  };
-  const std::string svg = name + ".svg", png = name + ".png";
+  const std::string svg = name + ".svg";
   write_file(work / svg, drawing::svg_text(picture));
   std::vector<std::string> files;
-  if (wants("svg")) files.push_back(svg);
-  if (!wants("png")) return files;
   const auto converter = find_executable("rsvg-convert");
-  if (!converter) {
-    failure = "no PNG file: it needs the program rsvg-convert (Debian: librsvg2-bin)";
-    return files;
+  const auto fail = [&failure](const std::string& format, const std::string& why) {
+    failure += (failure.empty() ? "" : "; ") + ("no " + format + " file: ") + why;
+  };
+  for (const std::string& format : spec.formats) {
+    const std::string file = name + "." + format;
+    if (format == "svg") {
+      files.push_back(svg);
+      continue;
+    }
+    if (!converter) {
+      fail(format, "it needs the program rsvg-convert (Debian: librsvg2-bin)");
+      continue;
+    }
+    // The names are ours: none can be taken for an option.
+    const auto problem = run_gnuplot(
+        {.executable = *converter,
+         .folder = work,
+         .timeout_seconds = options.timeout_seconds,
+         .stop_requested = options.stop_requested,
+         .words = {"rsvg-convert", "--format", format, "--output", "./" + file, "./" + svg}});
+    std::error_code error;
+    if (problem)
+      fail(format, *problem);
+    else if (fs::file_size(work / file, error) == 0 || error)
+      fail(format, "rsvg-convert wrote nothing");
+    else
+      files.push_back(file);
   }
-  // The names are ours: none can be taken for an option.
-  const auto problem = run_gnuplot({.executable = *converter,
-                                    .folder = work,
-                                    .timeout_seconds = options.timeout_seconds,
-                                    .stop_requested = options.stop_requested,
-                                    .words = {"rsvg-convert", "--output", "./" + png, "./" + svg}});
-  std::error_code error;
-  if (problem)
-    failure = "no PNG file: " + *problem;
-  else if (fs::file_size(work / png, error) == 0 || error)
-    failure = "no PNG file: rsvg-convert wrote nothing";
-  else
-    files.push_back(png);
   return files;
 }
 
@@ -152,7 +158,7 @@ void draw_case_pictures(const fs::path& folder, const Case& the_case,
     const auto panels = panels_of(spec, the_case, results, outcome.warnings);
     if (panels.empty()) continue;
     auto look = illustration_options(the_case, spec.view, spec.colour);
-    if (!spec.title.empty()) look.title = shown(spec.title);
+    if (!spec.title.empty()) look.title = shown_in_line(spec.title);
     draw_picture(folder, spec, files[i], illustrate(panels, look), options, outcome);
   }
 }

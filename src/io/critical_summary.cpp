@@ -28,7 +28,7 @@ std::string point_table(const StudyResult& result, const Branch& branch,
     if (column_of(result, name)) columns.emplace_back(name);
   const std::vector<double> sizes = quantity_sizes(result);
   std::vector<std::vector<std::string>> rows{{"points"}};
-  rows[0].insert(rows[0].end(), columns.begin(), columns.end());
+  for (const std::string& name : columns) rows[0].push_back(shown_name(result, name));
   for (const auto& event : branch.events) {
     auto& row = rows.emplace_back(std::vector<std::string>{event.label});
     for (const std::string& name : columns)

@@ -21,23 +21,11 @@ using analysis::Branch;
 using analysis::EventKind;
 using analysis::StudyResult;
 
-/// What drives a body along a rotation is a moment, and the way is an angle: columns have one name for both.
-std::string name_of(const std::string& quantity, const StudyResult& result) {
-  const auto column = column_of(result, quantity);
-  if (!column) return quantity;
-  const analysis::Unit unit = result.quantities[*column].unit == analysis::Unit::lambda
-                                  ? result.lambda_unit
-                                  : result.quantities[*column].unit;
-  if (quantity == "force" && unit == analysis::Unit::moment) return "moment";
-  if (quantity == "deflection" && unit == analysis::Unit::angle) return "rotation";
-  return quantity;
-}
-
 FigureText axis_title(const FigureText& given, const std::string& quantity, double factor,
                       const StudyResult& result, const UnitLabels& units) {
   if (!given.text.empty()) return given;
   const auto column = column_of(result, quantity);
-  const std::string name = name_of(quantity, result);
+  const std::string name = shown_name(result, quantity);
   const std::string title = factor == 1 ? name : factor_text(factor) + name;
   if (!column) return {title};
   const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
@@ -246,7 +234,7 @@ void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
   for (const std::string& quantity : quantities) {
     axes.y = quantity;
     ++axes.hue;
-    const std::string name = name_of(quantity, result);
+    const std::string name = shown_name(result, quantity);
     if (figure.quantities.size() < quantities.size()) figure.quantities.push_back(name);
     add_run(figure, axes, result, {label.text.empty() ? name : label.text + ": " + name});
   }

@@ -23,8 +23,9 @@ struct FigureText {
 /// What a part of a curve is worth.
 enum class Stability {
   stable,    ///< under the study's control and under dead load
+  unknown,   ///< unstable modes are not counted: loads without potential, springs at rest
   driven,    ///< under the study's control only: let go, the mechanism would jump
-  unstable,  ///< under the study's control, or not known
+  unstable,  ///< under the study's control
 };
 
 struct CurvePart {

@@ -39,6 +39,8 @@ std::string word_of(Stability stability) {
   switch (stability) {
     case Stability::stable:
       return "stable";
+    case Stability::unknown:
+      return "unknown";
     case Stability::driven:
       return "driven";
     case Stability::unstable:
@@ -56,7 +58,8 @@ bool is_any_in_view(const Figure& figure, const Canvas& canvas,
 void send_parts(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas,
                 const DrawnLines& drawn) {
   std::string parts, first_parts;
-  for (const auto stability : {Stability::stable, Stability::driven, Stability::unstable}) {
+  for (const auto stability :
+       {Stability::stable, Stability::unknown, Stability::driven, Stability::unstable}) {
     bool is_first = true;
     for (std::size_t i = 0; i < drawn.curves.size(); ++i) {
       std::vector<Polyline> lines;

@@ -8,6 +8,7 @@
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "springfold/io/postures.hpp"
+#include "springfold/io/shown_text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -34,7 +35,7 @@ std::string name_with_unit(const StudyResult& result, const std::string& name,
   const auto column = column_of(result, name);
   if (!column) return name;
   const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
-  return name + (unit.empty() ? "" : " [" + unit + "]");
+  return shown_name(result, name) + (unit.empty() ? "" : " [" + shown_in_line(unit) + "]");
 }
 
 /// Is there a deflection, and is it more than what rounding leaves of none?
@@ -145,28 +146,43 @@ FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const UnitLa
   return {.film = std::move(film)};
 }
 
-std::string limit_points_on(const Branch& branch) {
-  std::string list;
-  for (const analysis::Event& event : branch.events)
+/// A way in which the mechanism buckles: rates of the columns.
+struct Mode {
+  std::string name{};  ///< "LP1", "BP1"; of several at one point "BP1.2" is the second
+  std::size_t row = 0;
+  const std::vector<double>* rates = nullptr;
+};
+
+/// At a limit point the branch itself moves along the mode; branch points have modes across it.
+std::vector<Mode> modes_on(const Branch& branch) {
+  std::vector<Mode> modes;
+  for (const analysis::Event& event : branch.events) {
+    const auto& along = event.rates_after.empty() ? event.rates_before : event.rates_after;
     if (event.kind == analysis::EventKind::limit_point)
-      list += (list.empty() ? "" : ", ") + event.label;
-  return list.empty() ? "none" : list;
+      modes.push_back({event.label, event.row, &along});
+    for (std::size_t k = 0; k < event.modes.size(); ++k)
+      modes.push_back(
+          {event.label + (k == 0 ? "" : "." + std::to_string(k + 1)), event.row, &event.modes[k]});
+  }
+  return modes;
 }
 
 FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
                  const FilmWish& wish) {
   const Branch& branch = result.branches.front();
-  const auto event =
-      std::find_if(branch.events.begin(), branch.events.end(), [&](const analysis::Event& e) {
-        return e.label == wish.mode && e.kind == analysis::EventKind::limit_point;
-      });
-  if (event == branch.events.end())
-    return {.problem = "there is no limit point \"" + wish.mode + "\" on the first branch of " +
-                       result.study + "; there are: " + limit_points_on(branch)};
-  const auto& rates = event->rates_after.empty() ? event->rates_before : event->rates_after;
-  const analysis::Sample& row = branch.samples[event->row];
+  const std::vector<Mode> modes = modes_on(branch);
+  const auto found =
+      std::find_if(modes.begin(), modes.end(), [&](const Mode& m) { return m.name == wish.mode; });
+  if (found == modes.end()) {
+    std::string list;
+    for (const Mode& m : modes) list += (list.empty() ? "" : ", ") + m.name;
+    return {.problem = "there is no limit point or branch point \"" + wish.mode +
+                       "\" with a mode on the first branch of " + result.study +
+                       "; there are: " + (list.empty() ? "none" : list)};
+  }
+  const analysis::Sample& row = branch.samples[found->row];
   const auto panel = scenes.panel_of(row, wish.mode + ": mode, enlarged", units);
-  const auto motion = scenes.motion_at(row, rates);
+  const auto motion = scenes.motion_at(row, *found->rates);
   double largest = 0;
   for (const auto& velocity : motion) largest = std::max(largest, velocity.norm());
   if (!panel || !(largest > 0)) return {.problem = "the mode at " + wish.mode + " is not known"};
@@ -176,7 +192,7 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitL
   Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, size, units)};
   for (int i = 0; i < count; ++i) {
     const double phase = std::numbers::pi * (static_cast<double>(i) / (count - 1) - 0.5);
-    drawing::Frame frame{*panel, event->row};
+    drawing::Frame frame{*panel, found->row};
     for (std::size_t p = 0; p < motion.size(); ++p)
       frame.panel.scene.points[p] += amplitude * std::sin(phase) * motion[p];
     frame.panel.scene.gaps.clear();  // chains close in the first order, which is what is shown
@@ -207,9 +223,10 @@ FilmOutcome jump(const RowScenes& scenes, const StudyResult& result, const UnitL
     return {.problem = "there is no jump \"" + wish.jump + "\" with a motion to its landing in " +
                        result.study + "; there are: " + jumps_of(result)};
   const std::string energy = unit_label(analysis::Unit::energy, result.lambda_unit, units);
-  Film film{.heading = heading_of(result),
-            .diagram = {.x_name = "length of way",
-                        .y_name = "energy" + (energy.empty() ? "" : " [" + energy + "]")}};
+  Film film{
+      .heading = heading_of(result),
+      .diagram = {.x_name = "length of way",
+                  .y_name = "energy" + (energy.empty() ? "" : " [" + shown_in_line(energy) + "]")}};
   constexpr std::size_t held = 7;
   for (const analysis::SnapMoment& moment : found->motion) {
     film.diagram.points.push_back({.x = moment.way, .y = moment.state.energy});

@@ -21,11 +21,9 @@ std::size_t end_of_font(std::string_view text, std::size_t begin) {
 }  // namespace
 
 std::string gnuplot_string(std::string_view text) {
-  std::string one_line{text};
-  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
   // A doubled quote stands for one only behind another character (gnuplot 5.4): a quote is a string of its own, by its code.
   std::string result = "'";
-  for (const char c : shown(one_line)) {
+  for (const char c : shown_in_line(text)) {
     if (c == '\'')
       result += "'.\"\\047\".'";
     else
@@ -59,9 +57,8 @@ std::string without_markup(std::string_view text) {
 }
 
 std::string tex_text(std::string_view text) {
-  std::string one_line{text}, escaped;
-  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
-  for (const char c : shown(one_line)) {
+  std::string escaped;
+  for (const char c : shown_in_line(text)) {
     if (std::string_view{"{}$&#%_"}.find(c) != std::string_view::npos)
       escaped += std::string{'\\', c};
     else if (c == '\\')

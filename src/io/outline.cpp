@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "command_summary.hpp"
+#include "outline_kinds.hpp"
 #include "result_access.hpp"
 #include "stability_parts.hpp"
 #include "summary_line.hpp"
@@ -81,6 +83,8 @@ std::string state_text(Stability stability, bool is_load) {
   switch (stability) {
     case Stability::stable:
       return "stable";
+    case Stability::unknown:
+      return "stability not known";
     case Stability::driven:
       return is_load ? "unstable, but it would stand if the way were driven"
                      : "stable only as it is driven, not under dead load";
@@ -100,10 +104,10 @@ bool snaps_at(const Branch& branch, std::size_t row, bool is_load, const Stretch
 }
 
 /// "stable up to LP1 at 0.027 N, snaps there; unstable up to LP2 at 0.01 N; stable again to the end".
+/// @param most  stretches that are told
 std::string way_text(const Case& the_case, const StudyResult& result, const Branch& branch,
-                     bool forward, bool is_load) {
+                     bool forward, bool is_load, std::size_t most) {
   const auto stretches = stretches_of(result, branch, forward);
-  constexpr std::size_t most = 4;  // more are no picture
   std::string text;
   bool was_stable = false;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -122,40 +126,53 @@ std::string way_text(const Case& the_case, const StudyResult& result, const Bran
   return text;
 }
 
-std::vector<std::string> curve_outline(const Case& the_case, const StudyResult& result,
-                                       const PlannedRun& planned) {
-  const Branch& first = result.branches.front();
-  if (first.samples.size() < 2 || !column_of(result, "index")) return {};
-  if (!result.non_conservative.empty()) return {};  // indices are not defined
-  const bool is_load = planned.plan.control == ControlMode::load;
-  std::vector<std::string> lines;
-  const std::string onward = way_text(the_case, result, first, true, is_load);
-  const std::string back = way_text(the_case, result, first, false, is_load);
-  if (!onward.empty()) lines.push_back("forward: " + onward);
-  if (!back.empty()) lines.push_back("backward: " + back);
-  if (result.branches.size() > 1) {
-    std::string alike;
-    int pairs = 0;
-    for (const auto& group : alike_branches(result)) {
-      if (group.size() == 2) ++pairs;
-      if (group.size() > 1) alike += (alike.empty() ? "" : "; ") + numbers_text(group);
-    }
-    lines.push_back(std::to_string(result.branches.size()) + " branches" +
-                    (pairs > 0 ? ", with " + counted(pairs, "pair") + " that look alike: " + alike
-                     : alike.empty() ? ""
-                                     : "; these look alike: " + alike));
+std::string branches_text(const StudyResult& result) {
+  if (result.branches.size() < 2) return {};
+  std::string alike;
+  int pairs = 0;
+  for (const auto& group : alike_branches(result)) {
+    if (group.size() == 2) ++pairs;
+    if (group.size() > 1) alike += (alike.empty() ? "" : "; ") + numbers_text(group);
   }
+  constexpr std::size_t readable = 60;  // longer lists stand below
+  const std::string list = alike.size() <= readable ? ": " + alike : "";
+  return std::to_string(result.branches.size()) + " branches" +
+         (pairs > 0       ? ", with " + counted(pairs, "pair") + " that look alike" + list
+          : alike.empty() ? ""
+                          : "; these look alike" + list);
+}
+
+/// The way along the first branch, how many others there are, jumps.
+/// @param most  stretches of one stability that are told, on each side
+std::vector<std::string> curve_outline(const Case& the_case, const StudyResult& result,
+                                       const PlannedRun& planned, std::size_t most) {
+  const Branch& first = result.branches.front();
+  if (first.samples.size() == 1) return {equilibrium_words(result, first.samples.front())};
+  std::vector<std::string> lines;
+  if (!result.non_conservative.empty() || !column_of(result, "index")) {  // nothing is counted
+    const std::string points = counted_points(first);
+    lines.push_back("followed from end to end, stability not known" +
+                    (points.empty() ? "" : "; special points: " + points));
+  } else {
+    const bool is_load = planned.plan.control == ControlMode::load;
+    const std::string onward = way_text(the_case, result, first, true, is_load, most);
+    const std::string back = way_text(the_case, result, first, false, is_load, most);
+    if (!onward.empty()) lines.push_back("forward: " + onward);
+    if (!back.empty()) lines.push_back("backward: " + back);
+  }
+  const std::string branches = branches_text(result), jumps = jump_words(the_case, result);
+  const std::string others = branches + (branches.empty() || jumps.empty() ? "" : "; ") + jumps;
+  if (!others.empty()) lines.push_back(others);
   return lines;
 }
 
-std::string equilibria_outline(const StudyResult& result) {
-  int stable = 0;
-  const auto column = column_of(result, "index");
-  for (const auto& e : result.equilibria->list)
-    if (column && e.sample.values[*column] == 0) ++stable;
-  const auto count = static_cast<int>(result.equilibria->list.size());
-  return "at least " + std::to_string(count) + (count == 1 ? " equilibrium" : " equilibria") +
-         ", " + std::to_string(stable) + " of them stable";
+/// Each as it stands in lines of a terminal.
+std::vector<std::string> in_lines(const std::vector<std::string>& sentences) {
+  std::vector<std::string> lines;
+  for (const std::string& sentence : sentences)
+    for (std::string& line : wrapped(sentence, table_width - 2 * summary_indent))
+      lines.push_back(std::move(line));
+  return lines;
 }
 
 /// Of a branch and its mirror one may reach the upper, the other the lower limit of a coordinate.
@@ -218,10 +235,20 @@ std::string numbers_text(const std::vector<std::size_t>& numbers) {
 std::vector<std::string> outline_of(const Case& the_case, const StudyResult& result) {
   const PlannedRun* planned = plan_of(the_case, result);
   if (planned == nullptr || !result.start.found) return {};
-  if (result.threshold) return {result.threshold->message};
-  if (result.equilibria) return {equilibria_outline(result)};
-  if (planned->plan.kind != StudyKind::force_deflection || result.branches.empty()) return {};
-  return curve_outline(the_case, result, *planned);
+  constexpr std::size_t most_lines = 3;
+  std::vector<std::string> lines = in_lines(outline_of_kind(the_case, *planned, result));
+  const bool is_curve = lines.empty() && !result.branches.empty() &&
+                        !result.branches.front().samples.empty() &&
+                        !has_summary_of_its_own(planned->plan.kind);
+  // What has no room is told in fewer stretches: the table below has all points.
+  for (std::size_t most = 4; is_curve && most > 0; --most) {
+    lines = in_lines(curve_outline(the_case, result, *planned, most));
+    if (lines.size() <= most_lines) break;
+  }
+  if (lines.size() <= most_lines) return lines;
+  lines.resize(most_lines);
+  lines.back() += " ...";
+  return lines;
 }
 
 }  // namespace springfold::io

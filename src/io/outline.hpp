@@ -9,10 +9,10 @@
 
 namespace springfold::io {
 
-/// Sentences about a run, each made of facts of the result alone: along which part of the first branch
+/// At most three lines about a run, each made of facts of the result alone: along which part of the first branch
 /// it is stable, stable only as it is driven, or unstable, and at which special points that changes, with
-/// the force there (lambda, where there is none); how many other branches there are, and which look
-/// alike; of other kinds what was found. Empty where nothing was found.
+/// the force there (lambda, where there is none); how many other branches there are, which look
+/// alike, and how many jumps; of other kinds what was found. Empty where nothing was found.
 std::vector<std::string> outline_of(const Case& the_case, const analysis::StudyResult& result);
 
 /// Branches whose special points agree in lambda, deflection and force, such as mirror images: lists of

@@ -156,7 +156,8 @@ DrawnLines without_overlaps(const Figure& figure, const Canvas& canvas) {
   DrawnLines lines;
   lines.curves.resize(figure.curves.size());
   Drawn drawn;
-  for (const auto level : {Stability::stable, Stability::driven, Stability::unstable})
+  for (const auto level :
+       {Stability::stable, Stability::unknown, Stability::driven, Stability::unstable})
     for (std::size_t c = 0; c < figure.curves.size(); ++c) {
       double along =
           0;  // at a limit point the stable part ends where the unstable one begins: that is no overlap

@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Runs the converter and waits. @returns whether it ended well
-bool convert(const fs::path& converter, const fs::path& svg, const fs::path& png) {
-  std::vector<std::string> words{"rsvg-convert", "--output", png.string(), svg.string()};
+bool convert(const fs::path& converter, const fs::path& svg, const fs::path& file) {
+  std::vector<std::string> words{"rsvg-convert", "--format",    file.extension().string().substr(1),
+                                 "--output",     file.string(), svg.string()};
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -42,14 +43,15 @@ std::string write_picture(const drawing::Picture& picture, const fs::path& file)
   // Absolute: no name can be taken for an option.
   const fs::path path = fs::absolute(file);
   make_folder(path.parent_path());
-  const bool is_png = path.extension() == ".png";
+  const bool is_svg = path.extension() == ".svg";
   fs::path svg = path;
-  if (is_png) svg.replace_extension(".svg");
+  svg.replace_extension(".svg");
   write_file(svg, drawing::svg_text(picture));
-  if (!is_png) return {};
+  if (is_svg) return {};
   const auto converter = find_executable("rsvg-convert");
   if (converter && convert(*converter, svg, path)) return {};
-  return "no PNG file: it needs the program rsvg-convert (Debian: librsvg2-bin)" +
+  return std::string{path.extension() == ".pdf" ? "no PDF file" : "no PNG file"} +
+         ": it needs the program rsvg-convert (Debian: librsvg2-bin)" +
          std::string(converter ? ", which failed" : "") + "; the picture is in " + svg.string();
 }
 

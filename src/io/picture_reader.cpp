@@ -108,7 +108,7 @@ PictureDraft read_picture(const Item& item, const std::vector<StudyDraft>& studi
   spec.title = table.text("title").value_or("");
   if (table.has("view")) spec.view = view_words[table.choice("view", view_words, 0)];
   spec.colour = colour_words[table.choice("colour", colour_words, 0)];
-  spec.formats = read_formats(table, {"svg", "png"}, spec.formats, reading);
+  spec.formats = read_formats(table, {"svg", "png", "pdf"}, spec.formats, reading);
   const PictureKeys shared{usual_study(table, studies),
                            {table.find("study"), table.key_of("study")},
                            run_items(table, reading)};

@@ -10,6 +10,7 @@
 #include "graph_pictures.hpp"
 #include "manifest.hpp"
 #include "map_figure.hpp"
+#include "plain_figure.hpp"
 #include "sha256.hpp"
 #include "text.hpp"
 #include "tornado_figure.hpp"
@@ -62,19 +63,56 @@ ListedFile listed(const fs::path& file) {
   return {"plots/" + file.filename().string(), sha256(bytes), bytes.size()};
 }
 
-/// Draws one figure; the reason if there is no picture. @param write  puts its script into a file
-std::optional<std::string> draw(const fs::path& folder, const std::string& name,
-                                const std::vector<std::string>& endings,
-                                const std::function<void(const fs::path&)>& write,
+/// Finished pictures of the work folder become files of the results.
+void publish(const fs::path& folder, const fs::path& work, const std::vector<std::string>& files,
+             PlotOutcome& outcome) {
+  std::vector<ListedFile> pictures;
+  for (const std::string& file : files) pictures.push_back(listed(work / file));
+  // Listed before they are there: what the manifest does not list is never removed later.
+  list_in_manifest(folder, pictures);
+  for (const std::string& file : files) {
+    publish_file(work / file, folder / "plots" / file);
+    outcome.files.push_back(folder / "plots" / file);
+    std::erase(outcome.missing, "plots/" + file);
+  }
+}
+
+/// One figure as it is drawn, with gnuplot or without.
+struct Drawing {
+  std::string name{};
+  std::vector<std::string> endings{};
+  std::function<void(const fs::path&)> write{};         ///< puts its script into a file
+  std::function<drawing::Picture()> without_gnuplot{};  ///< more plainly
+};
+
+/// The SVG file alone; what is missing otherwise, in words.
+std::string draw_plainly(const fs::path& folder, const fs::path& work, const Drawing& figure,
+                         PlotOutcome& outcome) {
+  std::string others;
+  for (const std::string& ending : figure.endings) {
+    if (ending != ".svg") {
+      others += (others.empty() ? "" : ", ") + ending.substr(1);
+      continue;
+    }
+    write_file(work / (figure.name + ending), drawing::svg_text(figure.without_gnuplot()));
+    publish(folder, work, {figure.name + ending}, outcome);
+  }
+  return others.empty() ? "its SVG file is drawn more plainly" : "no " + others + " file";
+}
+
+/// Draws one figure; the reason if there is no picture.
+std::optional<std::string> draw(const fs::path& folder, const Drawing& figure,
                                 const std::optional<fs::path>& gnuplot, const PlotOptions& options,
                                 PlotOutcome& outcome) {
   const WorkFolder work{folder / "plots"};
-  const std::string script = name + ".gp";
-  write(work.path() / script);
+  const std::string script = figure.name + ".gp";
+  figure.write(work.path() / script);
   list_in_manifest(folder, {listed(work.path() / script)});
   publish_file(work.path() / script, folder / "plots" / script);
   const std::string kept = " (script kept: " + (folder / "plots" / script).string() + ")";
-  if (!gnuplot) return "there is no program '" + options.gnuplot + "'" + kept;
+  if (!gnuplot)
+    return "there is no program '" + options.gnuplot +
+           "': " + draw_plainly(folder, work.path(), figure, outcome) + kept;
 
   const auto failure = run_gnuplot({.executable = *gnuplot,
                                     .folder = work.path(),
@@ -82,22 +120,15 @@ std::optional<std::string> draw(const fs::path& folder, const std::string& name,
                                     .timeout_seconds = options.timeout_seconds,
                                     .stop_requested = options.stop_requested});
   if (failure) return *failure + kept;
-  std::vector<ListedFile> pictures;
-  for (const std::string& ending : endings) {
-    const fs::path picture = work.path() / (name + ending);
+  std::vector<std::string> files;
+  for (const std::string& ending : figure.endings) {
+    files.push_back(figure.name + ending);
     std::error_code error;
+    const fs::path picture = work.path() / files.back();
     if (!fs::is_regular_file(picture, error) || fs::file_size(picture, error) == 0)
       return "gnuplot wrote no " + picture.filename().string() + kept;
-    pictures.push_back(listed(picture));
   }
-  // Listed before they are there: what the manifest does not list is never removed later.
-  list_in_manifest(folder, pictures);
-  for (const std::string& ending : endings) {
-    const std::string picture = name + ending;
-    publish_file(work.path() / picture, folder / "plots" / picture);
-    outcome.files.push_back(folder / "plots" / picture);
-    std::erase(outcome.missing, "plots/" + picture);
-  }
+  publish(folder, work.path(), files, outcome);
   return std::nullopt;
 }
 
@@ -143,23 +174,25 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
     const Templates templates = read_templates(options.templates, !maps.empty(), !tornados.empty());
     const auto gnuplot = find_executable(options.gnuplot);
     make_folder(folder / "plots");
-    const auto draw_one = [&](const std::string& name, const std::vector<std::string>& formats,
+    const auto draw_one = [&](const auto& figure, const std::vector<std::string>& formats,
                               const auto& write) {
       if (options.stop_requested && options.stop_requested()) return;
-      const auto failure =
-          draw(folder, name, endings_of(formats), write, gnuplot, options, outcome);
-      if (failure) outcome.warnings.push_back("figure '" + name + "': " + *failure);
+      const auto failure = draw(folder,
+                                {figure.name, endings_of(formats), write,
+                                 [&figure] { return plain::picture_of(figure); }},
+                                gnuplot, options, outcome);
+      if (failure) outcome.warnings.push_back("figure '" + figure.name + "': " + *failure);
     };
     for (const auto& figure : figures)
-      draw_one(figure.name, figure.look.formats, [&](const fs::path& file) {
+      draw_one(figure, figure.look.formats, [&](const fs::path& file) {
         write_figure_script(file, figure, templates.style, templates.figure);
       });
     for (const auto& figure : maps)
-      draw_one(figure.name, figure.formats, [&](const fs::path& file) {
+      draw_one(figure, figure.formats, [&](const fs::path& file) {
         write_file(file, map_script(figure, templates.style, templates.map));
       });
     for (const auto& figure : tornados)
-      draw_one(figure.name, figure.formats, [&](const fs::path& file) {
+      draw_one(figure, figure.formats, [&](const fs::path& file) {
         write_file(file, tornado_script(figure, templates.style, templates.tornado));
       });
   } catch (const std::exception& error) {

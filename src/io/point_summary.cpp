@@ -46,7 +46,7 @@ std::string point_lines(const StudyResult& result, const Branch& branch,
   for (const char* name : {"lambda", "deflection", "force"})
     if (column_of(result, name)) columns.emplace_back(name);
   std::vector<std::vector<std::string>> rows = {{"points"}};
-  rows.front().insert(rows.front().end(), columns.begin(), columns.end());
+  for (const std::string& name : columns) rows.front().push_back(shown_name(result, name));
   std::vector<std::string> indices = {"index"};
   for (const char* name : {"index_force", "index_driven"})
     if (column_of(result, name)) indices.emplace_back(name);

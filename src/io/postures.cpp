@@ -6,6 +6,7 @@
 #include <set>
 
 #include "nothing.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/io/shown_text.hpp"
@@ -48,6 +49,34 @@ model::Mechanism acting(const PlannedRun& planned, const model::Mechanism& now) 
   return mechanism;
 }
 
+/// Springs that the case calls bars are drawn as bars.
+drawing::Scene with_members(drawing::Scene scene, const PlannedRun& planned) {
+  for (drawing::SpringPart& spring : scene.springs)
+    if (const auto known = planned.members.find(spring.name);
+        known != planned.members.end() && spring.is_line)
+      spring.member = known->second;
+  return scene;
+}
+
+/// Does the label name a point at which an eigenvalue under dead load is zero, at an end of a stable stretch? Its own
+/// count says nothing.
+bool is_critical(const StudyResult& result, const std::string& label) {
+  using analysis::EventKind;
+  for (const analysis::Branch& branch : result.branches)
+    for (const analysis::Event& event : branch.events) {
+      if (label.empty() || event.label != label) continue;
+      const bool is_singular =
+          event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
+          event.kind == EventKind::touch || event.kind == EventKind::stability_change;
+      const auto is_stable = [&](std::size_t row) {
+        return value_at(result, branch, row, "index_force") == 0;
+      };
+      return is_singular &&
+             ((event.row > 0 && is_stable(event.row - 1)) || is_stable(event.row + 1));
+    }
+  return false;
+}
+
 }  // namespace
 
 RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
@@ -63,6 +92,7 @@ RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
     rho_columns_.push_back(column_of(result, name + ".rho"));
     has_columns_ &= rho_columns_.back().has_value();
   }
+  sizes_ = quantity_sizes(result);
   lambda_ = column_of(result, "lambda");
   force_ = column_of(result, "force");
   deflection_ = column_of(result, "deflection");
@@ -73,6 +103,10 @@ RowScenes::RowScenes(const PlannedRun& planned, const StudyResult& result)
 
 double RowScenes::value(const Sample& row, std::optional<std::size_t> column) const {
   return column && *column < row.values.size() ? row.values[*column] : nothing;
+}
+
+double RowScenes::shown_value(const Sample& row, std::optional<std::size_t> column) const {
+  return column ? shown_in(sizes_, *column, value(row, column)) : nothing;
 }
 
 statics::System RowScenes::system_of(const Sample& row, double lambda) const {
@@ -120,11 +154,14 @@ void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture&
   posture.wrenches.back().is_direction = true;
   if (!drives) return;
   // What holds the body where it is driven to, along the direction.
-  const double force = value(row, force_);
+  const double force = shown_value(row, force_);
   drawing::BodyWrench reaction = wrench_of(planned_, plan.direction);
-  const double size = reaction.force.norm();
-  reaction.force *= size > 0 && std::isfinite(force) ? force / size : 0;
-  reaction.moment.setZero();
+  // Along the translation, or about the axis where there is none.
+  if (reaction.force.norm() > 0) reaction.moment.setZero();
+  const double size = std::hypot(reaction.force.norm(), reaction.moment.norm());
+  const double factor = size > 0 && std::isfinite(force) ? force / size : 0;
+  reaction.force *= factor;
+  reaction.moment *= factor;
   posture.wrenches.push_back(reaction);
 }
 
@@ -144,7 +181,7 @@ std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
     posture.rho[i] = value(row, rho_columns_[static_cast<std::size_t>(i)]);
   if (!posture.rho.allFinite()) return std::nullopt;
   add_wrenches(row, posture.lambda, posture);
-  return drawing::scene_of(system, posture);
+  return with_members(drawing::scene_of(system, posture), planned_);
 }
 
 std::vector<model::Vec3<double>> RowScenes::motion_at(const Sample& row,
@@ -178,27 +215,30 @@ std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::
                        .title = title,
                        .unstable_dead = count_of(value(row, dead_)),
                        .unstable_driven = count_of(value(row, driven_))};
+  panel.is_critical = is_critical(result_, row.event);
   for (const auto column : {lambda_, force_, deflection_}) {
-    const double v = value(row, column);
+    const double v = shown_value(row, column);
     if (!column || !std::isfinite(v)) continue;
     const analysis::Quantity& q = result_.quantities[*column];
     const std::string unit = unit_label(q.unit, result_.lambda_unit, units);
-    panel.notes.push_back(q.name + " = " + rounded(v, 5) + (unit.empty() ? "" : " " + unit));
+    panel.notes.push_back(shown_name(result_, q.name) + " = " + rounded(v, 5) +
+                          (unit.empty() ? "" : " " + shown_in_line(unit)));
   }
   return panel;
 }
 
 std::string posture_title(const PlannedRun& planned, const std::string& what) {
-  return planned.study + (planned.label.empty() ? "" : ", " + planned.label) + ": " + what;
+  return shown_in_line(planned.study + (planned.label.empty() ? "" : ", " + planned.label) + ": " +
+                       what);
 }
 
 drawing::IllustrationOptions illustration_options(const Case& the_case, const std::string& view,
                                                   const std::string& colour) {
   using Vec = model::Vec3<double>;
   drawing::IllustrationOptions options;
-  options.title = shown(the_case.title);
-  options.force_unit = the_case.units.force;
-  options.energy_unit = the_case.units.force + "·" + the_case.units.length;
+  options.title = shown_in_line(the_case.title);
+  options.force_unit = shown_in_line(the_case.units.force);
+  options.energy_unit = shown_in_line(the_case.units.force + "·" + the_case.units.length);
   options.colouring = colour == "force"    ? drawing::Colouring::force
                       : colour == "energy" ? drawing::Colouring::energy
                       : colour == "none"   ? drawing::Colouring::none
@@ -223,7 +263,7 @@ drawing::Panel guess_panel(const PlannedRun& planned, const std::string& title) 
     posture.wrenches.push_back(wrench_of(planned, planned.plan.direction));
     posture.wrenches.back().is_direction = true;
   }
-  return {.scene = drawing::scene_of(system, posture), .title = title};
+  return {.scene = with_members(drawing::scene_of(system, posture), planned), .title = title};
 }
 
 FoundRow row_at(const StudyResult& result, const std::string& label) {

@@ -4,6 +4,7 @@
 
 #include "report_assets.hpp"
 #include "report_data.hpp"
+#include "springfold/io/shown_text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -47,7 +48,7 @@ bool has_report() { return !report_assets().frame.empty(); }
 std::string report_html(const Case& the_case, const std::vector<analysis::StudyResult>& results) {
   const ReportAssets assets = report_assets();
   const std::string title = the_case.title.empty() ? "springfold" : the_case.title;
-  return filled(assets.frame, {{"@TITLE@", escaped(title)},
+  return filled(assets.frame, {{"@TITLE@", escaped(shown_in_line(title))},
                                {"@STYLE@", std::string(assets.style)},
                                {"@LICENCE@", escaped(assets.licence)},
                                {"@DATA@", report_data(the_case, results)},

@@ -15,6 +15,7 @@
 #include "result_tables.hpp"
 #include "springfold/drawing/illustration.hpp"
 #include "springfold/io/postures.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "springfold/version.hpp"
 
 namespace springfold::io {
@@ -59,6 +60,20 @@ const char* word_of(model::JointRole role) {
   return "";
 }
 
+const char* word_of(drawing::Member member) {
+  switch (member) {
+    case drawing::Member::none:
+      return "";
+    case drawing::Member::bar:
+      return "bar";
+    case drawing::Member::cable:
+      return "cable";
+    case drawing::Member::strut:
+      return "strut";
+  }
+  return "";
+}
+
 /// Parts and the numbers of their points: the same for all rows of a run.
 Json parts_of(const drawing::Scene& scene) {
   const drawing::View view = drawing::natural_view(scene);
@@ -80,8 +95,12 @@ Json parts_of(const drawing::Scene& scene) {
                               {"at", p.at},
                               {"axis", p.axis}});
   for (const auto& p : scene.springs)
-    json["springs"].push_back(
-        {{"name", p.name}, {"line", p.is_line}, {"from", p.from}, {"at", p.at}, {"to", p.to}});
+    json["springs"].push_back({{"name", p.name},
+                               {"line", p.is_line},
+                               {"from", p.from},
+                               {"at", p.at},
+                               {"to", p.to},
+                               {"member", word_of(p.member)}});
   for (const auto& p : scene.outlines)
     json["outlines"].push_back({{"name", p.name}, {"corners", p.corners}});
   for (const auto& p : scene.stops)
@@ -165,8 +184,11 @@ Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scen
   if (point.event == nullptr) return json;
   const analysis::Event& event = *point.event;
   const auto& rates = event.rates_after.empty() ? event.rates_before : event.rates_after;
-  if (event.row < list.rows.size() && scenes.has_postures())
+  if (event.row < list.rows.size() && scenes.has_postures()) {
     json["motion"] = base64_of(motion_at(scenes, *list.rows[event.row], rates));
+    for (const std::vector<double>& mode : event.modes)
+      json["modes"].push_back(base64_of(motion_at(scenes, *list.rows[event.row], mode)));
+  }
   if (event.stiffness.size() > 0) {
     json["stiffness"] = Json::array();
     for (Index i = 0; i < event.stiffness.rows(); ++i) {
@@ -227,9 +249,9 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
              const std::vector<std::string>& files, const std::string& equilibria) {
   const bool is_traced = planned.plan.kind == StudyKind::force_deflection;
   const PageAxes axes = page_axes_of(planned, result);
-  Json json = {{"study", result.study},
+  Json json = {{"study", shown_in_line(result.study)},
                {"run", result.run},
-               {"label", result.label},
+               {"label", shown_in_line(result.label)},
                {"kind", to_string(planned.plan.kind)},
                {"control", is_traced ? to_string(planned.plan.control) : std::string_view{}},
                {"parameters", planned.parameters},
@@ -243,9 +265,11 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
   const std::vector<double> sizes = quantity_sizes(result);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const analysis::Quantity& q = result.quantities[i];
-    json["quantities"].push_back({{"name", q.name},
-                                  {"unit", unit_label(q.unit, result.lambda_unit, the_case.units)},
-                                  {"rounding", shown_below(sizes[i])}});
+    json["quantities"].push_back(
+        {{"name", q.name},
+         {"title", shown_name(result, q.name)},
+         {"unit", shown_in_line(unit_label(q.unit, result.lambda_unit, the_case.units))},
+         {"rounding", shown_below(sizes[i])}});
   }
   const PageLists page = page_lists_of(planned, result, files, equilibria, the_case.units);
   const RowScenes scenes{planned, result};
@@ -281,8 +305,8 @@ std::string base64_of(const std::vector<double>& numbers) {
 
 std::string report_data(const Case& the_case, const std::vector<StudyResult>& results) {
   Json json = {{"version", version},
-               {"title", the_case.title},
-               {"case", the_case.file.filename().string()},
+               {"title", shown_in_line(the_case.title)},
+               {"case", shown_in_line(the_case.file.filename().string())},
                {"hash", the_case.hash},
                {"runs", Json::array()}};
   const auto files = branch_files(results);

@@ -7,6 +7,7 @@
 #include "report_data.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "springfold/io/shown_text.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
 
@@ -70,7 +71,7 @@ const Sample* keep(const SnapState& state, PageLists& page) {
 
 std::string with_unit(double value, const StudyResult& result, const UnitLabels& units) {
   const std::string unit = unit_label(analysis::Unit::energy, result.lambda_unit, units);
-  return rounded(value, page_digits) + (unit.empty() ? "" : " " + unit);
+  return rounded(value, page_digits) + (unit.empty() ? "" : " " + shown_in_line(unit));
 }
 
 std::string sentence_of(const StudyResult& result, const analysis::Jump& jump,

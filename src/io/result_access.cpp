@@ -65,6 +65,17 @@ double value_at(const analysis::StudyResult& result, const analysis::Branch& bra
   return exists ? branch.samples[row].values[*column] : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::string shown_name(const analysis::StudyResult& result, const std::string& quantity) {
+  const auto column = column_of(result, quantity);
+  if (!column) return quantity;
+  const analysis::Unit unit = result.quantities[*column].unit == analysis::Unit::lambda
+                                  ? result.lambda_unit
+                                  : result.quantities[*column].unit;
+  if (quantity == "force" && unit == analysis::Unit::moment) return "moment";
+  if (quantity == "deflection" && unit == analysis::Unit::angle) return "rotation";
+  return quantity;
+}
+
 const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
                                        std::string_view study, int run) {
   const auto found = std::find_if(results.begin(), results.end(), [&](const auto& result) {

@@ -42,6 +42,10 @@ double shown_against(double value, double scale);
 double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
                    std::size_t column);
 
+/// What people are told that a column is: what drives a body along a rotation is a moment, and the way is an angle, but
+/// columns have one name for both ("force", "deflection").
+std::string shown_name(const analysis::StudyResult& result, const std::string& quantity);
+
 /// The result of one run of a study; nullptr if it was not run.
 const analysis::StudyResult* result_of(const std::vector<analysis::StudyResult>& results,
                                        std::string_view study, int run);

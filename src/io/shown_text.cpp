@@ -70,4 +70,11 @@ std::string shown(std::string_view text) {
   return all;
 }
 
+std::string shown_in_line(std::string_view text) {
+  std::string one_line{text};
+  for (char& c : one_line)
+    if (c == '\n') c = ' ';
+  return shown(one_line);
+}
+
 }  // namespace springfold::io

@@ -12,7 +12,7 @@ namespace springfold::io {
 namespace {
 
 /// A turn of this angle between two points is not seen as a corner.
-constexpr double smallest_turn = std::numbers::pi / 60;
+constexpr double smallest_turn = std::numbers::pi / 120;
 constexpr int most_inner_points = 24;  // of one step
 /// Rows nearer than this part of the branch say nothing about its slope but rounding.
 constexpr double nearest_rows = 1e-6;

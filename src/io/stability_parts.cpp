@@ -79,7 +79,8 @@ std::vector<RowIndex> indices_of_rows(const analysis::StudyResult& result,
 
 Stability stability_of(const RowIndex& row) {
   if (row.index > 0 && row.index_driven == 0) return Stability::driven;
-  if (row.index != 0) return Stability::unstable;  // NaN as well
+  if (std::isnan(row.index)) return Stability::unknown;
+  if (row.index != 0) return Stability::unstable;
   return row.index_force > 0 ? Stability::driven : Stability::stable;
 }
 

@@ -53,6 +53,7 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
   json["values"] = exists ? by_quantity(result, branch.samples[event.row].values) : Json{};
   json["rates_before"] = by_quantity(result, event.rates_before);
   json["rates_after"] = by_quantity(result, event.rates_after);
+  for (const auto& mode : event.modes) json["modes"].push_back(by_quantity(result, mode));
   json["stiffness"] = json_of(event.stiffness);
   json["compliance"] = json_of(event.compliance);
   if (event.stiffness_after.size() > 0) json["stiffness_after"] = json_of(event.stiffness_after);

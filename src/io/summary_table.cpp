@@ -250,9 +250,8 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
 /// What happened, in words.
 std::string outline_lines(const Case& the_case, const StudyResult& result) {
   std::string text;
-  for (const std::string& sentence : outline_of(the_case, result))
-    for (const std::string& part : wrapped(sentence, table_width - 2 * summary_indent))
-      text += std::string(summary_indent, ' ') + shown(part) + "\n";
+  for (const std::string& line : outline_of(the_case, result))
+    text += std::string(summary_indent, ' ') + shown(line) + "\n";
   return text;
 }
 

@@ -156,7 +156,7 @@ std::string sweep_points_lines(const SweepPoints& sweep, const std::string& file
   const std::string quantity = columns.back() == "deflection" ? columns.front() : columns.back();
   std::vector<std::vector<std::string>> rows{sweep.parameters};
   for (const std::string& label : sweep.labels)
-    rows.front().push_back(pair_of(label, " ", quantity));
+    rows.front().push_back(pair_of(label, " ", shown_name(*sweep.runs.front().result, quantity)));
   for (const SweepPoints::Run& run : sweep.runs) {
     auto& row = rows.emplace_back();
     for (const std::string& name : sweep.parameters)

@@ -158,6 +158,40 @@ async function inSpace() {
   expect(await links() === straight, "r turns it back");
 }
 
+/** At a branch point the ways across the branch are shown: of the dome's double one two modes, and the branch itself. */
+async function modes() {
+  const place = join(folder, "dome");
+  await tab.load(join(place, "report.html"));
+  await tab.choose("run", "press, run 2: 60°");
+  const table = await tableOf(place);
+  await value("document.getElementById('diagram').focus()");
+  for (let i = 0; i < 20 && !table.at(await row(), "event").startsWith("BP"); ++i) await key(i < 10 ? "n" : "p", i < 10 ? "KeyN" : "KeyP");
+  expect(table.at(await row(), "event") === "BP1", "n and p reach the branch point");
+  const titles = await value("[...document.querySelectorAll('#point button')].map(b => b.textContent)");
+  expect(JSON.stringify(titles) === JSON.stringify(["Show the buckling mode 1", "Show the buckling mode 2", "Show the motion along the branch"]),
+         `its modes can be shown: ${titles}`);
+  const apex = () => value("[...document.querySelectorAll('#mechanism circle[data-body=apex]')].map(c => [c.getAttribute('cx'), c.getAttribute('cy')]).join()");
+  const rest = await apex(), seen = new Set();
+  await key("m", "KeyM");
+  for (let i = 0; i < 20; ++i) { await tab.settle(); seen.add(await apex()); }
+  expect(seen.size > 5, "m moves the mechanism in its mode");
+  for (let i = 0; i < 3; ++i) await key("m", "KeyM");
+  await tab.settle();
+  expect(await apex() === rest, "after the last of them it rests again");
+}
+
+/** The mouse alone shows the values of the row that is nearest. */
+async function hover() {
+  const place = join(folder, "toggle");
+  await tab.load(join(place, "report.html"));
+  const table = await tableOf(place), before = await row();
+  await mouse("mouseMoved", await at('#diagram circle[data-label="LP1"]', 0.5, -0.6), {button: "none"});
+  await tab.settle();
+  const shown = await value("document.querySelector('#diagram .hover').getAttribute('display') === null && document.querySelector('#diagram .hover text').textContent");
+  const near = table.lines.some((_, i) => shown && shown.startsWith(`${Number(Number(table.at(i, "deflection")).toPrecision(7))}, ${Number(Number(table.at(i, "force")).toPrecision(7))}`));
+  expect(near && await row() === before, `the mouse alone shows values of a row: ${shown}`);
+}
+
 /** Every run of every study, by the choice of runs: whatever it has is shown, and nothing is complained of. */
 async function allRuns(name) {
   await tab.load(join(folder, name, "report.html"));
@@ -203,7 +237,7 @@ async function longCurve() {
 }
 
 try {
-  for (const part of [curve, map, inSpace, () => allRuns("platform"), longCurve]) await part();
+  for (const part of [curve, hover, map, inSpace, modes, () => allRuns("platform"), longCurve]) await part();
   expect(browser.complaints.length === 0, `no errors on the console ${browser.complaints.join("; ")}`);
 } catch (error) {
   console.error(error, browser.complaints);

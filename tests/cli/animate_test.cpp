@@ -116,8 +116,8 @@ TEST_F(Animate, NamesTheLabelsThereAreForOneThatIsNot) {
   EXPECT_THAT(err, HasSubstr("there is no point \"LP7\" on the first branch of push; there are: "
                              "start, EP1, EP2, end"));
   EXPECT_EQ(run({"--mode", "EP1"}), wrong_usage);
-  EXPECT_THAT(err,
-              HasSubstr("no limit point \"EP1\" on the first branch of push; there are: none"));
+  EXPECT_THAT(err, HasSubstr("no limit point or branch point \"EP1\" with a mode on the first "
+                             "branch of push; there are: none"));
   EXPECT_EQ(run({"--study", "pull"}), wrong_usage);
   EXPECT_EQ(run({"--run", "2"}), wrong_usage);
   EXPECT_THAT(err, HasSubstr("there is no run 2"));

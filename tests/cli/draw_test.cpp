@@ -109,7 +109,7 @@ TEST_F(Draw, WantsANameThatSaysWhatKindOfPicture) {
   const std::vector<const char*> argv{"springfold", "draw", file.c_str(), "--output", "a.jpg"};
   std::ostringstream out, messages;
   EXPECT_EQ(run_main(5, argv.data(), out, messages), wrong_usage);
-  EXPECT_THAT(messages.str(), HasSubstr(".svg or .png"));
+  EXPECT_THAT(messages.str(), HasSubstr(".svg, .png or .pdf"));
 }
 
 class PictureOfACase : public Draw {

@@ -1,6 +1,7 @@
 // What reaches the terminal: text of a case is shown, it does not steer.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <sstream>
 
 #include "cli/messages.hpp"
@@ -147,6 +148,38 @@ TEST(ProgressLine, ShowsWhatRunsWithItsControlCharactersWrittenOut) {
   Progress progress{err, true};
   progress.begin("1/1 \x1b]0;x\a");
   EXPECT_THAT(err.str(), HasSubstr("1/1 \\x1b]0;x\\x07"));
+}
+
+/// What stands on the line after some time of work.
+std::string line_after(double seconds, int points, int most) {
+  std::ostringstream err;
+  Progress::Time now{};
+  Progress progress{err, true, [&now] { return now; }};
+  progress.begin_runs(1);
+  progress.begin("1/1 push");
+  now +=
+      std::chrono::duration_cast<Progress::Time::duration>(std::chrono::duration<double>(seconds));
+  progress.points(points, most);
+  return err.str();
+}
+
+TEST(ProgressLine, BoundsTheTimeThatIsLeftOfALongCurve) {
+  EXPECT_THAT(line_after(300, 100, 200), HasSubstr("100 points, at most 5 min left"));
+  EXPECT_THAT(line_after(20, 100, 0), HasSubstr("100 points, 20 s"));
+  EXPECT_THAT(line_after(0, 100, 200), testing::EndsWith("100 points"));
+}
+
+TEST(ProgressLine, TellsTheTimeThatIsLeftFromTheRunsThatAreDone) {
+  std::ostringstream err;
+  Progress::Time now{};
+  Progress progress{err, true, [&now] { return now; }};
+  progress.begin_runs(4);
+  progress.begin("1/4 push");
+  now += std::chrono::seconds{10};
+  progress.end_run();
+  progress.begin("2/4 push");
+  progress.points(20);
+  EXPECT_THAT(err.str(), HasSubstr("2/4 push: 20 points, about 30 s left"));
 }
 
 TEST(DefaultFolder, LiesBelowResultsWhateverTheCaseIsCalled) {

@@ -137,6 +137,38 @@ TEST(Gallery, NamesEveryFolderOfTheLibraryAndCountsItsCases) {
   EXPECT_FALSE(shows(root / "docs/gallery.md", "\n| " + std::to_string(count + 1) + " | "));
 }
 
+/// Numbers in the first column of a table: "8 to 10, 14".
+std::vector<int> numbers_in(const std::string& cell) {
+  std::vector<int> numbers;
+  const std::regex part{R"((\d+)(?: to (\d+))?)"};
+  for (std::sregex_iterator at{cell.begin(), cell.end(), part}, end; at != end; ++at) {
+    const int first = std::stoi((*at)[1]), last = (*at)[2].matched ? std::stoi((*at)[2]) : first;
+    for (int i = first; i <= last; ++i) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+TEST(Gallery, NamesEveryPictureOfTheSheetOnce) {
+  std::istringstream lines{text_of(root / "docs/gallery.md")};
+  std::vector<int> numbers, all;
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_search(line, std::regex{R"(^\| \d)"}))
+      for (const int number : numbers_in(line.substr(2, line.find(" |", 2) - 2)))
+        numbers.push_back(number);
+  std::sort(numbers.begin(), numbers.end());
+  for (int i = 1; i <= static_cast<int>(numbers.size()); ++i) all.push_back(i);
+  EXPECT_EQ(numbers, all);
+}
+
+TEST(Documents, ShowLinesOfTheExampleOfPicturesThatCanBeRead) {
+  const io::Case example = io::load_case(root / "docs/examples/pictures.toml");
+  EXPECT_EQ(example.plots.size(), 5U);
+  for (const io::PlotSpec& plot : example.plots)
+    EXPECT_TRUE(shows(root / "docs/pictures.md", "name = \"" + plot.name + "\"") ||
+                plot.name == "way")
+        << plot.name;
+}
+
 TEST(Documents, ShowTheFirstCaseAsItIs) {
   const std::string first = text_of(root / "docs/examples/first.toml");
   EXPECT_TRUE(shows(root / "README.md", "```toml\n" + first + "```"));

@@ -64,7 +64,7 @@ TEST_F(CasePictures, ShowTheMechanismAtAPointOfARun) {
 
 TEST_F(CasePictures, NeedNoGnuplot) {
   const auto outcome = draw(with("name = \"pushed\"\nat = \"push/EP2\""));
-  EXPECT_THAT(outcome.files, ElementsAre(out() / "plots/pushed.svg"));
+  EXPECT_THAT(outcome.files, ElementsAre(out() / "plots/pushed.svg", out() / "plots/push.svg"));
   EXPECT_THAT(about_pictures(outcome.warnings), IsEmpty());
 }
 
@@ -135,7 +135,7 @@ TEST_F(CasePictures, ShowTextsOfTheCaseAsText) {
 
 TEST_F(CasePictures, WriteOutWhatIsNoVisibleCharacterOfATitle) {
   draw(with("name = \"two\"\nat = \"push/EP2\"\ntitle = \"one\\ntwo\\u0007\""));
-  EXPECT_THAT(drawn("two.svg"), HasSubstr(R"(>one\ntwo\x07<)"));
+  EXPECT_THAT(drawn("two.svg"), HasSubstr(R"(>one two\x07<)"));
   EXPECT_THAT(drawn("two.svg"), Not(HasSubstr("\uFFFD")));
 }
 
@@ -178,7 +178,7 @@ TEST_F(CasePictures, LeaveNothingUnfinishedBehind) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator{out() / "plots"})
     names.push_back(entry.path().filename().string());
-  EXPECT_THAT(names, UnorderedElementsAre("pushed.svg", "push.gp"));
+  EXPECT_THAT(names, UnorderedElementsAre("pushed.svg", "push.gp", "push.svg"));
 }
 
 TEST_F(CasePictures, KeepTheirNamesBesideTheFigureOfAStudyOfThatName) {
@@ -188,12 +188,15 @@ TEST_F(CasePictures, KeepTheirNamesBesideTheFigureOfAStudyOfThatName) {
   EXPECT_FALSE(fs::exists(out() / "plots/push.gp"));
 }
 
-TEST_F(CasePictures, BecomePngFilesByRsvgConvert) {
+TEST_F(CasePictures, BecomePngAndPdfFilesByRsvgConvert) {
   if (!find_executable("rsvg-convert")) GTEST_SKIP() << "rsvg-convert is not installed";
-  const auto outcome = draw(with("name = \"pushed\"\nat = \"push/EP2\"\nformats = [\"png\"]"));
+  const auto outcome =
+      draw(with("name = \"pushed\"\nat = \"push/EP2\"\nformats = [\"png\", \"pdf\"]"));
   EXPECT_THAT(about_pictures(outcome.warnings), IsEmpty());
-  EXPECT_THAT(outcome.files, ElementsAre(out() / "plots/pushed.png"));
+  EXPECT_THAT(outcome.files,
+              testing::IsSupersetOf({out() / "plots/pushed.png", out() / "plots/pushed.pdf"}));
   EXPECT_EQ(drawn("pushed.png").substr(1, 3), "PNG");
+  EXPECT_EQ(drawn("pushed.pdf").substr(0, 5), "%PDF-");
 }
 
 class PictureMessages : public CaseFiles {
@@ -206,7 +209,7 @@ class PictureMessages : public CaseFiles {
 TEST_F(PictureMessages, NameAllMistakesAtOnce) {
   EXPECT_THAT(
       of("name = \"a/b\"\nat = [\"push/LP\", \"pull/LP1\", 3]\nview = \"zz\"\ncolour = \"red\"\n"
-         "formats = [\"pdf\"]\ncolor = \"force\""),
+         "formats = [\"gif\"]\ncolor = \"force\""),
       testing::UnorderedElementsAre(
           HasSubstr("case.toml:25:8: picture[1].name: got \"a/b\", need a file name"),
           HasSubstr("case.toml:26:7: picture[1].at[1]: got \"push/LP\", need the label of a "
@@ -216,7 +219,7 @@ TEST_F(PictureMessages, NameAllMistakesAtOnce) {
           HasSubstr("case.toml:27:8: picture[1].view: got \"zz\", need \"xy\", \"xz\", \"yz\" or "
                     "\"perspective\""),
           HasSubstr("case.toml:28:10: picture[1].colour: got \"red\", need \"stability\""),
-          HasSubstr("case.toml:29:12: picture[1].formats[1]: got \"pdf\", need one of \"svg\""),
+          HasSubstr("case.toml:29:12: picture[1].formats[1]: got \"gif\", need one of \"svg\""),
           HasSubstr("case.toml:30:1: picture[1].color: unknown key")));
 }
 

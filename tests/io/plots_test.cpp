@@ -114,6 +114,19 @@ TEST_F(RealGnuplot, TakesTitlesWithQuotesBackticksAndDollarsAsText) {
               HasSubstr("it's `echo no` $(no) \"K_v^2\" \\n {x} end"));
 }
 
+TEST_F(RealGnuplot, TakesTextsThatBeginWithQuotesAsText) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a",
+                     .title = "''; system('echo no') '",
+                     .x_label = "'",
+                     .curves = {{.study = "push from Q2", .labels = {"'`first", "'''second"}}}}};
+  const auto outcome = draw_plots(scratch.path(), the_case, sample::two_results());
+  EXPECT_THAT(outcome.warnings, IsEmpty());
+  const std::string svg = text_in(scratch.path() / "plots" / "a.svg");
+  for (const char* text : {"''; system('echo no') '", ">'<", "'`first", "'''second"})
+    EXPECT_THAT(svg, HasSubstr(text));
+}
+
 TEST_F(RealGnuplot, DrawsAFigureOfASinglePoint) {
   auto results = sample::two_results();
   results.resize(1);
@@ -148,12 +161,16 @@ TEST(DrawPlots, SeparatesPartsOfOneStabilityByEmptyLines) {
   EXPECT_THAT(data_block(script, "point_LP"), SizeIs(4));
 }
 
-TEST(DrawPlots, WarnsWhenThereIsNoGnuplotAndKeepsTheScript) {
+TEST(DrawPlots, WithoutGnuplotOnlyThePngFileIsMissing) {
   const ScratchFolder scratch;
   const auto outcome = draw(scratch.path(), {.gnuplot = "no-such-program"});
-  EXPECT_THAT(outcome.files, IsEmpty());
-  EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("there is no program 'no-such-program'")));
-  EXPECT_TRUE(fs::exists(scratch.path() / "out" / "plots" / "push_from_Q2.gp"));
+  const fs::path plots = scratch.path() / "out" / "plots";
+  EXPECT_THAT(outcome.files, ElementsAre(plots / "push_from_Q2.svg"));
+  EXPECT_THAT(outcome.missing, ElementsAre("plots/push_from_Q2.png"));
+  EXPECT_THAT(outcome.warnings, ElementsAre(HasSubstr("there is no program 'no-such-program': no "
+                                                      "png file (script kept: ")));
+  EXPECT_TRUE(fs::exists(plots / "push_from_Q2.gp"));
+  EXPECT_THAT(text_in(plots / "push_from_Q2.svg"), HasSubstr(">limit point (LP)</text>"));
 }
 
 TEST(DrawPlots, WarnsWhenGnuplotFailsWithItsCodeAndWords) {

@@ -117,6 +117,9 @@ struct Event {
   Matrix stiffness_after{}, compliance_after{};  ///< a switching: behind it; otherwise empty
   std::vector<double> rates_before{};  ///< d(values)/ds along the branch, arriving; NaN: undefined
   std::vector<double> rates_after{};   ///< the same, leaving; differs at a switching only
+  /// Branch points and touches: d(values) along each null vector of dF/dx, of unit length in s, at constant lambda: the
+  /// modes in which it buckles. The sign says nothing; of several any other basis would do. NaN: undefined.
+  std::vector<std::vector<double>> modes{};
 };
 
 /// Why one direction of a trace ended, in words, and whether that is as it was asked for.

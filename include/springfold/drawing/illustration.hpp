@@ -43,6 +43,7 @@ struct Panel {
   std::vector<std::string> notes{};      ///< lines below the title
   std::optional<int> unstable_dead{};    ///< unstable modes under dead load; nothing: not known
   std::optional<int> unstable_driven{};  ///< as the study drives the mechanism
+  bool is_critical = false;  ///< a mode has just no stiffness under dead load, and none is unstable
 };
 
 struct IllustrationOptions {

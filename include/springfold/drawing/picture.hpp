@@ -25,6 +25,7 @@ struct Path {
   Ink ink{};
   std::string title{};      ///< shown by a browser when the mouse is over it; any text
   bool is_obstacle = true;  ///< words keep off it
+  bool is_avoided = false;  ///< words keep off it where there is room beside it
 };
 
 struct Disc {

@@ -58,6 +58,14 @@ struct JointPart {
   Index chain = 0;
 };
 
+/// What a spring between two points is drawn as, where it is no coil.
+enum class Member {
+  none,
+  bar,
+  cable,  ///< it only pulls
+  strut,  ///< it only pushes
+};
+
 struct SpringPart {
   std::string name{};
   bool is_line = true;  ///< a coil from `from` to `to`; otherwise a spiral at `at`, wound from the
@@ -67,6 +75,7 @@ struct SpringPart {
   bool acts = true;
   double force = 0;   ///< force or torque with which it resists [force] or [moment]
   double energy = 0;  ///< [force * length]
+  Member member = Member::none;
 };
 
 /// The sides of a shape on which a spring, a gas or a pressure acts: an area, a triangle of a surface,

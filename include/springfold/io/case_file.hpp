@@ -11,6 +11,7 @@
 
 #include "springfold/analysis/history.hpp"
 #include "springfold/analysis/study.hpp"
+#include "springfold/drawing/scene.hpp"
 #include "springfold/io/plot_look.hpp"
 
 namespace springfold::io {
@@ -97,7 +98,8 @@ struct PlannedRun {
       places{};  ///< of the study's keys, bodies and chains; "": the study itself
   /// What is looked up for its row of the sweep's table; `expected` and `tolerance` mean nothing.
   std::vector<ExpectedValue> columns{};
-  bool keeps_curves = true;  ///< false: only that row is kept
+  bool keeps_curves = true;                          ///< false: only that row is kept
+  std::map<std::string, drawing::Member> members{};  ///< names of bars: drawn as such, not as coils
   std::vector<std::string>
       varied{};  ///< names of the parameters that its study varies from run to run
 };

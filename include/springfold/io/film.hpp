@@ -1,4 +1,4 @@
-// Rows of a branch as a film: the way along it, or the motion at one of its limit points.
+// Rows of a branch as a film: the way along it, or the mode at one of its special points.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@ namespace springfold::io {
 
 struct FilmWish {
   std::string from{},
-      to{};            ///< labels of special points, "start", "end"; empty: the ends of the branch
-  std::string mode{};  ///< label of a limit point: its mode instead of a way
+      to{};  ///< labels of special points, "start", "end"; empty: the ends of the branch
+  std::string
+      mode{};  ///< label of a limit point or branch point ("BP1.2": its second one): a mode instead of a way
   std::string jump{};  ///< label of a jump: the overdamped motion from it to its landing instead
   int frames = 60;     ///< at most as many, 2 or more
 };
@@ -26,7 +27,7 @@ struct FilmOutcome {
 
 /// Of the result's first branch. A way has its frames at even arc length: each is the row that is nearest,
 /// and special points are among them. Nothing is put between rows. A mode is the motion along the branch at
-/// a limit point, to and fro and enlarged, linear in the places of all points. A jump has the moments that the result
+/// a limit point, or along a null vector at a branch point, to and fro and enlarged, linear in the places of all points. A jump has the moments that the result
 /// has, and its energy over the length of way beside it.
 FilmOutcome film_of(const PlannedRun& planned, const analysis::StudyResult& result,
                     const UnitLabels& units, const FilmWish& wish);

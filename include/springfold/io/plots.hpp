@@ -25,8 +25,8 @@ struct PlotOptions {
   std::function<bool()> stop_requested{};  ///< asked several times a second; true ends drawing
 };
 
-/// Draws every figure of the case as PNG and SVG. Never throws for a gnuplot that is missing, fails
-/// or hangs: that becomes a warning.
+/// Draws every figure of the case in its formats. Never throws for a gnuplot that is missing, fails
+/// or hangs: that becomes a warning. Where it is missing SVG files are drawn without it, more plainly.
 PlotOutcome draw_plots(const std::filesystem::path& folder, const Case& the_case,
                        const std::vector<analysis::StudyResult>& results,
                        const PlotOptions& options = {});

@@ -35,6 +35,7 @@ class RowScenes {
 
  private:
   double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
+  double shown_value(const analysis::Sample& row, std::optional<std::size_t> column) const;
   statics::System system_of(const analysis::Sample& row, double lambda) const;
   void add_wrenches(const analysis::Sample& row, double lambda, drawing::Posture& posture) const;
 
@@ -43,6 +44,7 @@ class RowScenes {
   statics::System system_{};  ///< at the study's start
   bool has_columns_ = false;
   std::vector<std::optional<std::size_t>> z_columns_{}, rho_columns_{};
+  std::vector<double> sizes_{};  ///< of the result's quantities: what is rounding beside them is 0
   std::optional<std::size_t> lambda_{}, force_{}, deflection_{}, dead_{}, driven_{};
 };
 

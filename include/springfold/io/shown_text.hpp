@@ -12,4 +12,7 @@ namespace springfold::io {
 /// are no UTF-8 become "\\xff". Visible characters stay, a backslash too; shown(shown(t)) = shown(t).
 std::string shown(std::string_view text);
 
+/// The same where a line is drawn: ends of lines become blanks.
+std::string shown_in_line(std::string_view text);
+
 }  // namespace springfold::io
