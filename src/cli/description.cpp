@@ -104,18 +104,21 @@ std::string text_of(const Mechanism& mechanism, const model::Chain& chain) {
 
 /// Joint coordinates and pose coordinates, less what the closure of the chains takes away.
 std::string freedom_text(const Mechanism& mechanism) {
-  Index coordinates = 0, closures = 0, poses = 0;
+  Index coordinates = 0, inner = 0, closures = 0, poses = 0;
   for (const auto& chain : mechanism.chains) {
     closures += model::dimension(model::task_space_of(mechanism, chain));
     for (const auto& element : chain.elements)
       if (const auto* joint = std::get_if<Joint>(&element))
         coordinates += model::has_coordinate(*joint) ? 1 : 0;
   }
+  for (const auto& spring : mechanism.shape_springs) inner += std::ssize(spring.before);
   for (const auto& body : mechanism.bodies) poses += model::dimension(body.task_space);
-  return fmt::format("  freedom   {}: {} and {} under {}\n",
-                     counted(coordinates + poses - closures, "degree") + " of freedom",
-                     counted(coordinates, "joint coordinate"), counted(poses, "pose coordinate"),
-                     counted(closures, "closure equation"));
+  const std::string series =
+      inner > 0 ? ", " + counted(inner, "coordinate") + " of springs in series" : "";
+  return fmt::format("  freedom   {}: {}{} and {} under {}\n",
+                     counted(coordinates + inner + poses - closures, "degree") + " of freedom",
+                     counted(coordinates, "joint coordinate"), series,
+                     counted(poses, "pose coordinate"), counted(closures, "closure equation"));
 }
 
 /// The first ones of a kind of thing, one line each, and how many others there are.
@@ -197,17 +200,25 @@ std::string text_of(const Mechanism& mechanism, const model::Shape& shape) {
   return (distance ? "distance" : word_of(shape.kind)) + " of " + points;
 }
 
+/// "piecewise, ...", of springs in series one behind the other.
+std::string laws_text(const model::ShapeSpring& spring) {
+  if (spring.before.empty()) return law_text(spring.law);
+  std::string text = fmt::format("{} springs in series: ", spring.before.size() + 1);
+  for (const model::SeriesSpring& inner : spring.before) text += law_text(inner.law) + "; ";
+  return text + law_text(spring.law);
+}
+
 std::string text_of(const Mechanism& mechanism, const model::ShapeSpring& spring) {
   return fmt::format("{}: {}, {}", spring.name, text_of(mechanism, spring.shape),
                      spring.gas ? fmt::format("gas with nRT {:.6g} at rest at {:.6g}",
                                               spring.gas->nRT, spring.gas->initial)
-                                : law_text(spring.law));
+                                : laws_text(spring));
 }
 
 /// A bar that is no line spring.
 std::string bar_text(const Mechanism& mechanism, const model::ShapeSpring& bar) {
   return fmt::format("{}: {} to {}, {}", bar.name, place_text(mechanism, bar.shape.points[0]),
-                     place_text(mechanism, bar.shape.points[1]), law_text(bar.law));
+                     place_text(mechanism, bar.shape.points[1]), laws_text(bar));
 }
 
 std::string text_of(const Mechanism& mechanism, std::size_t i) {
