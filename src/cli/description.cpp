@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "check_command.hpp"
@@ -239,18 +240,40 @@ std::string node_text(const io::CaseNode& node) {
   return node.name + (!node.moves ? " (fixed)" : held.empty() ? "" : " (held in " + held + ")");
 }
 
-/// Nodes, bodies, chains, springs, bars and loads.
+/// ", mass 2"; nothing of what has none.
+std::string mass_text(double mass) { return mass != 0 ? fmt::format(", mass {:.6g}", mass) : ""; }
+
+/// Points of chains that have a name or a mass.
+void list_points(const model::Chain& chain, Listing& points) {
+  for (const model::ChainPoint& point : chain.points)
+    if (!point.name.empty())
+      points.add(chain.name + "." + point.name + mass_text(point.mass));
+    else if (point.mass != 0)
+      points.add("on a link of " + chain.name + mass_text(point.mass));
+}
+
+/// Nodes, bodies, chains, points, springs, bars, gravity and loads.
 std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
-  Listing nodes{"node"}, bodies{"body"}, springs{"spring"}, bars{"bar"}, loads{"load"};
+  Listing nodes{"node"}, bodies{"body"}, points{"point"}, springs{"spring"}, bars{"bar"},
+      loads{"load"};
+  std::map<std::string, double> masses;
+  for (const auto& body : mechanism.bodies) masses[body.name] = body.mass;
   std::set<std::string> names;
   for (const io::CaseNode& node : the_case.nodes) {
-    nodes.add(node_text(node));
+    nodes.add(node_text(node) + (node.moves ? mass_text(masses[node.name]) : ""));
     names.insert(node.name);
   }
   for (const auto& body : mechanism.bodies)
-    if (!names.contains(body.name)) bodies.add(body.name + " (" + word_of(body.task_space) + ")");
-  std::string chains;
-  for (const auto& chain : mechanism.chains) chains += text_of(mechanism, chain);
+    if (!names.contains(body.name))
+      bodies.add(body.name + " (" + word_of(body.task_space) + ")" + mass_text(body.mass));
+  std::string chains, gravity;
+  for (const auto& chain : mechanism.chains) {
+    chains += text_of(mechanism, chain);
+    list_points(chain, points);
+  }
+  if (!mechanism.gravity.isZero(0))
+    gravity =
+        fmt::format("  gravity   {}\n", list_text(mechanism.gravity, is_flat(mechanism) ? 2 : 3));
   const std::set<std::string> of_bars(the_case.bars.begin(), the_case.bars.end());
   for (const model::LineSpring& spring : mechanism.line_springs)
     (of_bars.contains(spring.name) ? bars : springs)
@@ -263,7 +286,8 @@ std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
     else
       springs.add(text_of(mechanism, spring));
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) loads.add(text_of(mechanism, i));
-  return nodes.text() + bodies.text() + chains + springs.text() + bars.text() + loads.text();
+  return nodes.text() + bodies.text() + chains + points.text() + springs.text() + bars.text() +
+         gravity + loads.text();
 }
 
 /// What lambda is in a study that follows a curve.
