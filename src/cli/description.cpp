@@ -159,7 +159,8 @@ std::string place_text(const Mechanism& mechanism, const model::Anchor& anchor) 
   std::string name = body_name(mechanism, anchor.body);
   if (anchor.chain >= 0) {
     const model::Chain& chain = mechanism.chains[static_cast<std::size_t>(anchor.chain)];
-    name = chain.name + "." + chain.points[anchor.point].name;
+    const std::string& point = chain.points[anchor.point].name;
+    name = chain.name + (point.empty() ? "" : "." + point);
   }
   const bool plain = anchor.at.isZero(0) && (anchor.chain >= 0 || anchor.body > 0);
   return plain ? name : name + " " + list_text(anchor.at, is_flat(mechanism) ? 2 : 3);

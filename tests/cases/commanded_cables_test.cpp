@@ -132,8 +132,8 @@ TEST(CommandedCables, HaveColumnsOfTheirLengthAndForce) {
   }
 }
 
-/// Towards the other end of a spring and past it on one line: control is lost before, the spring is named.
-TEST(CommandedSprings, EndTheWayThatWouldLeadThemThroughTheLengthZero) {
+/// Towards the other end of a spring and past it on one line: control is lost where the length would be 0.
+TEST(CommandedSprings, LoseControlWhereTheyWouldBeLedThroughTheLengthZero) {
   const std::string post = R"toml(
 [[spring]]
 name = "post"
@@ -148,8 +148,8 @@ targets = [[0.1, 0], [0.6, 0]]
 )toml";
   const StudyResult result = run(legs + post).of("way");
   EXPECT_FALSE(analysis::complete(result));
-  EXPECT_THAT(result.branches[0].forward.reason,
-              HasSubstr("post would be led through the length 0"));
+  EXPECT_THAT(result.branches[0].forward.reason, HasSubstr("control is lost at path = 1.39"));
+  EXPECT_EQ(result.branches[0].samples.back().status, "not reached along the path");
 }
 
 }  // namespace

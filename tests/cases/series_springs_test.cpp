@@ -16,17 +16,17 @@ using testing::Pointwise;
 
 constexpr const char* falling =
     "{ law = \"polynomial\", coefficients = [0, 2.5, -3, 1], falling = true }";
-constexpr const char* soft = "{ law = \"linear\", stiffness = 0.3 }";
+constexpr const char* soft = "{ law = \"linear\", stiffness = 0.3, free = 1 }";
 
 /// A point that is driven away from the base along x. @param spring  between both, its keys but the ends
 std::string driven(const std::string& spring, const std::string& control = "load") {
   return R"toml([[node]]
 name = "tool"
-at = [0.01, 0]
+at = [1, 0]
 fixed = ["y"]
 )toml" + spring +
          "[[study]]\nname = \"pull\"\nbody = \"tool\"\ncontrol = \"" + control +
-         "\"\ndirection = [1, 0]\nuntil = { tool.x = [0.005, 4.5] }\n";
+         "\"\ndirection = [1, 0]\nuntil = { tool.x = [0.8, 5.5] }\n";
 }
 
 std::string as_spring(const std::string& first, const std::string& second) {
@@ -43,8 +43,8 @@ std::vector<double> values_of(const StudyResult& result, EventKind kind,
 
 MATCHER_P(Near, by, "") { return std::abs(std::get<0>(arg) - std::get<1>(arg)) <= by; }
 
-/// f(u) = u^3 - 3 u^2 + 2.5 u behind k = 0.3: U = u + f/k turns back where f' = -k.
-const std::vector<double> fold_ways{2.7814217288, 2.5519116046};
+/// f(u) = u^3 - 3 u^2 + 2.5 u behind k = 0.3, which is 1 long: U = 1 + u + f/k turns back where f' = -k.
+const std::vector<double> fold_ways{3.7814217288, 3.5519116046};
 const std::vector<double> fold_forces{0.6118861856, 0.3881138144};
 
 TEST(SpringsInSeries, FoldBetweenPointsInEitherOrder) {
@@ -63,8 +63,8 @@ TEST(SpringsInSeries, HaveCoordinatesThatAddUpAndOneForce) {
   for (std::size_t row = 0; row < result.branches[0].samples.size(); ++row) {
     const double u = value(result, row, "rope.1"), v = value(result, row, "rope.2");
     EXPECT_NEAR(u + v, value(result, row, "tool.x"), 1e-12);
-    EXPECT_NEAR(u * (2.5 + u * (-3 + u)), 0.3 * v, 1e-11);
-    EXPECT_NEAR(value(result, row, "rope.force"), 0.3 * v, 1e-12);
+    EXPECT_NEAR(u * (2.5 + u * (-3 + u)), 0.3 * (v - 1), 1e-11);
+    EXPECT_NEAR(value(result, row, "rope.force"), 0.3 * (v - 1), 1e-12);
     EXPECT_NEAR(value(result, row, "energy"), u * u * (1.25 + u * (-1 + u / 4)) + 0.15 * v * v,
                 1e-11);
   }
@@ -76,17 +76,17 @@ TEST(SpringsInSeries, AreThoseOfAJoint) {
 [[body]]
 name = "tool"
 task_space = "xy"
-pose = [0.01, 0]
+pose = [1, 0]
 [[chain]]
 name = "rope"
-elements = [{ joint = "prismatic", axis = "x", name = "rod", role = "preloaded", spring = { series = [)toml"} +
+elements = [{ joint = "prismatic", axis = "x", name = "rod", role = "preloaded", initial = [0, 1], spring = { series = [)toml"} +
                             falling + ", " + soft + R"toml(] } }]
 [[study]]
 name = "pull"
 body = "tool"
 control = "mixed"
 direction = [1, 0]
-until = { tool.x = [0.005, 4.5] }
+until = { tool.x = [0.8, 5.5] }
 )toml";
   const StudyResult a = run(joint).results[0];
   const StudyResult b = run(driven(as_spring(falling, soft), "mixed")).results[0];
@@ -97,7 +97,7 @@ until = { tool.x = [0.005, 4.5] }
       if (value(result, row, "tool.x") > x) return value(result, row, "index_pose");
     return -1.0;
   };
-  for (const double x : {0.5, 2.0, 3.5}) EXPECT_EQ(index_at(a, x), index_at(b, x)) << x;
+  for (const double x : {1.5, 3.0, 4.5}) EXPECT_EQ(index_at(a, x), index_at(b, x)) << x;
 }
 
 /// Two linear bars one behind the other are one of k1 k2/(k1 + k2).
@@ -140,7 +140,7 @@ TEST(SpringsInSeries, SwitchInEveryPlace) {
     EXPECT_NEAR(values_of(result, EventKind::switching, "tool.x")[0], 1.2, 1e-10);
     EXPECT_THAT(events[0].detail, HasSubstr("spring rope"));
     const std::size_t last = result.branches[0].samples.size() - 1;
-    EXPECT_NEAR(value(result, last, "rope.force"), 1.2 * (4.5 - 1.2), 1e-11);
+    EXPECT_NEAR(value(result, last, "rope.force"), 1.2 * (5.5 - 1.2), 1e-11);
   }
 }
 
@@ -197,7 +197,7 @@ body = "tool"
 control = "load"
 direction = [1, 0]
 start = { from = "pull", at = "LP2" }
-until = { tool.x = [2, 4] }
+until = { tool.x = [3, 5] }
 )toml");
   EXPECT_LT(ran.results[1].start.moved, 1e-9);
   const auto& first = ran.results[1].branches[0];
