@@ -23,7 +23,9 @@ posture_of() {
     cantilever-elastica*) echo bend/EP2 ;;
     column-with-stop) echo press/EP4 ;;
     dual-triangle-joint) echo turn/LP1 ;;
+    curved-beam) echo press/BP4 ;;
     "free-laws, contact") echo press/UZ1 ;;
+    "free-laws, hysteron") echo bar/LP1 ;;
     "free-laws, series") echo pull/UZ1 ;;
     "free-laws, table") echo pull/UZ1 ;;
     "free-laws, switch") echo push/UZ1 ;;
@@ -57,6 +59,7 @@ posture_of() {
     "shape-springs, ball") echo push/UZ1 ;;
     "shape-springs, kresling") echo press/LP2 ;;
     "shape-springs, wall") echo press/UZ1 ;;
+    string-toy) echo aside/LP1 ;;
     "snap-through, column") echo press/EP3 ;;
     "snap-through, masses") echo equal/LP1 ;;
     "snap-through, orthoglide") echo Q2/LP1 ;;

@@ -9,6 +9,7 @@
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -112,13 +113,16 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     auto ended = ended_at_start(member.study, evaluator, member.quantities(), start, ray);
     return ended ? *ended : trace(problem, start.x, start.lambda, ray, events, options, observe);
   };
-  const Curve forward = follow(rays.rays[0]);
-  const Curve backward = forward_only || forward.stop == continuation::StopReason::closed
-                             ? nothing_behind(forward)
-                             : follow(rays.rays[1]);
+  Curve forward = follow(rays.rays[0]);
+  Curve backward = forward_only || forward.stop == continuation::StopReason::closed
+                       ? nothing_behind(forward)
+                       : follow(rays.rays[1]);
+  const auto forward_end = end_at_zero_length(problem, forward);
+  const auto backward_end = end_at_zero_length(problem, backward);
   BranchSource source{.backward = backward, .forward = forward};
-  source.forward_stop = stop_of(forward);
-  source.backward_stop = forward_only ? source.forward_stop : stop_of(backward);
+  source.forward_stop = forward_end.value_or(stop_of(forward));
+  source.backward_stop =
+      forward_only ? source.forward_stop : backward_end.value_or(stop_of(backward));
   std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
   label_events(rows, 0, member.quantities());
   path.branch = std::move(rows.front().branch);

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "analysis/undefined.hpp"
+#include "point_quantities.hpp"
+#include "shape_units.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/number_text.hpp"
@@ -36,10 +38,10 @@ const model::Body& body_of(const CommandSetup& setup) {
 
 Index lengths_of(const CommandSetup& setup) { return translations(body_of(setup).task_space); }
 
-Unit unit_of(const statics::System& system, Index i) {
-  const auto k = static_cast<std::size_t>(i);
-  if (system.is_wrench[k]) return system.is_length[k] ? Unit::force : Unit::moment;
-  return system.is_length[k] ? Unit::length : Unit::angle;
+std::vector<QuantityDefinition> at_points(const CommandSetup& setup) {
+  std::vector<QuantityDefinition> list;
+  add_point_quantities(setup.system, setup.scales, list);
+  return list;
 }
 
 /// Smallest and largest eigenvalue of a symmetric block.
@@ -114,7 +116,8 @@ void add_stiffness(const CommandSetup& setup, const std::vector<Vector>& directi
 void add_state_columns(const CommandSetup& setup, std::vector<Quantity>& columns) {
   const statics::System& system = setup.system;
   const auto add_unknown = [&](Index i) {
-    columns.push_back({system.coordinate_names[static_cast<std::size_t>(i)], unit_of(system, i)});
+    columns.push_back(
+        {system.coordinate_names[static_cast<std::size_t>(i)], unit_of_unknown(system, i)});
   };
   for (Index i = system.first_pose; i < system.size; ++i) add_unknown(i);
   for (Index i = 0; i < system.first_pose; ++i)
@@ -125,6 +128,7 @@ void add_state_columns(const CommandSetup& setup, std::vector<Quantity>& columns
                          system.command_is_length[i] ? Unit::length : Unit::angle});
   for (Index i = 0; i < system.first_pose; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) add_unknown(i);
+  for (const QuantityDefinition& q : at_points(setup)) columns.push_back({q.name, q.unit});
   Index i = 0;
   for (const char* name : wrench_names(body_of(setup).task_space))
     columns.push_back(
@@ -149,6 +153,8 @@ void add_state_values(const CommandSetup& setup, const CommandedState& state, co
                                 : undefined);
   for (Index i = 0; i < system.first_pose; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) add_unknown(i);
+  for (const QuantityDefinition& q : at_points(setup))
+    values.push_back(point_quantity(system, q, state.z, state.inputs).value_or(undefined));
   for (Index i = 0; i < setup.d; ++i)
     values.push_back(setup.wrench_scale[i] * (r.size() > 0 ? r[setup.t + i] : undefined));
 }

@@ -7,6 +7,7 @@
 #include "closure_rank.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/number_text.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -130,6 +131,26 @@ void add_hits(const ControlProblem& problem, const Curve& curve, Leg& leg) {
   }
 }
 
+/// Where a spring is led through the length 0 the leg ends: what was found behind it is forgotten.
+bool ends_at_zero_length(const CommandSetup& setup, const ControlProblem& problem,
+                         std::vector<CurvePoint>& points, Leg& leg) {
+  const auto vectors_at = [&](const CurvePoint& point) {
+    const CommandedState state = state_at(problem, point);
+    return spring_vectors(setup.system, state.z, state.inputs);
+  };
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto why =
+        led_through_zero(setup.system, vectors_at(points[i - 1]), vectors_at(points[i]));
+    if (!why) continue;
+    points.resize(i);
+    leg.lost = *why;
+    leg.lost_place = problem.place(points.back().lambda);
+    std::erase_if(leg.events, [&](const LegEvent& event) { return event.place > *leg.lost_place; });
+    return true;
+  }
+  return false;
+}
+
 void add_changes(const CommandSetup& setup, const ControlProblem& problem,
                  const std::vector<CurvePoint>& points, Leg& leg) {
   std::optional<Index> before;
@@ -172,9 +193,11 @@ Leg follow_leg(const CommandSetup& setup, const TargetPath& path, int number,
     points.push_back(curve.hits.back().point);
   std::stable_sort(points.begin(), points.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.s < b.s; });
+  const bool ends_early = ends_at_zero_length(setup, problem, points, leg);
   add_changes(setup, problem, points, leg);
   std::stable_sort(leg.events.begin(), leg.events.end(),
                    [](const LegEvent& a, const LegEvent& b) { return a.place < b.place; });
+  if (ends_early) return leg;
   if (arrived) {
     leg.end = state_at(problem, curve.hits.back().point);
     return leg;

@@ -4,6 +4,7 @@
 
 #include "analysis/undefined.hpp"
 #include "closure_rank.hpp"
+#include "point_quantities.hpp"
 #include "quantities.hpp"
 
 namespace springfold::analysis {
@@ -105,20 +106,12 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
     case Kind::energy:
       return q.scale * spring_energy(system(), state.z, state.inputs.rho);
     case Kind::point:
-      return q.scale * statics::position_of(system(), static_cast<std::size_t>(q.entry / 3),
-                                            state.z, state.inputs.rho)[q.entry % 3];
     case Kind::spring_length:
-    case Kind::spring_force: {
-      const auto spring = statics::line_spring_state(system(), static_cast<std::size_t>(q.entry),
-                                                     state.z, state.inputs.rho);
-      return q.scale * (q.kind == Kind::spring_length ? spring.length : spring.force);
-    }
+    case Kind::spring_force:
     case Kind::shape_value:
-    case Kind::shape_force: {
-      const auto shape =
-          statics::shape_state(system(), static_cast<std::size_t>(q.entry), state.z, state.inputs);
-      return q.scale * (q.kind == Kind::shape_value ? shape.value : shape.slope);
-    }
+    case Kind::shape_own:
+    case Kind::shape_force:
+      return point_quantity(system(), q, state.z, state.inputs).value_or(undefined);
     case Kind::index:
     case Kind::index_force:
       return point.negative ? static_cast<double>(*point.negative - problem_.closures())

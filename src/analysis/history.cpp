@@ -77,6 +77,10 @@ void put_state(const State& state, const std::vector<std::string>& held,
         set_if_known(state, chain.name + "." + joint->name + ".rho", joint->command);
       }
   }
+  for (model::ShapeSpring& spring : mechanism.shape_springs)
+    for (std::size_t i = 0; i < spring.before.size(); ++i)
+      if (const auto found = state.find(series_name(spring, i)); found != state.end())
+        spring.before[i].initial = found->second;
 }
 
 /// The wrench on the study's body that holds it in the state, beside the mechanism's loads.

@@ -51,8 +51,11 @@ void move_springs(const Shifts& shifts, const Scales& scales, model::Mechanism& 
     }
   for (std::size_t i = 0; i < mechanism.shape_springs.size(); ++i) {
     model::ShapeSpring& own = mechanism.shape_springs[i];
-    if (shifts.shapes[i] != 0)
-      own.law = model::moved(own.law, shifts.shapes[i] * unit_of_value(own.shape.kind, scales));
+    const double unit = unit_of_value(own.shape.kind, scales);
+    for (model::SeriesSpring& inner : own.before)
+      if (const double shift = shifts.joints[spring++]; shift != 0)
+        inner.law = model::moved(inner.law, shift * unit);
+    if (shifts.shapes[i] != 0) own.law = model::moved(own.law, shifts.shapes[i] * unit);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "point_quantities.hpp"
 #include "setup.hpp"
 #include "shape_units.hpp"
 
@@ -18,37 +19,6 @@ bool along_translation(const Vector& direction, Index lengths) {
 bool has_force(ControlMode control) {
   return control == ControlMode::load || control == ControlMode::pose ||
          control == ControlMode::mixed;
-}
-
-/// Positions of named points of chains, lengths and forces of line springs.
-void add_points(const statics::System& system, const Scales& scales,
-                std::vector<QuantityDefinition>& list) {
-  const auto& bodies = system.mechanism.bodies;
-  const bool is_planar = std::all_of(bodies.begin(), bodies.end(), [](const model::Body& body) {
-    return translations(body.task_space) == 2;
-  });
-  for (std::size_t i = 0; i < system.points.size(); ++i) {
-    if (system.points[i].name.empty()) continue;
-    for (Index axis = 0; axis < (is_planar ? 2 : 3); ++axis)
-      list.push_back({Kind::point, 3 * static_cast<Index>(i) + axis,
-                      system.points[i].name + "." + "xyz"[axis], Unit::length, scales.length});
-  }
-  for (std::size_t i = 0; i < system.line_springs.size(); ++i) {
-    const std::string& name = system.mechanism.line_springs[i].name;
-    const auto entry = static_cast<Index>(i);
-    list.push_back({Kind::spring_length, entry, name + ".length", Unit::length, scales.length});
-    list.push_back({Kind::spring_force, entry, name + ".force", Unit::force, scales.force});
-  }
-  for (std::size_t i = 0; i < system.mechanism.shape_springs.size(); ++i) {
-    const model::ShapeSpring& spring = system.mechanism.shape_springs[i];
-    const model::ShapeKind kind = spring.shape.kind;
-    const auto entry = static_cast<Index>(i);
-    const ShapeColumn value = value_column(kind), force = force_column(kind);
-    list.push_back({Kind::shape_value, entry, spring.name + "." + value.name, value.unit,
-                    unit_of_value(kind, scales)});
-    list.push_back({Kind::shape_force, entry, spring.name + "." + force.name, force.unit,
-                    force.sign * unit_of_force(kind, scales)});
-  }
 }
 
 /// Loads without potential: eigenvalues and determinant of the tangent stiffness in place of counts.
@@ -81,6 +51,7 @@ bool is_continuous(const QuantityDefinition& q) {
     case Kind::spring_length:
     case Kind::spring_force:
     case Kind::shape_value:
+    case Kind::shape_own:
     case Kind::shape_force:
       return true;
     case Kind::tangent_eigenvalue:
@@ -164,9 +135,8 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
   const Vector factors = unknown_scales(system, scales);
   const auto add_unknown = [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
-    const Unit unit = system.is_wrench[k] ? (system.is_length[k] ? Unit::force : Unit::moment)
-                                          : (system.is_length[k] ? Unit::length : Unit::angle);
-    list.push_back({Kind::unknown, i, system.coordinate_names[k], unit, factors[i]});
+    list.push_back(
+        {Kind::unknown, i, system.coordinate_names[k], unit_of_unknown(system, i), factors[i]});
   };
   for (Index i = system.first_pose; i < system.size; ++i) add_unknown(i);
   for (Index i = 0; i < system.first_pose; ++i)
@@ -178,7 +148,7 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
   }
   for (Index i = 0; i < system.first_pose; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) add_unknown(i);
-  add_points(system, scales, list);
+  add_point_quantities(system, scales, list);
   for (Index i = 0; i < std::min<Index>(3, system.load_size); ++i)
     list.push_back({Kind::eigenvalue, i, "K_eig" + std::to_string(i + 1), Unit::stiffness,
                     scales.force / scales.length});

@@ -46,6 +46,7 @@ struct QuantityDefinition {
     spring_length,        ///< of a line spring
     spring_force,         ///< with which a line spring pulls
     shape_value,          ///< of a spring of a shape: its length, angle, area, ...
+    shape_own,            ///< the part of it that the last of springs in series has
     shape_force,          ///< energy per that, or the pressure
     tangent_eigenvalue,   ///< of the reduced tangent stiffness, loads without potential: real part
     tangent_imaginary,    ///< imaginary part

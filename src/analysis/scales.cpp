@@ -55,9 +55,13 @@ void for_each_point_length(const model::Mechanism& mechanism, const Visit& visit
   for_each_shape(mechanism, [&](const model::Shape& shape) {
     for (const model::Anchor& point : shape.points) visit(point.at.norm());
   });
-  for (const model::ShapeSpring& spring : mechanism.shape_springs)
-    if (!spring.gas && length_power(spring.shape.kind) == 1)
-      for (const double position : positions_of(spring.law)) visit(position);
+  for (const model::ShapeSpring& spring : mechanism.shape_springs) {
+    if (spring.gas || length_power(spring.shape.kind) != 1) continue;
+    visit(spring.offset);
+    for (const double position : positions_of(spring.law)) visit(position);
+    for (const model::SeriesSpring& inner : spring.before)
+      for (const double position : positions_of(inner.law)) visit(position);
+  }
 }
 
 double largest_length(const model::Mechanism& mechanism) {
@@ -132,8 +136,12 @@ void add_forces(const model::ShapeSpring& spring, double length, std::vector<dou
     if (spring.gas->nRT > 0) forces.push_back(spring.gas->nRT / length);
     return;
   }
-  for (const double k : model::typical_stiffnesses(model::compile(spring.law), unit))
-    forces.push_back(k * unit * unit / length);
+  const auto add = [&](const model::SpringLaw& law) {
+    for (const double k : model::typical_stiffnesses(model::compile(law), unit))
+      forces.push_back(k * unit * unit / length);
+  };
+  for (const model::SeriesSpring& inner : spring.before) add(inner.law);
+  add(spring.law);
 }
 
 }  // namespace
@@ -215,6 +223,11 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
   for (model::ShapeSpring& spring : m.shape_springs) {
     const double value = unit_of_value(spring.shape.kind, scales);
     spring.law = scaled(spring.law, value, scales.moment() / value);
+    spring.offset /= value;
+    for (model::SeriesSpring& inner : spring.before) {
+      inner.law = scaled(inner.law, value, scales.moment() / value);
+      if (inner.initial) *inner.initial /= value;
+    }
     if (!spring.gas) continue;
     spring.gas->nRT /= scales.moment();
     spring.gas->initial /= value;
@@ -248,6 +261,9 @@ Vector unknown_scales(const statics::System& system, const Scales& scales) {
     else
       factors[i] = system.is_length[k] ? scales.length : 1;
   }
+  for (const statics::PointShape& shape : system.shapes)
+    factors.segment(shape.inner, shape.inner_count)
+        .setConstant(unit_of_value(shape.shape.kind, scales));
   return factors;
 }
 

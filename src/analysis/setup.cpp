@@ -126,8 +126,9 @@ void set_control(const Study& study, const ParameterFamily* family, const Origin
       const Scales scales = setup.scales;
       const double unit = setup.lambda_scale;
       const Index redundant = setup.system.redundant;
-      rule.family = [family, study, scales, unit, redundant, origins](double lambda) {
-        const Situation now = family->at(unit * lambda);
+      // A copy: the rule outlives what it was made from.
+      rule.family = [at = family->at, study, scales, unit, redundant, origins](double lambda) {
+        const Situation now = at(unit * lambda);
         statics::System system =
             statics::prepare(with_origins(dimensionless(now.mechanism, scales), origins));
         system.redundant = redundant;

@@ -58,6 +58,15 @@ inline ShapeColumn value_column(model::ShapeKind kind) {
   }
   return {};
 }
+/// Unit of an unknown of the equilibrium.
+inline Unit unit_of_unknown(const statics::System& system, Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  if (system.is_wrench[k]) return system.is_length[k] ? Unit::force : Unit::moment;
+  for (const statics::PointShape& shape : system.shapes)
+    if (i >= shape.inner && i < shape.inner + shape.inner_count)
+      return value_column(shape.shape.kind).unit;
+  return system.is_length[k] ? Unit::length : Unit::angle;
+}
 inline ShapeColumn force_column(model::ShapeKind kind) {
   switch (kind) {
     case model::ShapeKind::path:

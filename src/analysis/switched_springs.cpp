@@ -17,8 +17,8 @@ bool stores_energy(const Frozen& frozen, const Vector& x, const statics::Switch&
     const statics::CoordinateSpring& spring = system.springs[at.spring];
     return stores(spring.law, z[spring.coordinate]);
   }
-  const double alpha = shape_state(system, at.spring, z, frozen.problem().inputs(0)).value;
-  return stores(system.shapes[at.spring].law, alpha);
+  const double own = shape_state(system, at.spring, z, frozen.problem().inputs(0)).own;
+  return stores(system.shapes[at.spring].law, own);
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ class CriticalLengths {
         lengths.push_back((at(spring.to) - at(spring.from)).norm());
     }
     for (std::size_t i = 0; i < system_.shapes.size(); ++i) {
-      // A slack cable pulls nowhere.
-      const bool pulls = statics::shape_state(system_, i, z_, inputs_).slope != 0;
+      // A slack cable pulls nowhere, and what has no force at the length 0 passes it.
+      const statics::ShapeState state = statics::shape_state(system_, i, z_, inputs_);
+      const bool pulls = state.slope != 0 && (system_.shapes[i].shape.kind != ShapeKind::path ||
+                                              !is_smooth_at_edge(system_.shapes[i], state.value));
       const std::size_t first = lengths.size();
       add(system_.shapes[i]);
       if (!pulls) std::fill(lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(), 1);

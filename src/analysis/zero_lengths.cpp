@@ -1,8 +1,6 @@
 #include "zero_lengths.hpp"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/system.hpp"
@@ -18,50 +16,64 @@ using Vec3 = model::Vec3<double>;
 /// spring that a step leads past its other end.
 constexpr double on_one_line = 1e-9;
 
-/// Each spring that has force at the length 0, as the vectors between its points.
-struct SpringVectors {
-  std::vector<Vec3> vectors{};
-  std::vector<std::string> names{};
-};
+using statics::PointShape;
 
-SpringVectors vectors_at(const PathProblem& problem, const CurvePoint& point) {
-  const statics::System& system = problem.system(point.lambda);
+/// Of a shape: how many vectors turn round where its force does.
+std::size_t ways_of(const PointShape& shape) {
+  switch (shape.shape.kind) {
+    case model::ShapeKind::path:
+      return shape.shape.closed ? shape.points.size() : shape.points.size() - 1;
+    case model::ShapeKind::line:
+    case model::ShapeKind::angle:
+      return shape.shape.in_plane ? 0 : 1;
+    default:
+      return 0;
+  }
+}
+
+/// From point to point of a path; in space across a line to the point, and across both sides of an angle.
+Vec3 vector_of(const PointShape& shape, const std::vector<Vec3>& p, std::size_t way) {
+  switch (shape.shape.kind) {
+    case model::ShapeKind::line: {
+      const Vec3 line = (p[2] - p[1]).normalized(), d = p[0] - p[1];
+      return d - d.dot(line) * line;
+    }
+    case model::ShapeKind::angle:
+      return model::cross<double>(p[0] - p[1], p[2] - p[1]);
+    default:
+      return p[(way + 1) % p.size()] - p[way];
+  }
+}
+
+/// What comes to nothing there.
+std::string edge_words(const PointShape& shape) {
+  switch (shape.shape.kind) {
+    case model::ShapeKind::line:
+      return "the distance 0";
+    case model::ShapeKind::angle:
+      return "the angle 0 or pi";
+    default:
+      return "the length 0";
+  }
+}
+
+/// The spring that vector `i` belongs to, in the order of spring_vectors(), and what comes to nothing.
+std::string words_of_vector(const statics::System& system, std::size_t i) {
+  const std::string led = " would be led through ", where = ", where its force has no direction";
+  for (std::size_t k = 0; k < system.line_springs.size(); ++k)
+    if (system.line_springs[k].free != 0 && i-- == 0)
+      return system.mechanism.line_springs[k].name + led + "the length 0" + where;
+  std::size_t shape = 0;
+  for (; i >= ways_of(system.shapes[shape]); ++shape) i -= ways_of(system.shapes[shape]);
+  return system.shapes[shape].name + led + edge_words(system.shapes[shape]) + where;
+}
+
+std::vector<Vec3> vectors_at(const PathProblem& problem, const CurvePoint& point) {
   Vector z;
   statics::Inputs inputs;
   problem.put_expanded(point.x, point.lambda, nullptr, z);
   problem.put_inputs(point.lambda, inputs);
-  SpringVectors found;
-  const auto add = [&](std::size_t from, std::size_t to, const std::string& name) {
-    found.vectors.push_back(position_of(system, to, z, inputs.rho) -
-                            position_of(system, from, z, inputs.rho));
-    found.names.push_back(name);
-  };
-  for (std::size_t i = 0; i < system.line_springs.size(); ++i) {
-    const statics::PointSpring& spring = system.line_springs[i];
-    if (spring.free != 0) add(spring.from, spring.to, system.mechanism.line_springs[i].name);
-  }
-  for (std::size_t i = 0; i < system.shapes.size(); ++i) {
-    const statics::PointShape& shape = system.shapes[i];
-    if (shape.shape.kind != model::ShapeKind::path) continue;
-    // A slack cable pulls nowhere: its vector is left out, and compared with none.
-    const bool pulls = statics::shape_state(system, i, z, inputs).slope != 0;
-    for (std::size_t k = 0; k + 1 < shape.points.size(); ++k) {
-      add(shape.points[k], shape.points[k + 1], shape.name);
-      if (!pulls) found.vectors.back().setZero();
-    }
-  }
-  return found;
-}
-
-/// The first spring that is turned round between two points without being turned aside.
-std::optional<std::string> reversed(const SpringVectors& before, const SpringVectors& after) {
-  for (std::size_t i = 0; i < before.vectors.size(); ++i) {
-    const Vec3 &a = before.vectors[i], &b = after.vectors[i];
-    const double sizes = a.norm() * b.norm();
-    if (sizes > 0 && a.dot(b) < 0 && model::cross<double>(a, b).norm() <= on_one_line * sizes)
-      return before.names[i];
-  }
-  return std::nullopt;
+  return spring_vectors(problem.system(point.lambda), z, inputs);
 }
 
 void cut(Curve& curve, std::size_t points) {
@@ -71,26 +83,62 @@ void cut(Curve& curve, std::size_t points) {
   std::erase_if(curve.arcs, [end](const auto& arc) { return arc.s_end > end; });
 }
 
-void end_at_zero_length(const PathProblem& problem, Curve& curve, Stop& stop) {
-  if (curve.points.empty()) return;
-  SpringVectors before = vectors_at(problem, curve.points.front());
-  for (std::size_t i = 1; i < curve.points.size() && !before.vectors.empty(); ++i) {
-    SpringVectors after = vectors_at(problem, curve.points[i]);
-    if (const auto name = reversed(before, after)) {
+}  // namespace
+
+std::vector<Vec3> spring_vectors(const statics::System& system, const Vector& z,
+                                 const statics::Inputs& inputs) {
+  std::vector<Vec3> vectors;
+  const auto add = [&](std::size_t from, std::size_t to) {
+    vectors.push_back(position_of(system, to, z, inputs.rho) -
+                      position_of(system, from, z, inputs.rho));
+  };
+  for (const statics::PointSpring& spring : system.line_springs)
+    if (spring.free != 0) add(spring.from, spring.to);
+  for (std::size_t i = 0; i < system.shapes.size(); ++i) {
+    const PointShape& shape = system.shapes[i];
+    const std::size_t ways = ways_of(shape);
+    if (ways == 0) continue;
+    // A slack cable pulls nowhere, and what has no force there passes smoothly: their vectors are compared with none.
+    const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
+    const bool counts = state.slope != 0 && !is_smooth_at_edge(shape, state.value);
+    std::vector<Vec3> p;
+    for (const std::size_t point : shape.points)
+      p.push_back(position_of(system, point, z, inputs.rho));
+    for (std::size_t k = 0; k < ways; ++k)
+      vectors.push_back(counts ? vector_of(shape, p, k) : Vec3(Vec3::Zero()));
+  }
+  return vectors;
+}
+
+std::optional<std::string> led_through_zero(const statics::System& system,
+                                            const std::vector<Vec3>& before,
+                                            const std::vector<Vec3>& after) {
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    const Vec3 &a = before[i], &b = after[i];
+    const double sizes = a.norm() * b.norm();
+    if (sizes > 0 && a.dot(b) < 0 && model::cross<double>(a, b).norm() <= on_one_line * sizes)
+      return words_of_vector(system, i);
+  }
+  return std::nullopt;
+}
+
+std::optional<Stop> end_at_zero_length(const PathProblem& problem, Curve& curve) {
+  if (curve.points.empty()) return std::nullopt;
+  std::vector<Vec3> before = vectors_at(problem, curve.points.front());
+  for (std::size_t i = 1; i < curve.points.size() && !before.empty(); ++i) {
+    std::vector<Vec3> after = vectors_at(problem, curve.points[i]);
+    if (auto reason = led_through_zero(problem.system(curve.points[i].lambda), before, after)) {
       cut(curve, i);
-      stop = {*name + " would be led through the length 0, where its force has no direction",
-              false};
-      return;
+      return Stop{std::move(*reason), false};
     }
     before = std::move(after);
   }
+  return std::nullopt;
 }
 
-}  // namespace
-
 void end_at_zero_lengths(const Tracing& tracing, BranchSource& source) {
-  end_at_zero_length(tracing.problem, source.forward, source.forward_stop);
-  end_at_zero_length(tracing.problem, source.backward, source.backward_stop);
+  if (auto end = end_at_zero_length(tracing.problem, source.forward)) source.forward_stop = *end;
+  if (auto end = end_at_zero_length(tracing.problem, source.backward)) source.backward_stop = *end;
 }
 
 }  // namespace springfold::analysis

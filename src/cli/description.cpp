@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "check_command.hpp"
@@ -104,18 +105,21 @@ std::string text_of(const Mechanism& mechanism, const model::Chain& chain) {
 
 /// Joint coordinates and pose coordinates, less what the closure of the chains takes away.
 std::string freedom_text(const Mechanism& mechanism) {
-  Index coordinates = 0, closures = 0, poses = 0;
+  Index coordinates = 0, inner = 0, closures = 0, poses = 0;
   for (const auto& chain : mechanism.chains) {
     closures += model::dimension(model::task_space_of(mechanism, chain));
     for (const auto& element : chain.elements)
       if (const auto* joint = std::get_if<Joint>(&element))
         coordinates += model::has_coordinate(*joint) ? 1 : 0;
   }
+  for (const auto& spring : mechanism.shape_springs) inner += std::ssize(spring.before);
   for (const auto& body : mechanism.bodies) poses += model::dimension(body.task_space);
-  return fmt::format("  freedom   {}: {} and {} under {}\n",
-                     counted(coordinates + poses - closures, "degree") + " of freedom",
-                     counted(coordinates, "joint coordinate"), counted(poses, "pose coordinate"),
-                     counted(closures, "closure equation"));
+  const std::string series =
+      inner > 0 ? ", " + counted(inner, "coordinate") + " of springs in series" : "";
+  return fmt::format("  freedom   {}: {}{} and {} under {}\n",
+                     counted(coordinates + inner + poses - closures, "degree") + " of freedom",
+                     counted(coordinates, "joint coordinate"), series,
+                     counted(poses, "pose coordinate"), counted(closures, "closure equation"));
 }
 
 /// The first ones of a kind of thing, one line each, and how many others there are.
@@ -155,7 +159,8 @@ std::string place_text(const Mechanism& mechanism, const model::Anchor& anchor) 
   std::string name = body_name(mechanism, anchor.body);
   if (anchor.chain >= 0) {
     const model::Chain& chain = mechanism.chains[static_cast<std::size_t>(anchor.chain)];
-    name = chain.name + "." + chain.points[anchor.point].name;
+    const std::string& point = chain.points[anchor.point].name;
+    name = chain.name + (point.empty() ? "" : "." + point);
   }
   const bool plain = anchor.at.isZero(0) && (anchor.chain >= 0 || anchor.body > 0);
   return plain ? name : name + " " + list_text(anchor.at, is_flat(mechanism) ? 2 : 3);
@@ -197,17 +202,25 @@ std::string text_of(const Mechanism& mechanism, const model::Shape& shape) {
   return (distance ? "distance" : word_of(shape.kind)) + " of " + points;
 }
 
+/// "piecewise, ...", of springs in series one behind the other.
+std::string laws_text(const model::ShapeSpring& spring) {
+  if (spring.before.empty()) return law_text(spring.law);
+  std::string text = fmt::format("{} springs in series: ", spring.before.size() + 1);
+  for (const model::SeriesSpring& inner : spring.before) text += law_text(inner.law) + "; ";
+  return text + law_text(spring.law);
+}
+
 std::string text_of(const Mechanism& mechanism, const model::ShapeSpring& spring) {
   return fmt::format("{}: {}, {}", spring.name, text_of(mechanism, spring.shape),
                      spring.gas ? fmt::format("gas with nRT {:.6g} at rest at {:.6g}",
                                               spring.gas->nRT, spring.gas->initial)
-                                : law_text(spring.law));
+                                : laws_text(spring));
 }
 
 /// A bar that is no line spring.
 std::string bar_text(const Mechanism& mechanism, const model::ShapeSpring& bar) {
   return fmt::format("{}: {} to {}, {}", bar.name, place_text(mechanism, bar.shape.points[0]),
-                     place_text(mechanism, bar.shape.points[1]), law_text(bar.law));
+                     place_text(mechanism, bar.shape.points[1]), laws_text(bar));
 }
 
 std::string text_of(const Mechanism& mechanism, std::size_t i) {
@@ -228,18 +241,40 @@ std::string node_text(const io::CaseNode& node) {
   return node.name + (!node.moves ? " (fixed)" : held.empty() ? "" : " (held in " + held + ")");
 }
 
-/// Nodes, bodies, chains, springs, bars and loads.
+/// ", mass 2"; nothing of what has none.
+std::string mass_text(double mass) { return mass != 0 ? fmt::format(", mass {:.6g}", mass) : ""; }
+
+/// Points of chains that have a name or a mass.
+void list_points(const model::Chain& chain, Listing& points) {
+  for (const model::ChainPoint& point : chain.points)
+    if (!point.name.empty())
+      points.add(chain.name + "." + point.name + mass_text(point.mass));
+    else if (point.mass != 0)
+      points.add("on a link of " + chain.name + mass_text(point.mass));
+}
+
+/// Nodes, bodies, chains, points, springs, bars, gravity and loads.
 std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
-  Listing nodes{"node"}, bodies{"body"}, springs{"spring"}, bars{"bar"}, loads{"load"};
+  Listing nodes{"node"}, bodies{"body"}, points{"point"}, springs{"spring"}, bars{"bar"},
+      loads{"load"};
+  std::map<std::string, double> masses;
+  for (const auto& body : mechanism.bodies) masses[body.name] = body.mass;
   std::set<std::string> names;
   for (const io::CaseNode& node : the_case.nodes) {
-    nodes.add(node_text(node));
+    nodes.add(node_text(node) + (node.moves ? mass_text(masses[node.name]) : ""));
     names.insert(node.name);
   }
   for (const auto& body : mechanism.bodies)
-    if (!names.contains(body.name)) bodies.add(body.name + " (" + word_of(body.task_space) + ")");
-  std::string chains;
-  for (const auto& chain : mechanism.chains) chains += text_of(mechanism, chain);
+    if (!names.contains(body.name))
+      bodies.add(body.name + " (" + word_of(body.task_space) + ")" + mass_text(body.mass));
+  std::string chains, gravity;
+  for (const auto& chain : mechanism.chains) {
+    chains += text_of(mechanism, chain);
+    list_points(chain, points);
+  }
+  if (!mechanism.gravity.isZero(0))
+    gravity =
+        fmt::format("  gravity   {}\n", list_text(mechanism.gravity, is_flat(mechanism) ? 2 : 3));
   const std::set<std::string> of_bars(the_case.bars.begin(), the_case.bars.end());
   for (const model::LineSpring& spring : mechanism.line_springs)
     (of_bars.contains(spring.name) ? bars : springs)
@@ -252,7 +287,8 @@ std::string parts_text(const io::Case& the_case, const Mechanism& mechanism) {
     else
       springs.add(text_of(mechanism, spring));
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) loads.add(text_of(mechanism, i));
-  return nodes.text() + bodies.text() + chains + springs.text() + bars.text() + loads.text();
+  return nodes.text() + bodies.text() + chains + points.text() + springs.text() + bars.text() +
+         gravity + loads.text();
 }
 
 /// What lambda is in a study that follows a curve.

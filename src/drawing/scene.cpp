@@ -143,9 +143,10 @@ class Builder {
     for (std::size_t i = 0; i < mechanism_.shape_springs.size(); ++i) {
       const model::ShapeSpring& spring = mechanism_.shape_springs[i];
       const std::vector<PointId> points = add_anchors(spring.shape);
-      const double alpha =
-          statics::shape_state(system_, i, posture_.z, {posture_.rho, {}, {}}).value;
-      add_shape_spring(spring, points, alpha, scene_);
+      const statics::ShapeState at =
+          statics::shape_state(system_, i, posture_.z, {posture_.rho, {}, {}});
+      add_shape_spring(spring, points,
+                       {at.value, at.own, statics::series_energy(system_, i, posture_.z)}, scene_);
       const auto is_base = [](const model::Anchor& a) { return a.chain < 0 && a.body == 0; };
       const bool is_way = spring.shape.kind == model::ShapeKind::path;
       for (std::size_t k = 0; is_way && k < points.size(); ++k)

@@ -9,10 +9,14 @@ namespace {
 
 using model::ShapeKind;
 
-SpringState state_of(const model::ShapeSpring& spring, double alpha) {
-  if (!spring.gas) return spring_state(spring.law, alpha);
-  const model::ShapeEnergy gas = energy_of(*spring.gas, alpha);
-  return {false, true, gas.slope, gas.energy};
+SpringState state_of(const model::ShapeSpring& spring, const ShapeLook& look) {
+  if (spring.gas) {
+    const model::ShapeEnergy gas = energy_of(*spring.gas, look.own);
+    return {false, true, gas.slope, gas.energy};
+  }
+  SpringState state = spring_state(spring.law, look.own);
+  state.energy += look.series_energy;
+  return state;
 }
 
 /// From point to point; each leg has its share of the energy.
@@ -52,15 +56,15 @@ void add_outlines(const std::string& name, const model::Shape& shape,
 }
 
 void add_shape_spring(const model::ShapeSpring& spring, const std::vector<PointId>& points,
-                      double alpha, Scene& scene) {
-  const SpringState state = state_of(spring, alpha);
+                      const ShapeLook& look, Scene& scene) {
+  const SpringState state = state_of(spring, look);
   const auto add_spiral = [&](PointId from, PointId at, PointId to) {
     scene.springs.push_back({spring.name, false, from, at, to, state.is_one_sided, state.acts,
                              state.force, state.energy});
   };
   switch (spring.shape.kind) {
     case ShapeKind::path:
-      return add_way(spring, points, alpha, state, scene);
+      return add_way(spring, points, look.alpha, state, scene);
     case ShapeKind::angle:
       return add_spiral(points[0], points[1], points[2]);
     case ShapeKind::dihedral: {

@@ -5,11 +5,15 @@
 
 namespace springfold::drawing {
 
+/// Present value of a shape, the coordinate of its law, and the energy of springs in series before that.
+struct ShapeLook {
+  double alpha = 0, own = 0, series_energy = 0;
+};
+
 /// A way as coils, an angle and a fold as spirals, the others as outlines.
 /// @param points  of the shape
-/// @param alpha   present value
 void add_shape_spring(const model::ShapeSpring& spring, const std::vector<PointId>& points,
-                      double alpha, Scene& scene);
+                      const ShapeLook& look, Scene& scene);
 
 /// The sides of an area, the triangles of a volume, the line or the plane of a distance.
 void add_outlines(const std::string& name, const model::Shape& shape,

@@ -63,7 +63,7 @@ Bar bar_of(const BarDraft& draft, const model::Mechanism& mechanism, const Numbe
 }
 
 bool is_line(const BarDraft& draft) {
-  return !draft.law && draft.acts == BarDraft::Acts::both_ways;
+  return !draft.law && !draft.series && draft.acts == BarDraft::Acts::both_ways;
 }
 
 /// The bar's force as a law of its length.
@@ -73,11 +73,7 @@ model::SpringLaw law_of_length(const BarDraft& draft, const Bar& bar, const Numb
                                  draft.acts == BarDraft::Acts::in_tension
                                      ? model::OneSidedSpring::Side::above
                                      : model::OneSidedSpring::Side::below};
-  model::SpringLaw law = law_of(*draft.law, numbers);
-  if (const auto* logarithmic = std::get_if<LogarithmicDraft>(&*draft.law);
-      logarithmic != nullptr && !logarithmic->length)
-    std::get<model::LogarithmicSpring>(law).length = bar.free;
-  return model::moved(law, bar.free);
+  return model::moved(law_of(*draft.law, numbers, bar.free), bar.free);
 }
 
 /// A pretension that the bar cannot have; empty: it can.
@@ -109,7 +105,7 @@ std::string problem_in(const BarDraft& draft, const model::Mechanism& mechanism,
                : "";
   if (bar.length == 0)
     return "the ends of the bar lie on each other as drawn, need other ends, or free" +
-           std::string{draft.law ? "" : " with stiffness"};
+           std::string{draft.law || draft.series ? "" : " with stiffness"};
   return draft.pretension ? pretension_problem(draft, bar, numbers) : "";
 }
 
@@ -122,8 +118,14 @@ void add_bars(const MechanismDraft& draft, const Numbers& numbers, model::Mechan
       mechanism.line_springs.push_back({own.name, bar.from, bar.to, bar.stiffness, bar.free});
       continue;
     }
-    model::ShapeSpring spring{.name = own.name, .law = law_of_length(own, bar, numbers)};
+    model::ShapeSpring spring{.name = own.name};
     spring.shape.points = {bar.from, bar.to};
+    if (own.series) {
+      put_series(*own.series, numbers, bar.free, spring);
+      spring.offset = bar.free;
+    } else {
+      spring.law = law_of_length(own, bar, numbers);
+    }
     mechanism.shape_springs.push_back(std::move(spring));
   }
 }

@@ -26,15 +26,18 @@ void read_bar_ends(const TableReader& table, MechanismDraft& draft, BarDraft& ba
   bar.to.at = read_at(table, "to_at", draft, bar.to, draft.numbers, reading);
 }
 
-/// `law`, which the elongation counts in.
+/// `law` or `series`, which the elongation counts in.
 void read_bar_law(const TableReader& table, NumberTable& numbers, BarDraft& bar, Reading& reading) {
-  const Node* law = table.find("law");
   JointUnits units = units_of(model::JointKind::prismatic, reading.units);
   units.has_length = true;
-  bar.law = read_spring({law, table.key_of("law")}, units, numbers, reading);
-  if (bar.law && std::visit([](const auto& s) { return s.from_start; }, *bar.law))
-    reading.problems.add(law->place, table.key_of("law") + ".origin",
-                         "laws of bars count from the free length: need \"joint\" or no origin");
+  const char* const from_free = "laws of bars count from the free length";
+  if (table.has("series")) {
+    bar.series = read_series(table, units, numbers, reading);
+    return refuse_origins(table, bar.series, from_free, reading);
+  }
+  const Item law{table.find("law"), table.key_of("law")};
+  bar.law = read_spring(law, units, numbers, reading);
+  if (bar.law) refuse_origin(law, *bar.law, from_free, reading);
 }
 
 /// `tension_only` and `compression_only`.
@@ -57,24 +60,29 @@ BarDraft::Acts read_acts(const TableReader& table, bool has_law, Reading& readin
   return compression ? BarDraft::Acts::in_compression : BarDraft::Acts::both_ways;
 }
 
-/// How stiff the bar is: exactly one of `stiffness`, `EA` and `law`.
+/// How stiff the bar is: exactly one of `stiffness`, `EA`, `law` and `series`.
 void read_bar_force(const TableReader& table, NumberTable& numbers, BarDraft& bar,
                     Reading& reading) {
   std::string got;
   int count = 0;
-  for (const char* name : {"stiffness", "EA", "law"})
+  for (const char* name : {"stiffness", "EA", "law", "series"})
     if (table.has(name)) got += (count++ > 0 ? " and " : "") + std::string{name};
   if (count != 1)
-    reading.problems.add(table.place(), table.key(),
-                         "got " + (count > 0 ? got : "neither stiffness nor EA nor a law") +
-                             ", need exactly one of them");
+    reading.problems.add(
+        table.place(), table.key(),
+        "got " + (count > 0 ? got : "neither stiffness nor EA nor a law nor springs in series") +
+            ", need exactly one of them");
   const std::string length = reading.units.length, force = reading.units.force;
   if (table.has("stiffness"))
     bar.stiffness =
         table.number("stiffness", {Range::non_negative, force + "/" + length}, numbers, 0);
   if (table.has("EA")) bar.EA = table.number("EA", {Range::positive, force}, numbers, 0);
-  if (table.has("law")) read_bar_law(table, numbers, bar, reading);
-  bar.acts = read_acts(table, table.has("law"), reading);
+  const bool has_law = table.has("law") || table.has("series");
+  if (has_law) read_bar_law(table, numbers, bar, reading);
+  if (table.has("initial") && !table.has("series"))
+    reading.problems.add(table.find("initial")->place, table.key_of("initial"),
+                         "only springs in series have it, need series");
+  bar.acts = read_acts(table, has_law, reading);
 }
 
 /// `free` or `pretension`.
@@ -85,7 +93,7 @@ void read_bar_length(const TableReader& table, NumberTable& numbers, BarDraft& b
   };
   if (table.has("free") && table.has("pretension"))
     refuse("either free or pretension, not both: each says how long the bar is without force");
-  else if (table.has("law") && table.has("pretension"))
+  else if ((table.has("law") || table.has("series")) && table.has("pretension"))
     refuse("goes with stiffness or EA; of a bar with a law give the free length, free");
   if (table.has("free"))
     bar.free = table.number("free", {Range::non_negative, reading.units.length}, numbers, 0);
@@ -94,11 +102,12 @@ void read_bar_length(const TableReader& table, NumberTable& numbers, BarDraft& b
 }
 
 BarDraft read_bar(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{*item.node,
-                          item.key,
-                          {"name", "from", "from_at", "to", "to_at", "stiffness", "EA", "law",
-                           "tension_only", "compression_only", "free", "pretension"},
-                          reading};
+  const TableReader table{
+      *item.node,
+      item.key,
+      {"name", "from", "from_at", "to", "to_at", "stiffness", "EA", "law", "series", "initial",
+       "tension_only", "compression_only", "free", "pretension"},
+      reading};
   BarDraft bar{.place = item.node->place, .key = item.key};
   bar.name = read_bar_name(table, draft, reading);
   read_bar_ends(table, draft, bar, reading);

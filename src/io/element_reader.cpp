@@ -195,16 +195,8 @@ class JointReader {
       return springs;
     }
     const TableReader table{*item.node, item.key, {"series"}, reading_};
-    const std::string need = "a list of at least two springs { law = ... }, at most 100";
-    constexpr std::size_t most = 100;
-    const std::vector<Item> items = table.list("series", need);
-    const Node* series = table.find("series");
-    if (series->kind == Node::Kind::array && (items.size() < 2 || items.size() > most))
-      reading_.problems.add(series->place, table.key_of("series"),
-                            "got " + described(*series) + ", need " + need);
-    else
-      for (const Item& law : items) add(law);
-    return springs;
+    return read_series_laws({table.find("series"), table.key_of("series")}, units_, numbers_,
+                            reading_);
   }
 
   void read_spring_laws(std::vector<Springs>& springs) {

@@ -28,6 +28,14 @@ std::string list_of(const model::Vec3<double>& v) {
   return "[" + shortest(v[0]) + ", " + shortest(v[1]) + ", " + shortest(v[2]) + "]";
 }
 
+/// ", inertia = [[...], [...], [...]]" behind something; nothing where there is none.
+std::string inertia_behind(const std::string& before, const model::Mat3<double>& I,
+                           const std::string& after) {
+  if (I.isZero(0)) return "";
+  return before + "inertia = [" + list_of(I.row(0)) + ", " + list_of(I.row(1)) + ", " +
+         list_of(I.row(2)) + "]" + after;
+}
+
 /// Names of the case: letters, digits, '_' and '-' only, no two alike.
 class RobotNames {
  public:
@@ -130,7 +138,8 @@ class RobotCase {
     for (const double x : places_[i].translation()) text_ += shortest(x) + ", ";
     text_ += shortest(vector[0]) + ", " + shortest(vector[1]) + ", " + shortest(vector[2]) + "]\n";
     if (link.mass > 0) {
-      text_ += "mass = " + shortest(link.mass) + "\ncom = " + list_of(link.com) + "\n";
+      text_ += "mass = " + shortest(link.mass) + "\ncom = " + list_of(link.com) + "\n" +
+               inertia_behind("", link.inertia, "\n");
       has_mass_ = true;
     }
     text_ += "\n";
@@ -169,8 +178,12 @@ class RobotCase {
       ++joints_;
     }
     if (link.mass > 0 && !is_end) {  // of a body it is the body's own
-      text_ += "  { point = \"" + own.make("com_" + link.name, "com") +
-               "\", at = " + list_of(link.com) + ", mass = " + shortest(link.mass) + " },\n";
+      if (link.inertia.isZero(0))
+        text_ += "  { point = \"" + own.make("com_" + link.name, "com") +
+                 "\", at = " + list_of(link.com) + ", mass = " + shortest(link.mass) + " },\n";
+      else
+        text_ += "  { rigid = [0, 0, 0], mass = " + shortest(link.mass) +
+                 ", com = " + list_of(link.com) + inertia_behind(", ", link.inertia, "") + " },\n";
       has_mass_ = true;
     }
   }

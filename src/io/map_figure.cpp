@@ -74,20 +74,32 @@ class Plane {
   std::vector<GridField> distances() const {
     std::vector<GridField> fields;
     const statics::System system = statics::prepare(planned_.mechanism);
-    for (const statics::CoordinateSpring& spring : system.springs) {
-      const auto column = column_of(result_, spring.name);
-      const auto& breakpoints = spring.law.breakpoints;
-      for (std::size_t b = 0; column && b < breakpoints.size(); ++b) {
-        const double breakpoint = breakpoints[b];
-        if (spring.law.changes_at(b))
+    const auto add = [&](const model::CompiledSpring& law, std::optional<std::size_t> column) {
+      for (std::size_t b = 0; column && b < law.breakpoints.size(); ++b) {
+        const double breakpoint = law.breakpoints[b];
+        if (law.changes_at(b))
           fields.push_back(
               field([=](const analysis::Sample& s) { return s.values[*column] - breakpoint; }));
       }
-    }
+    };
+    for (const statics::CoordinateSpring& spring : system.springs)
+      add(spring.law, column_of(result_, spring.name));
+    const auto& shapes = planned_.mechanism.shape_springs;
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      add(system.shapes[i].law, column_of_law(shapes[i]));
     return fields;
   }
 
  private:
+  /// Where the coordinate of a spring's law stands: that of the last one in series, or the shape's value.
+  std::optional<std::size_t> column_of_law(const model::ShapeSpring& spring) const {
+    if (!spring.before.empty())
+      return column_of(result_, series_name(spring, spring.before.size()));
+    for (const char* value : {".length", ".distance", ".angle", ".area", ".volume"})
+      if (const auto column = column_of(result_, spring.name + value)) return column;
+    return std::nullopt;
+  }
+
   const PlannedRun& planned_;
   const StudyResult& result_;
   std::vector<double> xs_{}, ys_{};

@@ -1,6 +1,7 @@
 #include "mechanism_draft.hpp"
 
 #include "bar_draft.hpp"
+#include "counted_turns.hpp"
 #include "springfold/core/overloaded.hpp"
 
 namespace springfold::io {
@@ -124,6 +125,7 @@ model::Shape shape_of(const ShapeDraft& draft, const Numbers& numbers) {
 model::ShapeSpring shape_spring_of(const ShapeSpringDraft& draft, const Numbers& numbers) {
   model::ShapeSpring spring{.name = draft.name, .shape = shape_of(draft.shape, numbers)};
   if (draft.law) spring.law = law_of(*draft.law, numbers);
+  if (draft.series) put_series(*draft.series, numbers, 1, spring);
   if (draft.gas)
     spring.gas = {numbers[draft.gas->nRT], numbers[draft.gas->initial],
                   numbers[draft.gas->exponent]};
@@ -152,6 +154,19 @@ model::Mat3<double> inertia_of(const std::vector<NumberId>& ids, const Numbers& 
     for (std::size_t i = 0; i < ids.size(); ++i)
       I(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) = numbers[ids[i]];
   return I;
+}
+
+void put_series(const SeriesDraft& draft, const Numbers& numbers, double length,
+                model::ShapeSpring& spring) {
+  for (std::size_t i = 0; i < draft.laws.size(); ++i) {
+    model::SpringLaw law = law_of(draft.laws[i], numbers, length);
+    if (i + 1 == draft.laws.size()) {
+      spring.law = std::move(law);
+      return;
+    }
+    spring.before.push_back({.law = std::move(law)});
+    if (i < draft.initial.size()) spring.before.back().initial = numbers[draft.initial[i]];
+  }
 }
 
 model::Anchor anchor_of(const AnchorDraft& draft, const Numbers& numbers) {
@@ -229,6 +244,7 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
   for (const ShapeSpringDraft& spring : draft.shape_springs)
     mechanism.shape_springs.push_back(shape_spring_of(spring, numbers));
   add_bars(draft, numbers, mechanism);
+  add_ray_chains(draft, mechanism);
   return mechanism;
 }
 

@@ -92,6 +92,7 @@ struct ShapeDraft {
   bool closed = false;
   std::vector<std::array<std::size_t, 3>> triangles{};
   std::optional<NumberId> near{};
+  bool turns = false;  ///< an angle of nodes: whole turns are counted
 };
 
 struct LoadDraft {
@@ -113,6 +114,13 @@ struct LineSpringDraft {
   std::string key{};
 };
 
+/// Springs in series: at least two; their coordinates add up.
+struct SeriesDraft {
+  std::vector<SpringDraft> laws{};
+  std::vector<NumberId>
+      initial{};  ///< guesses of the first coordinates; the last one takes the rest
+};
+
 /// A node that is fixed in all directions: a name for a point of the base.
 struct SupportDraft {
   std::string name{};
@@ -130,6 +138,7 @@ struct BarDraft {
   std::optional<NumberId> stiffness{}, EA{};     ///< one of both, or `law` [force/length], [force]
   Acts acts = Acts::both_ways;                   ///< with stiffness or EA
   std::optional<SpringDraft> law{};              ///< force over elongation
+  std::optional<SeriesDraft> series{};           ///< instead of `law`
   std::optional<NumberId> free{}, pretension{};  ///< one or none [length], [force]
   Place place{};
   std::string key{};
@@ -143,6 +152,7 @@ struct ShapeSpringDraft {
   std::string name{};
   ShapeDraft shape{};
   std::optional<SpringDraft> law{};
+  std::optional<SeriesDraft> series{};  ///< instead of `law`
   std::optional<GasDraft> gas{};
   Place place{};
   std::string key{};
@@ -200,6 +210,11 @@ model::Mechanism build_mechanism(const MechanismDraft& draft, const std::vector<
 
 /// For every element of the chain's model, the place of the element of the draft that it comes from.
 std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<double>& numbers);
+
+/// The law of the last of springs in series, and those before it, into `spring`.
+/// @param length  of a bar: that of logarithmic laws which have none of their own
+void put_series(const SeriesDraft& draft, const std::vector<double>& numbers, double length,
+                model::ShapeSpring& spring);
 
 /// @param numbers  values of the table that the draft's ids belong to
 model::Anchor anchor_of(const AnchorDraft& draft, const std::vector<double>& numbers);

@@ -95,6 +95,20 @@ std::optional<SpringDraft> read_spring(const Item& item, model::JointKind kind,
 std::optional<SpringDraft> read_spring(const Item& item, const JointUnits& units,
                                        NumberTable& numbers, Reading& reading);
 
+/// `[{ law = ... }, ...]`: two springs or more, one behind the other; empty: reported.
+std::vector<SpringDraft> read_series_laws(const Item& list, const JointUnits& units,
+                                          NumberTable& numbers, Reading& reading);
+
+/// `series` and `initial` of a spring between points or of a shape, or of a bar. @pre table.has("series")
+std::optional<SeriesDraft> read_series(const TableReader& table, const JointUnits& units,
+                                       NumberTable& numbers, Reading& reading);
+
+/// A law that counts from where the mechanism starts has no meaning in such springs: reports it.
+void refuse_origin(const Item& law, const SpringDraft& spring, const std::string& what,
+                   Reading& reading);
+void refuse_origins(const TableReader& table, const std::optional<SeriesDraft>& series,
+                    const std::string& what, Reading& reading);
+
 /// Number of a moving body (1, 2, ...) by name; 0 for "base" if `base_allowed`. Reports others.
 std::optional<Index> body_number(const std::string& name, const Item& at,
                                  const std::vector<BodyDraft>& bodies, bool base_allowed,

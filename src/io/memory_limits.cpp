@@ -122,6 +122,14 @@ void check_dense(const CaseDraft& draft, Problems& problems) {
     const double own = 6 + static_cast<double>(chain.elements.size());
     if (own < longest_dense_chain) unknowns += own;
   }
+  const auto add_series = [&unknowns](const std::optional<SeriesDraft>& series) {
+    if (series) unknowns += static_cast<double>(series->laws.size()) - 1;
+  };
+  for (const ShapeSpringDraft& spring : draft.mechanism.shape_springs) {
+    add_series(spring.series);
+    if (spring.shape.turns) unknowns += 8;  // two chains of two joints
+  }
+  for (const BarDraft& bar : draft.mechanism.bars) add_series(bar.series);
   const double bytes = dense_matrices * sizeof(double) * unknowns * unknowns;
   if (bytes <= most_memory) return;
   const BodyDraft& at = draft.mechanism.bodies.front();

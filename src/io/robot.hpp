@@ -23,6 +23,8 @@ struct RobotLink {
   model::Vec3<double> axis{};   ///< of the joint, in its frame
   double mass = 0;              ///< 0: none is given
   model::Vec3<double> com{};    ///< centre of mass in the link's frame
+  /// Moments of inertia about the centre of mass, in the axes of the link's frame; zero: none are given.
+  model::Mat3<double> inertia = model::Mat3<double>::Zero();
 };
 
 struct Robot {

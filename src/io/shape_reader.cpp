@@ -14,20 +14,33 @@ using model::ShapeKind;
 /// Second derivatives of a shape are one matrix of its points: 18 MB for so many.
 constexpr std::size_t most_shape_points = 500;
 
+/// What a case calls a shape, and how many points it has. most = 0: any number.
 struct ShapeWord {
   const char* text;
   ShapeKind kind;
+  std::size_t least, most;
 };
 constexpr ShapeWord shape_words[]{
-    {"distance", ShapeKind::path}, {"path", ShapeKind::path},   {"angle", ShapeKind::angle},
-    {"fold", ShapeKind::dihedral}, {"area", ShapeKind::area},   {"volume", ShapeKind::volume},
-    {"line", ShapeKind::line},     {"plane", ShapeKind::plane},
+    {"distance", ShapeKind::path, 2, 2}, {"path", ShapeKind::path, 2, 0},
+    {"angle", ShapeKind::angle, 3, 3},   {"fold", ShapeKind::dihedral, 4, 4},
+    {"area", ShapeKind::area, 3, 0},     {"volume", ShapeKind::volume, 4, 0},
+    {"line", ShapeKind::line, 3, 3},     {"plane", ShapeKind::plane, 4, 4},
 };
 
-ShapeKind kind_of(const std::string& word) {
+const ShapeWord& word_for(const std::string& text) {
   for (const ShapeWord& known : shape_words)
-    if (word == known.text) return known.kind;
-  return ShapeKind::path;
+    if (text == known.text) return known;
+  return shape_words[1];
+}
+
+/// As many points as the shape has?
+void check_count(const TableReader& table, const ShapeWord& word, std::size_t got,
+                 Reading& reading) {
+  if (!table.has("of") || (got >= word.least && (word.most == 0 || got <= word.most))) return;
+  std::string need = "got " + std::to_string(got) + (got == 1 ? " point" : " points") + ", need " +
+                     std::to_string(word.least) + (word.most == 0 ? " or more" : "");
+  if (word.most == 2) need += "; of more points the shape is \"path\"";
+  reading.problems.add(table.find("of")->place, table.key_of("of"), need);
 }
 
 /// [[1, 2, 3], ...]: numbers of points, counted from 1.
@@ -62,6 +75,25 @@ void refuse(const TableReader& table, const std::string& key, const std::string&
     reading.problems.add(node->place, table.key_of(key), what);
 }
 
+/// `turns` of an angle: of three different points of the plane that are nodes or fixed.
+bool read_turns(const TableReader& table, const ShapeDraft& shape, const MechanismDraft& draft,
+                Reading& reading) {
+  if (!table.truth("turns", false)) return false;
+  const bool nodes =
+      std::all_of(shape.points.begin(), shape.points.end(), [&](const AnchorDraft& point) {
+        return point.chain < 0 &&
+               (point.body == 0 ||
+                draft.bodies[static_cast<std::size_t>(point.body - 1)].task_space ==
+                    model::TaskSpace::xy);
+      });
+  if (!nodes)
+    reading.problems.add(
+        table.find("turns")->place, table.key_of("turns"),
+        "need three nodes in the plane, or fixed points: turns of other bodies and "
+        "of chains are counted without it");
+  return nodes && shape.points.size() == 3;
+}
+
 void read_gas(const Item& item, const JointUnits& units, NumberTable& numbers,
               ShapeSpringDraft& spring, Reading& reading) {
   if (!is_table(item, "a table such as { nRT = 0.1, initial = 1 }", reading)) return;
@@ -79,24 +111,26 @@ void read_gas(const Item& item, const JointUnits& units, NumberTable& numbers,
   spring.gas = gas;
 }
 
-/// Exactly one of `law`, `gas` and `stiffness` with `free`.
+/// Exactly one of `law`, `series`, `gas` and `stiffness` with `free`.
 void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraft& spring,
                  Reading& reading) {
   const JointUnits units = units_of(spring.shape.kind, reading.units);
   const bool law = table.has("law"), gas = table.has("gas"), plain = table.has("stiffness");
-  if (law + gas + plain > 1 || (!plain && table.has("free")))
-    return reading.problems.add(
-        table.place(), table.key(),
-        "need one of: stiffness (with free, if it is not 0), law = { ... }, gas = { ... }");
+  const bool series = table.has("series");
+  if (law + gas + plain + series > 1 || (!plain && table.has("free")))
+    return reading.problems.add(table.place(), table.key(),
+                                "need one of: stiffness (with free, if it is not 0), "
+                                "law = { ... }, series = [{ ... }, ...], gas = { ... }");
+  if (!series) refuse(table, "initial", "only springs in series have it, need series", reading);
+  const char* const own_zero = "springs between points count from their own zero";
+  if (series) {
+    spring.series = read_series(table, units, numbers, reading);
+    return refuse_origins(table, spring.series, own_zero, reading);
+  }
   if (law) {
-    const auto read =
-        read_spring({table.find("law"), table.key_of("law")}, units, numbers, reading);
-    if (!read) return;
-    spring.law = *read;
-    if (std::visit([](const auto& s) { return s.from_start; }, *read))
-      reading.problems.add(table.find("law")->place, table.key_of("law") + ".origin",
-                           "springs between points count from their own zero: need \"joint\" or "
-                           "no origin");
+    const Item at{table.find("law"), table.key_of("law")};
+    spring.law = read_spring(at, units, numbers, reading);
+    if (spring.law) refuse_origin(at, *spring.law, own_zero, reading);
     return;
   }
   if (gas)
@@ -109,11 +143,12 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
 
 void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
   const bool ends = item.node->find("to") != nullptr || item.node->find("from") != nullptr;
-  std::vector<std::string> keys{"name", "shape", "stiffness", "free", "law", "gas"};
+  std::vector<std::string> keys{"name", "shape",  "stiffness", "free",
+                                "law",  "series", "initial",   "gas"};
   if (ends)
     keys.insert(keys.end(), {"from", "from_at", "to", "to_at"});
   else
-    keys.insert(keys.end(), {"of", "closed", "near", "triangles"});
+    keys.insert(keys.end(), {"of", "closed", "near", "turns", "triangles"});
   const TableReader table{*item.node, item.key, keys, reading};
   ShapeSpringDraft spring{.place = item.node->place, .key = item.key};
   spring.name = read_own_name(table, draft, reading);
@@ -132,17 +167,21 @@ void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading
 }
 
 void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
-  const TableReader table{
-      *item.node,
-      item.key,
-      {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape", "of", "law", "gas"},
-      reading};
+  const TableReader table{*item.node,
+                          item.key,
+                          {"name", "from", "from_at", "to", "to_at", "stiffness", "free", "shape",
+                           "of", "law", "series", "gas"},
+                          reading};
   LineSpringDraft spring{.place = item.node->place, .key = item.key};
   spring.name = read_own_name(table, draft, reading);
   read_ends(table, draft, spring.from, spring.to, reading);
   const std::string length = reading.units.length;
-  spring.stiffness = table.required_number(
-      "stiffness", {Range::non_negative, reading.units.force + "/" + length}, draft.numbers);
+  const Rule rule{Range::non_negative, reading.units.force + "/" + length};
+  if (table.has("stiffness"))
+    spring.stiffness = table.required_number("stiffness", rule, draft.numbers);
+  else
+    reading.problems.add(table.place(), table.key_of("stiffness"),
+                         "missing, need " + need_of(rule) + ", or law = { ... }, series = [...]");
   spring.free = table.number("free", {Range::non_negative, length}, draft.numbers, 0);
   draft.springs.push_back(std::move(spring));
 }
@@ -172,10 +211,11 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
   ShapeDraft shape;
   table.require("shape", choices(words));
   const std::string word = words[table.choice("shape", words, 0)];
-  shape.kind = kind_of(word);
+  shape.kind = word_for(word).kind;
   table.require("of", "a list of points");
   for (const Item& item : table.list("of", "a list of points"))
     shape.points.push_back(read_anchor(item, draft, numbers, reading));
+  check_count(table, word_for(word), shape.points.size(), reading);
   if (shape.points.size() > most_shape_points)
     reading.problems.add(table.find("of")->place, table.key_of("of"),
                          "got " + std::to_string(shape.points.size()) + " points, need at most " +
@@ -186,10 +226,6 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
   } else {
     refuse(table, "triangles", "only the shape \"volume\" has triangles", reading);
   }
-  if (word == "distance" && table.has("of") && shape.points.size() != 2)
-    reading.problems.add(table.find("of")->place, table.key_of("of"),
-                         "got " + std::to_string(shape.points.size()) +
-                             " points, need 2; of more points the shape is \"path\"");
   if (word == "path")
     shape.closed = table.truth("closed", false);
   else
@@ -199,13 +235,17 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
     shape.near = table.number("near", {Range::finite, "rad"}, numbers, std::numbers::pi);
   else
     refuse(table, "near", "only the shapes \"angle\" and \"fold\" have it", reading);
+  if (shape.kind == ShapeKind::angle)
+    shape.turns = read_turns(table, shape, draft, reading);
+  else
+    refuse(table, "turns", "only the shape \"angle\" has it", reading);
   return shape;
 }
 
 void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const auto has = [&](const char* key) { return item.node->find(key) != nullptr; };
-    if (has("shape") || has("of") || has("law") || has("gas"))
+    if (has("shape") || has("of") || has("law") || has("series") || has("gas"))
       read_shape_spring(item, draft, reading);
     else
       read_line_spring(item, draft, reading);

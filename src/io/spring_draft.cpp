@@ -31,6 +31,7 @@ model::PiecewiseLinearSpring straight_table(const std::vector<double>& u,
 /// Builds the law of each draft from the numbers.
 struct LawBuilder {
   const std::vector<double>& n;
+  const double length;
 
   std::vector<double> values(const std::vector<NumberId>& ids) const {
     std::vector<double> list;
@@ -73,7 +74,7 @@ struct LawBuilder {
     return law;
   }
   SpringLaw operator()(const LogarithmicDraft& s) const {
-    return model::LogarithmicSpring{n[s.stiffness], s.length ? n[*s.length] : 1, n[s.free]};
+    return model::LogarithmicSpring{n[s.stiffness], s.length ? n[*s.length] : length, n[s.free]};
   }
   SpringLaw operator()(const PowerDraft& s) const {
     return model::PowerSpring{n[s.force], n[s.depth], n[s.exponent], n[s.from], s.below};
@@ -82,8 +83,8 @@ struct LawBuilder {
 
 }  // namespace
 
-SpringLaw law_of(const SpringDraft& spring, const std::vector<double>& numbers) {
-  return std::visit(LawBuilder{numbers}, spring);
+SpringLaw law_of(const SpringDraft& spring, const std::vector<double>& numbers, double length) {
+  return std::visit(LawBuilder{numbers, length}, spring);
 }
 
 }  // namespace springfold::io

@@ -69,6 +69,8 @@ using SpringDraft =
                  PolynomialDraft, FormulaDraft, LogarithmicDraft, PowerDraft>;
 
 /// @param numbers  values of the table that the draft's ids belong to
-model::SpringLaw law_of(const SpringDraft& spring, const std::vector<double>& numbers);
+/// @param length   of a bar: that of a logarithmic law which has none of its own
+model::SpringLaw law_of(const SpringDraft& spring, const std::vector<double>& numbers,
+                        double length = 1);
 
 }  // namespace springfold::io

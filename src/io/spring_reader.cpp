@@ -166,4 +166,61 @@ std::optional<SpringDraft> read_spring(const Item& item, const JointUnits& units
   return std::nullopt;
 }
 
+std::vector<SpringDraft> read_series_laws(const Item& list, const JointUnits& units,
+                                          NumberTable& numbers, Reading& reading) {
+  constexpr std::size_t most = 100;
+  const std::string need = "a list of at least two springs { law = ... }, at most 100";
+  const std::vector<Item> items = list_items(list, need, reading);
+  std::vector<SpringDraft> springs;
+  if (list.node->kind != Node::Kind::array) return springs;
+  if (items.size() < 2 || items.size() > most) {
+    reading.problems.add(list.node->place, list.key,
+                         "got " + described(*list.node) + ", need " + need);
+    return springs;
+  }
+  for (const Item& item : items)
+    if (auto spring = read_spring(item, units, numbers, reading))
+      springs.push_back(std::move(*spring));
+  return springs;
+}
+
+void refuse_origin(const Item& law, const SpringDraft& spring, const std::string& what,
+                   Reading& reading) {
+  if (std::visit([](const auto& s) { return s.from_start; }, spring))
+    reading.problems.add(law.node->place, law.key + ".origin",
+                         what + ": need \"joint\" or no origin");
+}
+
+void refuse_origins(const TableReader& table, const std::optional<SeriesDraft>& series,
+                    const std::string& what, Reading& reading) {
+  const Node* list = table.find("series");
+  if (!series || series->laws.size() != list->items.size()) return;
+  for (std::size_t i = 0; i < series->laws.size(); ++i)
+    refuse_origin({&list->items[i], table.key_of("series") + "[" + std::to_string(i + 1) + "]"},
+                  series->laws[i], what, reading);
+}
+
+std::optional<SeriesDraft> read_series(const TableReader& table, const JointUnits& units,
+                                       NumberTable& numbers, Reading& reading) {
+  const Item list{table.find("series"), table.key_of("series")};
+  SeriesDraft series{.laws = read_series_laws(list, units, numbers, reading)};
+  const std::size_t n = list.node->items.size();
+  const Node* initial = table.find("initial");
+  if (initial == nullptr || n < 2)
+    return series.laws.empty() ? std::nullopt : std::optional{series};
+  const Rule rule{Range::finite, units.coordinate};
+  if (initial->kind != Node::Kind::array) {
+    series.initial = {table.number("initial", rule, numbers, 0)};
+  } else {
+    series.initial =
+        read_numbers(table.list("initial", "a list of numbers"), rule, numbers, reading);
+    if (series.initial.size() != n - 1)
+      reading.problems.add(initial->place, table.key_of("initial"),
+                           "got " + described(*initial) + ", need " + std::to_string(n - 1) + " [" +
+                               units.coordinate +
+                               "]: guesses of all coordinates but the last, which takes the rest");
+  }
+  return series.laws.empty() ? std::nullopt : std::optional{series};
+}
+
 }  // namespace springfold::io

@@ -5,6 +5,7 @@
 
 #include "robot.hpp"
 #include "springfold/io/import_urdf.hpp"
+#include "springfold/model/mechanism.hpp"
 #include "xml_places.hpp"
 
 #if SPRINGFOLD_HAS_URDF
@@ -98,9 +99,7 @@ class UrdfTree {
     if (from.inertial) {
       link.mass = from.inertial->mass;
       link.com = vector_of_urdf(from.inertial->origin.position);
-      const auto& i = *from.inertial;
-      if (i.ixx != 0 || i.iyy != 0 || i.izz != 0 || i.ixy != 0 || i.ixz != 0 || i.iyz != 0)
-        ++counts_["moments of inertia of links"];
+      put_inertia(*from.inertial, link);
       if (!(link.mass >= 0) || !std::isfinite(link.mass) || !link.com.allFinite())
         refuse("link \"" + from.name + "\"", "got a mass that is no number >= 0, need one");
     }
@@ -108,6 +107,27 @@ class UrdfTree {
     if (!from.collision_array.empty()) ++counts_["shapes to collide with"];
     if (from.parent_joint) put_joint(*from.parent_joint, link);
     return link;
+  }
+
+  /// The file has them in the axes of the inertial frame.
+  void put_inertia(const urdf::Inertial& from, RobotLink& link) {
+    const double xx = from.ixx, yy = from.iyy, zz = from.izz;
+    const double xy = from.ixy, xz = from.ixz, yz = from.iyz;
+    model::Mat3<double> I;
+    I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    if (I.isZero(0)) return;
+    const model::Mat3<double> R = model::exp_rotation(turn_of_urdf(from.origin.rotation));
+    if (!R.isIdentity(0)) {
+      const model::Mat3<double> turned = R * I * R.transpose();
+      I = 0.5 * (turned + turned.transpose());
+    }
+    std::string problem = model::problem_in_inertia(I);
+    if (problem.empty() && !(link.mass > 0)) problem = "it has no mass";
+    if (problem.empty())
+      link.inertia = I;
+    else
+      robot_.left_out.push_back("left out: the moments of inertia of link \"" + link.name +
+                                "\": " + problem);
   }
 
   void put_joint(const urdf::Joint& from, RobotLink& link) {

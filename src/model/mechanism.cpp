@@ -179,8 +179,18 @@ void check_shape_spring(const Mechanism& mechanism, const ShapeSpring& spring,
                         const std::string& where, std::vector<std::string>& problems) {
   const auto say = [&](const std::string& what) { problems.push_back(where + ": " + what); };
   check_shape(mechanism, spring.shape, where, problems);
+  if (!std::isfinite(spring.offset)) say("free: need a finite number");
+  if (spring.gas && !spring.before.empty()) say("gas: a gas has no springs in series with it");
+  const std::size_t in_series = spring.before.size();
+  for (std::size_t i = 0; i < in_series; ++i) {
+    const std::string at = "series[" + std::to_string(i + 1) + "].";
+    for (const std::string& problem : problems_in(spring.before[i].law)) say(at + problem);
+    if (!std::isfinite(spring.before[i].initial.value_or(0))) say("initial: need a finite number");
+  }
   if (!spring.gas) {
-    for (const std::string& problem : problems_in(spring.law)) say("law." + problem);
+    const std::string at =
+        in_series > 0 ? "series[" + std::to_string(in_series + 1) + "]." : std::string{"law."};
+    for (const std::string& problem : problems_in(spring.law)) say(at + problem);
     return;
   }
   const ShapeKind kind = spring.shape.kind;
@@ -321,6 +331,10 @@ bool has_coordinate(const Joint& joint) {
 
 std::string coordinate_name(const Joint& joint) {
   return joint.role == JointRole::actuated ? joint.name + ".theta" : joint.name;
+}
+
+std::string series_name(const ShapeSpring& spring, std::size_t i) {
+  return spring.name + "." + std::to_string(i + 1);
 }
 
 bool is_flat(const CompiledChain& chain) {

@@ -54,6 +54,7 @@ std::vector<std::vector<Index>> couplings(const System& system) {
   for (const PointShape& shape : system.shapes) {
     lists.emplace_back();
     for (const std::size_t point : shape.points) append_point(system, point, lists.back());
+    for (Index k = 0; k < shape.inner_count; ++k) lists.back().push_back(shape.inner + k);
   }
   for (auto& list : lists) {
     std::sort(list.begin(), list.end());

@@ -33,7 +33,13 @@ bool has_form_of(const model::Mechanism& a, const model::Mechanism& b) {
   const auto same_body = [](const model::Body& one, const model::Body& other) {
     return one.name == other.name && one.task_space == other.task_space;
   };
-  return std::equal(a.chains.begin(), a.chains.end(), b.chains.begin(), b.chains.end(),
+  const auto same_inner = [](const model::ShapeSpring& one, const model::ShapeSpring& other) {
+    return one.before.size() == other.before.size() &&
+           (one.before.empty() || (one.name == other.name && one.shape.kind == other.shape.kind));
+  };
+  return std::equal(a.shape_springs.begin(), a.shape_springs.end(), b.shape_springs.begin(),
+                    b.shape_springs.end(), same_inner) &&
+         std::equal(a.chains.begin(), a.chains.end(), b.chains.begin(), b.chains.end(),
                     same_chain) &&
          std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body);
 }

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "point_terms.hpp"
+#include "springfold/model/shape_edge.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -24,32 +25,43 @@ double counted(const PointShape& shape, double angle, double turned) {
   return model::detail::nearest_angle<double>(angle, shape.shape.near + turned - shape.turned);
 }
 
-/// Motions of the points, alpha, and its derivatives by their variables.
-void evaluate(const System& system, const PointShape& shape, const Vector& z, const Vector& rho,
-              Workspace& work) {
-  work.points.resize(system.points.size());
+/// The derivatives of alpha, or of what stands for it, by the variables of the points.
+void put_slopes(const PointShape& shape, Workspace& work) {
   Workspace::Shape& out = work.shape;
-  out.positions.resize(3 * std::ssize(shape.points));
-  Index count = 0;
-  for (std::size_t a = 0; a < shape.points.size(); ++a) {
-    Workspace::Point& point = work.points[shape.points[a]];
-    evaluate_point(system, shape.points[a], z, rho, point);
-    out.positions.segment<3>(3 * static_cast<Index>(a)) = point.at.pose.p;
-    count += point.at.dp.cols();
-  }
-  model::evaluate_shape<double>(shape.shape, out.positions, out.at);
-  if (counts_turns(shape))
-    out.at.value =
-        counted(shape, out.at.value,
-                turn_of(work.points[shape.points[2]]) - turn_of(work.points[shape.points[0]]));
+  Index count = 0, first = 0;
+  for (const std::size_t point : shape.points) count += work.points[point].at.dp.cols();
   out.slopes.resize(count);
-  Index first = 0;
   for (std::size_t a = 0; a < shape.points.size(); ++a) {
     const auto& dp = work.points[shape.points[a]].at.dp;
     const Vec3<double> g = out.at.gradient.segment<3>(3 * static_cast<Index>(a));
     for (Index j = 0; j < dp.cols(); ++j) out.slopes[first + j] = g.dot(dp.col(j));
     first += dp.cols();
   }
+}
+
+/// Motions of the points, alpha, and its derivatives by their variables.
+void evaluate(const System& system, const PointShape& shape, const Vector& z, const Vector& rho,
+              Workspace& work) {
+  work.points.resize(system.points.size());
+  Workspace::Shape& out = work.shape;
+  out.positions.resize(3 * std::ssize(shape.points));
+  for (std::size_t a = 0; a < shape.points.size(); ++a) {
+    Workspace::Point& point = work.points[shape.points[a]];
+    evaluate_point(system, shape.points[a], z, rho, point);
+    out.positions.segment<3>(3 * static_cast<Index>(a)) = point.at.pose.p;
+  }
+  model::evaluate_shape<double>(shape.shape, out.positions, out.at);
+  if (counts_turns(shape))
+    out.at.value =
+        counted(shape, out.at.value,
+                turn_of(work.points[shape.points[2]]) - turn_of(work.points[shape.points[0]]));
+  put_slopes(shape, work);
+}
+
+/// Coordinate of the law: alpha without what springs in series take of it.
+double own_part(const PointShape& shape, double alpha, const Vector& z) {
+  if (shape.inner_count == 0) return alpha;
+  return alpha - shape.offset - z.segment(shape.inner, shape.inner_count).sum();
 }
 
 double factor_of(const PointShape& shape, const Vector& factors) {
@@ -61,18 +73,35 @@ struct AlphaSlopes {
   double slope = 0, curvature = 0;
 };
 
-AlphaSlopes slopes_in(const PointShape& shape, std::size_t segment, double alpha,
+/// @param own  coordinate of the law
+AlphaSlopes slopes_in(const PointShape& shape, std::size_t segment, double own,
                       const Vector& factors) {
   if (shape.is_pressure()) return {-factor_of(shape, factors) * shape.pressure, 0};
-  if (!shape.gas) return {shape.law.torque(segment, alpha), shape.law.stiffness(segment, alpha)};
-  const ShapeEnergy gas = energy_of(*shape.gas, alpha);
+  if (!shape.gas) return {shape.law.torque(segment, own), shape.law.stiffness(segment, own)};
+  const ShapeEnergy gas = energy_of(*shape.gas, own);
   return {gas.slope, gas.curvature};
 }
 
-double energy_in(const PointShape& shape, double alpha, const Vector& factors) {
-  if (shape.is_pressure()) return -factor_of(shape, factors) * shape.pressure * alpha;
-  return shape.gas ? energy_of(*shape.gas, alpha).energy
-                   : shape.law.energy(shape.law.segment_at(alpha), alpha);
+/// Beside a value at which alpha has an edge and the energy has none: the derivatives by a smooth function of the points,
+/// whose own derivatives are put into `work` in place of those of alpha.
+std::optional<AlphaSlopes> slopes_at_edge(const PointShape& shape, std::size_t segment,
+                                          Workspace& work) {
+  constexpr double beside = 1e-2;  // farther away alpha itself loses no digits
+  if (shape.gas || shape.is_pressure() || shape.inner_count > 0) return std::nullopt;
+  const double alpha = work.shape.at.value;
+  const auto edge = model::edge_of(shape.shape, shape.points.size(), alpha);
+  if (!edge || !(std::abs(alpha - edge->at) < beside)) return std::nullopt;
+  const auto slopes = model::slopes_about_edge(shape.law, segment, *edge, alpha);
+  if (!slopes) return std::nullopt;
+  model::evaluate_about_edge<double>(shape.shape, *edge, work.shape.positions, work.shape.at);
+  put_slopes(shape, work);
+  return AlphaSlopes{slopes->slope, slopes->curvature};
+}
+
+double energy_in(const PointShape& shape, double own, const Vector& factors) {
+  if (shape.is_pressure()) return -factor_of(shape, factors) * shape.pressure * own;
+  return shape.gas ? energy_of(*shape.gas, own).energy
+                   : shape.law.energy(shape.law.segment_at(own), own);
 }
 
 /// One shape's part, from what evaluate() has left in `work`.
@@ -90,7 +119,9 @@ class Term {
         ++row;
       }
     }
+    for (Index i = 0; i < shape_.inner_count; ++i) residual[shape_.inner + i] -= at_.slope;
     if (A == nullptr) return;
+    if (shape_.inner_count > 0) add_inner(*A, dR_drho);
     Index first = 0;
     for (std::size_t a = 0; a < shape_.points.size(); ++a) {
       Index column = 0;
@@ -103,6 +134,25 @@ class Term {
   }
 
  private:
+  /// The coordinate of the law has the derivative -1 by each inner one.
+  void add_inner(Matrix& A, Matrix* dR_drho) const {
+    const Index u = shape_.inner, n = shape_.inner_count;
+    A.block(u, u, n, n).array() += at_.curvature;
+    Index i = 0;
+    for (const std::size_t point : shape_.points) {
+      const PointSlice& slice = system_.points[point];
+      for (std::size_t k = 0; k < slice.z.size(); ++k, ++i) {
+        const double value = -at_.curvature * work_.shape.slopes[i];
+        if (slice.z[k] >= 0) {
+          A.col(slice.z[k]).segment(u, n).array() += value;
+          A.row(slice.z[k]).segment(u, n).array() += value;
+        }
+        if (dR_drho != nullptr && slice.rho[k] >= 0)
+          dR_drho->col(slice.rho[k]).segment(u, n).array() += value;
+      }
+    }
+  }
+
   const PointMotion<double>& motion(std::size_t a) const {
     return work_.points[shape_.points[a]].at;
   }
@@ -154,6 +204,12 @@ double value_of(const System& system, const PointShape& shape, const Vector& z, 
 
 }  // namespace
 
+bool is_smooth_at_edge(const PointShape& shape, double alpha) {
+  if (shape.gas || shape.is_pressure() || shape.inner_count > 0) return false;
+  const auto edge = model::edge_of(shape.shape, shape.points.size(), alpha);
+  return edge && slopes_about_edge(shape.law, shape.law.segment_at(alpha), *edge, edge->at);
+}
+
 void count_turns_from(const Vector& z, System& system) {
   for (PointShape& shape : system.shapes)
     if (counts_turns(shape)) shape.turned = turn_between(system, shape, z, system.commands);
@@ -164,8 +220,10 @@ void add_shape_terms(const System& system, const Piece& piece, const Vector& z,
                      Matrix* dR_drho) {
   for (const PointShape& shape : system.shapes) {
     evaluate(system, shape, z, inputs.rho, work);
-    const AlphaSlopes slopes =
-        slopes_in(shape, segment_of(shape, piece), work.shape.at.value, inputs.loads);
+    const double own = own_part(shape, work.shape.at.value, z);
+    const std::size_t segment = segment_of(shape, piece);
+    const auto at_edge = slopes_at_edge(shape, segment, work);
+    const AlphaSlopes slopes = at_edge ? *at_edge : slopes_in(shape, segment, own, inputs.loads);
     Term{system, shape, work, slopes}.add(residual, A, dR_drho);
   }
 }
@@ -182,15 +240,26 @@ void add_pressure_rate(const System& system, const Vector& z, const Vector& rho,
 ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs) {
   const PointShape& s = system.shapes[shape];
-  const double alpha = value_of(system, s, z, inputs.rho);
-  return {alpha, slopes_in(s, s.law.segment_at(alpha), alpha, inputs.loads).slope};
+  const double alpha = value_of(system, s, z, inputs.rho), own = own_part(s, alpha, z);
+  return {alpha, slopes_in(s, s.law.segment_at(own), own, inputs.loads).slope, own};
+}
+
+double series_energy(const System& system, std::size_t shape, const Vector& z) {
+  const PointShape& s = system.shapes[shape];
+  double energy = 0;
+  for (const CoordinateSpring& spring : system.springs)
+    if (spring.coordinate >= s.inner && spring.coordinate < s.inner + s.inner_count) {
+      const double u = z[spring.coordinate];
+      energy += spring.law.energy(spring.law.segment_at(u), u);
+    }
+  return energy;
 }
 
 double shape_energy(const System& system, const Vector& z, const Vector& rho) {
   double energy = 0;
   for (const PointShape& shape : system.shapes) {
     if (shape.is_pressure()) continue;
-    energy += energy_in(shape, value_of(system, shape, z, rho), {});
+    energy += energy_in(shape, own_part(shape, value_of(system, shape, z, rho), z), {});
   }
   return energy;
 }
@@ -206,7 +275,8 @@ double pressure_potential(const System& system, const Vector& z, const Inputs& i
 double switch_value(const System& system, std::size_t number, const Vector& z, const Vector& rho) {
   const Switch& s = system.switches[number];
   if (!s.of_shape()) return z[s.coordinate] - s.breakpoint;
-  return value_of(system, system.shapes[s.spring], z, rho) - s.breakpoint;
+  const PointShape& shape = system.shapes[s.spring];
+  return own_part(shape, value_of(system, shape, z, rho), z) - s.breakpoint;
 }
 
 bool switch_gradient(const System& system, std::size_t number, const Vector& z, const Vector& rho,
@@ -220,6 +290,9 @@ bool switch_gradient(const System& system, std::size_t number, const Vector& z, 
   }
   const PointShape& shape = system.shapes[s.spring];
   evaluate(system, shape, z, rho, out.work);
+  const double alpha = out.work.shape.at.value;
+  const auto edge = model::edge_of(shape.shape, shape.points.size(), alpha);
+  if (edge && alpha == edge->at) return shape.inner_count == 0;  // equally steep in all directions
   Index i = 0;
   for (const std::size_t point : shape.points) {
     const PointSlice& slice = system.points[point];
@@ -229,6 +302,7 @@ bool switch_gradient(const System& system, std::size_t number, const Vector& z, 
       if (slice.rho[k] >= 0) out.rho[slice.rho[k]] += slope;
     }
   }
+  out.z.segment(shape.inner, shape.inner_count).setConstant(-1);
   return out.z.allFinite() && out.rho.allFinite();
 }
 

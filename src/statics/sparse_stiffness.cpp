@@ -21,14 +21,30 @@ constexpr double settled = 1e-9;
 
 FrontalBorders no_borders(Index n) { return {Matrix(n, 0), Matrix(n, 0), Matrix(0, 0)}; }
 
-/// Sum over the chains of the eigenvalues of their own blocks. Zeros belong to wrenches of rigid chains, as those
+/// The unknowns before the poses in groups that do not meet: those of a chain, and those of springs in series.
+std::vector<std::vector<Index>> inner_groups(const System& system) {
+  std::vector<std::vector<Index>> groups;
+  const auto add = [&groups](Index first, Index count) {
+    for (Index k = 0; k < count; ++k) groups.back().push_back(first + k);
+  };
+  for (const ChainSlice& slice : system.chain_slices) {
+    groups.emplace_back();
+    add(slice.x, slice.x_count);
+    add(slice.F, slice.F_count);
+  }
+  for (const PointShape& shape : system.shapes) {
+    if (shape.inner_count == 0) continue;
+    groups.emplace_back();
+    add(shape.inner, shape.inner_count);
+  }
+  return groups;
+}
+
+/// Sum over these groups of the eigenvalues of their own blocks. Zeros belong to wrenches of rigid chains, as those
 /// of nodes that slide along a guide.
 std::optional<Inertia> inertia_of_chains(const System& system, const StructuredMatrix& A) {
   Inertia sum;
-  for (const ChainSlice& slice : system.chain_slices) {
-    std::vector<Index> own;
-    for (Index k = 0; k < slice.x_count; ++k) own.push_back(slice.x + k);
-    for (Index k = 0; k < slice.F_count; ++k) own.push_back(slice.F + k);
+  for (const std::vector<Index>& own : inner_groups(system)) {
     Matrix block(std::ssize(own), std::ssize(own));
     for (std::size_t k = 0; k < own.size(); ++k)
       block.col(static_cast<Index>(k)) = product(A, Vector::Unit(system.size, own[k]))(own);

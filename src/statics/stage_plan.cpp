@@ -98,7 +98,7 @@ class PartMaker {
     s.body_slices = whole_.body_slices;
     for (BodySlice& body : s.body_slices) body.t = moved(body.t);
     s.mechanism.bodies = whole_.mechanism.bodies;
-    s.first_pose = own_;
+    s.first_pose = s.first_inner = own_;
     s.load_size = whole_.load_size;
     s.size = own_ + whole_.size - whole_.first_pose;
     s.commands = whole_.commands;

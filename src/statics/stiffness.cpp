@@ -109,8 +109,7 @@ std::optional<Matrix> compliance(const System& system, const Matrix& A_full, boo
 std::optional<Matrix> stiffness_of_bodies(const System& system, const Matrix& A_full,
                                           bool symmetric) {
   const Index nt = system.load_size, t = system.first_pose;
-  if (system.chains_coupled || system.redundant > 0)
-    return eliminated(A_full, range_of(t, nt), symmetric);
+  if (!system.is_sum_over_chains()) return eliminated(A_full, range_of(t, nt), symmetric);
   Matrix K = A_full.block(t, t, nt, nt);
   for (std::size_t i = 0; i < system.chains.size(); ++i) {
     const ChainSlice& s = system.chain_slices[i];
@@ -309,7 +308,7 @@ std::optional<Condensed> condensed_chains(const System& system, const Matrix& A_
 }  // namespace
 
 Condensed condense(const System& system, const Matrix& A_full, const Workspace& work) {
-  if (!system.chains_coupled && system.redundant == 0 && A_full.allFinite())
+  if (system.is_sum_over_chains() && A_full.allFinite())
     if (auto result = condensed_chains(system, A_full)) return std::move(*result);
   return {platform_stiffness(system, A_full), stability(system, A_full, work)};
 }
@@ -324,7 +323,7 @@ Stability stability(const System& system, const Matrix& A_full, const Workspace&
   Stability result;
   result.force_controlled = unstable_modes(A_full, system.closure_count());
   const Matrix plain = without_gauge(A_full, work);
-  if (system.chains_coupled) {
+  if (system.chains_coupled || system.inner_count() > 0) {
     result.pose_controlled = chains_index(system, plain);
     return result;
   }

@@ -91,6 +91,19 @@ void add_chain(System& system, const model::Chain& chain) {
   system.chains.push_back(compile(system.mechanism, chain));
 }
 
+/// Springs in series of shapes: an unknown and a spring for each but the last one.
+void add_inner(System& system) {
+  system.first_inner = system.size;
+  for (const model::ShapeSpring& spring : system.mechanism.shape_springs)
+    for (std::size_t i = 0; i < spring.before.size(); ++i) {
+      const std::string name = series_name(spring, i);
+      const bool angle = spring.shape.kind == model::ShapeKind::angle ||
+                         spring.shape.kind == model::ShapeKind::dihedral;
+      add_spring(system, spring.before[i].law, system.size, name);
+      add_unknown(system, name, !angle, false);
+    }
+}
+
 void place_variables(const model::CompiledChain& chain, ChainSlice& slice) {
   for (Index i = 0; i < chain.first_joint(); ++i) slice.z_of.push_back(slice.from + i);
   slice.z_of.insert(slice.z_of.end(), slice.joint_coordinate.begin(), slice.joint_coordinate.end());
@@ -178,10 +191,19 @@ std::vector<std::size_t> add_shape_points(System& system, const model::Shape& sh
 /// Behind everything else: the switches of joints stand first.
 void add_shapes(System& system) {
   const model::Mechanism& mechanism = system.mechanism;
+  Index inner = system.first_inner;
   for (const model::ShapeSpring& spring : mechanism.shape_springs) {
     PointShape shape{.name = spring.name, .shape = compile(mechanism, spring.shape)};
     shape.points = add_shape_points(system, spring.shape);
+    system.chains_coupled |=
+        !spring.before.empty() &&
+        std::any_of(spring.shape.points.begin(), spring.shape.points.end(),
+                    [](const model::Anchor& anchor) { return anchor.chain >= 0; });
     shape.gas = spring.gas;
+    shape.inner = inner;
+    shape.inner_count = std::ssize(spring.before);
+    shape.offset = spring.offset;
+    inner += shape.inner_count;
     if (!spring.gas) shape.law = model::compile(spring.law);
     shape.first_switch = static_cast<Index>(system.switches.size());
     for (const double b : shape.law.breakpoints)
@@ -212,19 +234,21 @@ void renew_chains(System& system) {
   std::size_t spring = 0, group = 0;
   Index command = 0;
   system.switches.clear();
+  const auto renew = [&](const model::SpringLaw& law) {
+    CoordinateSpring& own = system.springs[spring];
+    own.law = model::compile(law);
+    own.first_switch = static_cast<Index>(system.switches.size());
+    for (const double b : own.law.breakpoints)
+      system.switches.push_back({own.coordinate, b, spring});
+    ++spring;
+  };
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
     const model::Chain& chain = mechanism.chains[i];
     for (const model::Element& element : chain.elements) {
       const auto* joint = std::get_if<model::Joint>(&element);
       if (joint == nullptr) continue;
       if (joint->role == model::JointRole::actuated) system.commands[command++] = joint->command;
-      if (!joint->spring || !has_coordinate(*joint)) continue;
-      CoordinateSpring& own = system.springs[spring];
-      own.law = model::compile(*joint->spring);
-      own.first_switch = static_cast<Index>(system.switches.size());
-      for (const double b : own.law.breakpoints)
-        system.switches.push_back({own.coordinate, b, spring});
-      ++spring;
+      if (joint->spring && has_coordinate(*joint)) renew(*joint->spring);
     }
     for (const model::CoupledSpring& coupled : chain.coupled_springs) {
       system.coupled[group].stiffness = coupled.stiffness;
@@ -232,6 +256,8 @@ void renew_chains(System& system) {
     }
     system.chains[i] = compile(mechanism, chain);
   }
+  for (const model::ShapeSpring& shape : mechanism.shape_springs)
+    for (const model::SeriesSpring& inner : shape.before) renew(inner.law);
 }
 
 void add_what_acts(System& system) {
@@ -266,6 +292,7 @@ System prepare(const model::Mechanism& mechanism) {
   System system;
   system.mechanism = mechanism;
   for (const model::Chain& chain : mechanism.chains) add_chain(system, chain);
+  add_inner(system);
   system.first_pose = system.size;
   for (const model::Body& body : mechanism.bodies) {
     system.body_slices.push_back({system.size, dimension(body.task_space), system.load_size});
@@ -341,6 +368,10 @@ Vector guess(const System& system) {
       ++j;
     }
   }
+  Index inner = system.first_inner;
+  for (const model::ShapeSpring& spring : system.mechanism.shape_springs)
+    for (const model::SeriesSpring& own : spring.before)
+      z[inner++] = own.initial ? *own.initial : relaxed_coordinate(model::compile(own.law), 0);
   for (std::size_t b = 0; b < system.body_slices.size(); ++b)
     z.segment(system.body_slices[b].t, system.body_slices[b].count) =
         system.mechanism.bodies[b].pose;

@@ -208,6 +208,37 @@ TEST(Bars, EndACurveThatWouldLeadThemThroughTheLengthZero) {
   }
 }
 
+// The first critical load on the path from the start: nothing is claimed about what lies behind the end of the bar.
+TEST(Bars, EndThePathOfAThresholdThatWouldLeadThemThroughTheLengthZero) {
+  const analysis::StudyResult result = run(R"toml([parameters]
+k = 2
+[[node]]
+name = "end"
+at = [0, 0]
+fixed = true
+[[node]]
+name = "slider"
+at = [1, 0]
+fixed = ["y"]
+[[bar]]
+name = "bar"
+from = "end"
+to = "slider"
+stiffness = "k"
+free = 0.5
+[[study]]
+name = "least"
+kind = "threshold"
+body = "slider"
+control = "mixed"
+direction = [-1, 0]
+until = { slider.x = [-1, 2] }
+threshold = { of = "limit_point", parameter = "k", range = [1, 3] }
+)toml")
+                                           .results[0];
+  EXPECT_FALSE(analysis::complete(result));
+}
+
 // N = k l has no direction to lose.
 TEST(Bars, WithoutAFreeLengthAreLedThroughTheLengthZero) {
   const analysis::StudyResult result = driven_past_the_end("stiffness = 2\nfree = 0\n");

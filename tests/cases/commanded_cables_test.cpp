@@ -123,5 +123,34 @@ TEST(CommandedCables, GiveTheSameNumbersAsTheChainThatTheyStandFor) {
   }
 }
 
+TEST(CommandedCables, HaveColumnsOfTheirLengthAndForce) {
+  const StudyResult way = run(legs + as_spring + studies).of("way");
+  for (std::size_t row = 0; row < way.branches[0].samples.size(); ++row) {
+    const double l = std::hypot(1 - value(way, row, "p.x"), 1 - value(way, row, "p.y"));
+    EXPECT_NEAR(value(way, row, "cable.length"), l, 1e-14);
+    EXPECT_NEAR(value(way, row, "cable.force"), l > 1 ? 0.3 * (l - 1) : 0, 1e-14);
+  }
+}
+
+/// Towards the other end of a spring and past it on one line: control is lost where the length would be 0.
+TEST(CommandedSprings, LoseControlWhereTheyWouldBeLedThroughTheLengthZero) {
+  const std::string post = R"toml(
+[[spring]]
+name = "post"
+from_at = [0.3, 0]
+to = "p"
+stiffness = 0.2
+free = 0.1
+[[study]]
+name = "way"
+kind = "control"
+targets = [[0.1, 0], [0.6, 0]]
+)toml";
+  const StudyResult result = run(legs + post).of("way");
+  EXPECT_FALSE(analysis::complete(result));
+  EXPECT_THAT(result.branches[0].forward.reason, HasSubstr("control is lost at path = 1.39"));
+  EXPECT_EQ(result.branches[0].samples.back().status, "not reached along the path");
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -164,5 +164,56 @@ TEST(ShortFiles, AreShort) {
   EXPECT_LE(lines_of("case-column.toml"), 12U);
 }
 
+/// A crank that turns a node round its foot, several times; a spiral spring between it and a fixed point.
+std::string crank(const std::string& spiral) {
+  return R"toml([[node]]
+name = "foot"
+at = [0.5, 0]
+fixed = true
+[[node]]
+name = "east"
+at = [2, 0]
+fixed = true
+[[node]]
+name = "tip"
+at = [0.5, 1]
+[[chain]]
+name = "crank"
+from_at = [0.5, 0]
+elements = [{ joint = "revolute", axis = "z", name = "drive", role = "actuated", value = "90*deg" }, { rigid = [1, 0] }]
+[[spring]]
+name = "spiral"
+shape = "angle"
+stiffness = 0.3
+)toml" + spiral +
+         R"toml([[study]]
+name = "wind"
+body = "tip"
+control = "actuator"
+actuators = { crank.drive = 1 }
+until = { lambda = [-20, 20] }
+)toml";
+}
+
+TEST(AnglesOfNodes, CountWholeTurnsWhereTheyAreToldTo) {
+  const std::string ahead = "of = [\"east\", \"foot\", \"tip\"]\nnear = 0\nturns = true\n";
+  const std::string behind = "of = [\"tip\", \"foot\", \"east\"]\nnear = 0\nturns = true\n";
+  for (const auto& [points, sign] : {std::pair{ahead, 1.0}, {behind, -1.0}}) {
+    const analysis::StudyResult result = run(crank(points)).results[0];
+    ASSERT_TRUE(analysis::complete(result));
+    for (std::size_t row = 0; row < result.branches[0].samples.size(); ++row) {
+      const double angle = sign * value(result, row, "crank.drive.rho");
+      EXPECT_NEAR(value(result, row, "spiral.angle"), angle, 1e-12);
+      EXPECT_NEAR(value(result, row, "spiral.moment"), 0.3 * angle, 1e-12);
+    }
+  }
+}
+
+TEST(AnglesOfNodes, EndHalfATurnFromNearWhereTheyAreNot) {
+  const analysis::StudyResult result =
+      run(crank("of = [\"east\", \"foot\", \"tip\"]\nnear = 0\n")).results[0];
+  EXPECT_FALSE(analysis::complete(result));
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -117,13 +117,35 @@ TEST_F(ImportedRobot, SaysWhatWasLeftOut) {
                   "stiffnesses are placeholders: put in your own, and commands, loads and studies",
                   "masses have no weight until the case has a gravity",
                   "left out: damping and friction of joints (1)", "left out: limits of joints (1)",
-                  "left out: moments of inertia of links (1)", "left out: shapes to be seen (1)"));
+                  "left out: shapes to be seen (1)"));
   const Case the_case = read(arm_urdf);
   EXPECT_EQ(the_case.runs.at(0).mechanism.bodies.at(0).mass, 0.5);
   const std::string mimic =
       replaced(arm_urdf, "<dynamics damping=\"0.1\"/>", "<mimic joint=\"shoulder\"/>");
   EXPECT_THAT(import(mimic).report,
               Contains("joint \"elbow\" mimics \"shoulder\": here it has a drive of its own"));
+}
+
+/// A rod along x of the frame of its moments of inertia, which stands across the link: about its ends' axis there is none.
+TEST_F(ImportedRobot, HasItsMomentsOfInertiaInTheAxesOfItsLinks) {
+  const std::string inertial =
+      "<origin xyz=\"0.5 0 0\" rpy=\"0 0 1.5707963267948966\"/><mass value=\"3\"/>";
+  const std::string turned =
+      replaced(arm_urdf, "<origin xyz=\"0.5 0 0\"/><mass value=\"3\"/>", inertial);
+  const Case the_case = read(turned);
+  const model::Mechanism& arm = the_case.runs.at(0).mechanism;
+  ASSERT_THAT(arm.chains.at(0).points, SizeIs(1));
+  const model::ChainPoint& upper = arm.chains[0].points[0];
+  EXPECT_EQ(upper.mass, 3);
+  EXPECT_LT((upper.at - model::Vec3<double>(0.5, 0, 0)).norm(), 1e-15);
+  model::Mat3<double> across = model::Mat3<double>::Zero();
+  across.diagonal() << 0.1, 0, 0.1;
+  EXPECT_LT((upper.inertia - across).norm(), 1e-15);
+  const std::string impossible = replaced(arm_urdf, "<mass value=\"0.5\"/><inertia ixx=\"0\"",
+                                          "<mass value=\"0.5\"/><inertia ixx=\"0.2\"");
+  EXPECT_THAT(import(impossible).report,
+              Contains(HasSubstr("left out: the moments of inertia of link \"hand\": no body has "
+                                 "these moments")));
 }
 
 TEST_F(ImportedRobot, IsRefusedWithWhatIsWrong) {

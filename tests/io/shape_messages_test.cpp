@@ -61,7 +61,7 @@ TEST_F(ShapeMessages, NameShapesThatExist) {
 
 TEST_F(ShapeMessages, WantAsManyPointsAsTheShapeHas) {
   EXPECT_THAT(spring("shape = \"angle\"\nof = [\"base\", \"tip\"]\nstiffness = 1\n"),
-              ElementsAre(HasSubstr("spring[1]: of: got 2 points, need 3")));
+              ElementsAre(HasSubstr("spring[1].of: got 2 points, need 3")));
   EXPECT_THAT(spring("shape = \"distance\"\n" + corners + "stiffness = 1\n"),
               ElementsAre(HasSubstr(
                   "spring[1].of: got 3 points, need 2; of more points the shape is \"path\"")));
@@ -140,6 +140,47 @@ TEST_F(ShapeMessages, WantPressuresOnAreasAndNothingElseThere) {
               ElementsAre(HasSubstr("load[1].force: a pressure acts on the boundary")));
   EXPECT_THAT(load("shape = \"area\"\nforce = [1, 0]\n"),
               ElementsAre(HasSubstr("load[1].shape: only a load with `pressure` has it")));
+}
+
+TEST_F(ShapeMessages, TellWhatSpringsInSeriesNeed) {
+  const std::string ends = "to = \"tip\"\n";
+  const std::string two =
+      "series = [{ law = \"linear\", stiffness = 1 }, { law = \"linear\", stiffness = 2 }]\n";
+  EXPECT_THAT(spring(ends + two + "initial = 0.1\n"), ElementsAre());
+  EXPECT_THAT(spring(ends + two + "initial = [0.1]\n"), ElementsAre());
+  EXPECT_THAT(spring("shape = \"area\"\n" + corners + two), ElementsAre());
+  EXPECT_THAT(
+      spring(ends + two + "initial = [0.1, 0.2]\n"),
+      ElementsAre(HasSubstr("case.toml:20:11: spring[1].initial: got a list of 2, need 1 [m]: "
+                            "guesses of all coordinates but the last")));
+  EXPECT_THAT(
+      spring(ends + "series = [{ law = \"linear\", stiffness = 1 }]\n"),
+      ElementsAre(HasSubstr("spring[1].series: got a list of 1, need a list of at least two "
+                            "springs { law = ... }")));
+  EXPECT_THAT(spring(ends + "series = 3\n"),
+              ElementsAre(HasSubstr("spring[1].series: got 3, need a list of at least two")));
+  EXPECT_THAT(spring(ends + "series = [{ law = \"linear\", stiffness = -1 }, { stiffness = 2 }]\n"),
+              ElementsAre(AllOf(HasSubstr("spring[1].series[1].stiffness: got -1"),
+                                HasSubstr("falling = true")),
+                          HasSubstr("spring[1].series[2].law: missing")));
+  EXPECT_THAT(spring(ends + two + "stiffness = 1\n"),
+              ElementsAre(HasSubstr("spring[1]: need one of: stiffness")));
+  EXPECT_THAT(spring(ends + "law = { law = \"linear\", stiffness = 1 }\ninitial = 1\n"),
+              ElementsAre(HasSubstr("spring[1].initial: only springs in series have it")));
+  EXPECT_THAT(spring(ends + "series = [{ law = \"linear\", stiffness = 1, origin = \"start\" }, "
+                            "{ law = \"linear\", stiffness = 2 }]\n"),
+              ElementsAre(HasSubstr(
+                  "spring[1].series[1].origin: springs between points count from their own")));
+}
+
+TEST_F(ShapeMessages, TellWhichAnglesCountTurns) {
+  EXPECT_THAT(spring("shape = \"angle\"\n" + corners + "stiffness = 1\nturns = true\n"),
+              ElementsAre(HasSubstr("spring[1].turns: need three nodes in the plane")));
+  EXPECT_THAT(spring("shape = \"path\"\n" + corners + "stiffness = 1\nturns = true\n"),
+              ElementsAre(HasSubstr("spring[1].turns: only the shape \"angle\" has it")));
+  EXPECT_THAT(spring("shape = \"angle\"\nof = [{ on = \"base\", at = [1, 1] }, \"base\", "
+                     "\"tip\"]\nstiffness = 1\nturns = true\n"),
+              ElementsAre());
 }
 
 }  // namespace

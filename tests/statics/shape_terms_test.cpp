@@ -4,6 +4,7 @@
 #include "equilibria.hpp"
 #include "examples.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/statics/prepare_again.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stages.hpp"
 
@@ -15,7 +16,8 @@ using model::ShapeKind;
 using model::ShapeSpring;
 
 /// Two spatial bodies and chains between them, with springs of all shapes and a pressure.
-model::Mechanism all_shapes(std::mt19937& random) {
+/// @param in_series  other springs before those of some shapes
+model::Mechanism all_shapes(std::mt19937& random, bool in_series = false) {
   model::Mechanism m;
   m.bodies = {{.name = "a", .task_space = TaskSpace::spatial, .pose = Vector::Zero(6)},
               {.name = "b", .task_space = TaskSpace::spatial, .pose = Vector::Zero(6)}};
@@ -57,6 +59,15 @@ model::Mechanism all_shapes(std::mt19937& random) {
                       bent},
                      {"line", {.kind = ShapeKind::line, .points = points(3)}, bent},
                      {"plane", {.kind = ShapeKind::plane, .points = points(4)}, bent}};
+  if (in_series) {
+    const model::PolynomialSpring falls{{0, 2.5, -3, 1}, 0, {}, true};
+    m.shape_springs[0].before = {{falls}, {bent}};
+    m.shape_springs[1].before = {{model::LinearSpring{2.1, 0.3}, 0.4}};
+    m.shape_springs[3].before = {{model::OneSidedSpring{1.7, 0.1}}};
+    m.shape_springs[4].before = {{falls}};
+    m.shape_springs[6].before = {{falls}, {bent}, {falls}};
+    m.shape_springs[6].offset = 0.3;
+  }
   m.loads = {{.name = "p",
               .kind = model::LoadKind::pressure,
               .with_lambda = true,
@@ -65,8 +76,8 @@ model::Mechanism all_shapes(std::mt19937& random) {
   return m;
 }
 
-State some_state(std::mt19937& random) {
-  const model::Mechanism mechanism = all_shapes(random);
+State some_state(std::mt19937& random, bool in_series = false) {
+  const model::Mechanism mechanism = all_shapes(random, in_series);
   EXPECT_EQ(model::problems_in(mechanism), std::vector<std::string>{});
   State state{prepare(mechanism), {}, {}};
   state.z = random_vector(random, state.system.size, 1.5);
@@ -88,7 +99,7 @@ std::optional<Vector> residual_on(const Piece& piece, const State& state) {
 TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
   std::mt19937 random(51);
   for (int trial = 0; trial < 60; ++trial) {
-    const State state = some_state(random);
+    const State state = some_state(random, trial % 2 == 1);
     const System& system = state.system;
     const Piece piece = piece_at(system, state.z, state.inputs.rho);
     Workspace work;
@@ -121,7 +132,7 @@ TEST(ShapeTerms, HaveExactDerivativesByCoordinatesPosesCommandsAndPressures) {
 TEST(ShapeTerms, AreTheGradientOfTheirEnergy) {
   std::mt19937 random(52);
   for (int trial = 0; trial < 10; ++trial) {
-    const State state = some_state(random);
+    const State state = some_state(random, trial % 2 == 1);
     const Vector r = *residual_on(piece_at(state.system, state.z, state.inputs.rho), state);
     const double scale = 1 + r.norm();
     for (Index i = 0; i < state.system.size; ++i) {
@@ -140,9 +151,10 @@ TEST(ShapeTerms, AreTheGradientOfTheirEnergy) {
 TEST(ShapeSwitches, HaveExactGradients) {
   std::mt19937 random(53);
   for (int trial = 0; trial < 20; ++trial) {
-    const State state = some_state(random);
+    const bool in_series = trial % 2 == 1;
+    const State state = some_state(random, in_series);
     const System& system = state.system;
-    ASSERT_EQ(system.switches.size(), 7u);
+    ASSERT_EQ(system.switches.size(), in_series ? 10u : 7u);
     const Vector direction = random_vector(random, system.size, 1);
     const Vector along = random_vector(random, 2, 1);
     for (std::size_t j = 0; j < system.switches.size(); ++j) {
@@ -201,6 +213,25 @@ TEST(AnglesOfThreePoints, CountWholeTurnsOfTheFramesThatTheyTurnWith) {
     EXPECT_NEAR(shape_state(system, 0, z, inputs).value, turned, 1e-13);
     EXPECT_NEAR(shape_state(system, 1, z, inputs).value, -turned, 1e-13);
   }
+}
+
+/// Prepared anew in the places of another system the numbers are those of a new one.
+TEST(ShapeTerms, InSeriesAreTheSameWhenPreparedAgain) {
+  std::mt19937 random(56);
+  const model::Mechanism first = all_shapes(random, true);
+  model::Mechanism second = first;
+  second.shape_springs[0].before[1].law = model::LinearSpring{0.7, 0.2};
+  second.shape_springs[6].offset = 0.1;
+  const System again = prepare(second, prepare(first)), anew = prepare(second);
+  ASSERT_EQ(again.size, anew.size);
+  EXPECT_EQ(again.inner_count(), 8);
+  EXPECT_EQ(again.coordinate_names[static_cast<std::size_t>(again.first_inner)], "path.1");
+  ASSERT_EQ(again.switches.size(), anew.switches.size());
+  State a{again, random_vector(random, again.size, 1), {}};
+  a.inputs = {random_vector(random, 2, 1), Vector::Zero(again.load_size), Vector::Ones(1)};
+  State b{anew, a.z, a.inputs};
+  EXPECT_EQ(evaluate(a).residual, evaluate(b).residual);
+  EXPECT_EQ(evaluate(a).A, evaluate(b).A);
 }
 
 TEST(ShapeTerms, KeepLongChainsOutOfStages) {

@@ -173,13 +173,27 @@ struct Gas {
   double exponent = 1;  ///< isentropic: ratio of the heat capacities
 };
 
-/// A spring of a shape: its energy is a function of alpha alone, that of the law or of the gas.
+/// A spring in front of another one: the same force goes through both, their coordinates add up.
+struct SeriesSpring {
+  SpringLaw law{};
+  std::optional<double> initial{};  ///< guess of its coordinate; none: where it has no force
+};
+
+/// A spring of a shape: its energy is a function of alpha alone, that of the law or of the gas. Springs
+/// `before` it are in series with it: their coordinates u_i are unknowns of the equilibrium,
+///
+///     E = sum U_i(u_i) + U(alpha - offset - sum u_i).
 struct ShapeSpring {
   std::string name{};
   Shape shape{};
-  SpringLaw law{};           ///< coordinate alpha, torque dU/dalpha
+  SpringLaw law{};           ///< coordinate alpha - offset - sum u_i, torque dU/dalpha
   std::optional<Gas> gas{};  ///< instead of `law`; areas and volumes
+  std::vector<SeriesSpring> before{};
+  double offset = 0;  ///< alpha at which all coordinates together are 0: the free length of a bar
 };
+
+/// Name of coordinate i of a spring with others in series, that of `law` being the last one: "rope.1", ...
+std::string series_name(const ShapeSpring& spring, std::size_t i);
 
 /// Bodies (without the base) and chains. Body number b of a chain is bodies[b - 1].
 struct Mechanism {

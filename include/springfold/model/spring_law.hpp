@@ -128,6 +128,9 @@ struct CompiledSpring {
 /// @pre problems_in(law).empty().
 CompiledSpring compile(const SpringLaw& law);
 
+/// Coordinate at which the torque vanishes, near `initial`: the nearest one of a law that rises.
+double relaxed_coordinate(const CompiledSpring& spring, double initial);
+
 /// Does the energy grow without bound on both sides? False where that is not sure.
 bool holds_both_ways(const CompiledSpring& spring);
 

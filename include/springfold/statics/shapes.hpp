@@ -6,9 +6,10 @@
 namespace springfold::statics {
 
 /// alpha of a shape [its unit] and dU/dalpha: the force with which a path or a distance pulls, the
-/// moment that closes an angle; of areas and volumes minus the pressure.
+/// moment that closes an angle; of areas and volumes minus the pressure. `own` is the coordinate of the law: alpha
+/// without what springs in series take of it.
 struct ShapeState {
-  double value = 0, slope = 0;
+  double value = 0, slope = 0, own = 0;
 };
 
 /// @param shape  number among System::shapes
@@ -16,7 +17,14 @@ struct ShapeState {
 ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs);
 
-/// Energy of all springs of shapes, each in its own segment [force * length].
+/// Is the spring's energy a smooth function of the points at the edge of its shape which is next to alpha: at the distance
+/// 0, or in space at the angles 0 and pi? It is where it has no force there.
+bool is_smooth_at_edge(const PointShape& shape, double alpha);
+
+/// Energy of the springs in series before the law of a shape [force * length].
+double series_energy(const System& system, std::size_t shape, const Vector& z);
+
+/// Energy of all springs of shapes but those before the last one in series, each in its own segment [force * length].
 double shape_energy(const System& system, const Vector& z, const Vector& rho);
 
 /// Potential of all pressures.

@@ -13,7 +13,8 @@
 
 namespace springfold::statics {
 
-/// Where a chain's unknowns stand in z = (x_1, F_1, x_2, F_2, ..., t_1, t_2, ...).
+/// Where a chain's unknowns stand in z = (x_1, F_1, x_2, F_2, ..., u_1, u_2, ..., t_1, t_2, ...), where u are the
+/// coordinates of springs in series with those of shapes.
 struct ChainSlice {
   Index x = 0, x_count = 0;  ///< coordinates
   Index F = 0, F_count = 0;  ///< wrench, as many as the task space has dimensions
@@ -86,6 +87,9 @@ struct PointShape {
   Index load = -1;                  ///< a pressure: its number among the mechanism's loads
   double pressure = 0;
   Index first_switch = 0;  ///< breakpoints of the law: their place in the piece
+  /// Springs in series before the law: their coordinates in z, from `inner` on, are taken from alpha, and `offset`.
+  Index inner = 0, inner_count = 0;
+  double offset = 0;
   /// Angles in the plane: by how much the frame of the third point is turned against that of the
   /// first in the mechanism's guess. What they turn further, beyond whole turns, the angle counts.
   double turned = 0;
@@ -105,9 +109,10 @@ struct System {
   std::vector<PointLoad> loads{};
   std::vector<PointSpring> line_springs{};
   std::vector<PointShape> shapes{};  ///< the springs in order, then the pressures
-  /// A line spring or shape joins two chains: they do not couple through bodies alone, and sums over chains
-  /// are no use.
+  /// A line spring or shape joins two chains, or a chain and springs in series: they do not couple through
+  /// bodies alone, and sums over chains are no use.
   bool chains_coupled = false;
+  Index first_inner = 0;  ///< coordinates of springs in series of shapes: from here to first_pose
   /// Closure equations that depend on the others in every assembled state, see redundancy.hpp. Of
   /// the wrenches that they leave undetermined the equilibrium takes those of smallest norm.
   Index redundant = 0;
@@ -124,6 +129,11 @@ struct System {
   Index first_pose = 0;                      ///< where the poses begin in z
 
   Index closure_count() const;  ///< number of closure equations, sum of all F_count
+  Index inner_count() const { return first_pose - first_inner; }
+  /// Do the chains couple through bodies alone, and does nothing else stand before the poses?
+  bool is_sum_over_chains() const {
+    return !chains_coupled && redundant == 0 && inner_count() == 0;
+  }
 };
 
 /// Names of the pose coordinates: "x", "y", "z", "rx", "ry", "rz" of a spatial body.
