@@ -1,7 +1,6 @@
 #include "springfold/statics/system.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "form.hpp"

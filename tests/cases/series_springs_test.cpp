@@ -47,14 +47,19 @@ MATCHER_P(Near, by, "") { return std::abs(std::get<0>(arg) - std::get<1>(arg)) <
 const std::vector<double> fold_ways{3.7814217288, 3.5519116046};
 const std::vector<double> fold_forces{0.6118861856, 0.3881138144};
 
+/// Of the four limit points the outer two are extrema of the force; between them the driven way turns.
+std::vector<double> turns_of_the_way(const StudyResult& result, const std::string& column) {
+  const std::vector<double> all = values_of(result, EventKind::limit_point, column);
+  if (all.size() != 4) return all;
+  return {all[1], all[2]};
+}
+
 TEST(SpringsInSeries, FoldBetweenPointsInEitherOrder) {
   for (const auto& [first, second] : {std::pair{falling, soft}, {soft, falling}}) {
     const StudyResult result = run(driven(as_spring(first, second), "mixed")).results[0];
     EXPECT_TRUE(analysis::complete(result));
-    EXPECT_THAT(values_of(result, EventKind::limit_point, "rope.length"),
-                Pointwise(Near(1e-9), fold_ways));
-    EXPECT_THAT(values_of(result, EventKind::limit_point, "rope.force"),
-                Pointwise(Near(1e-9), fold_forces));
+    EXPECT_THAT(turns_of_the_way(result, "rope.length"), Pointwise(Near(1e-9), fold_ways));
+    EXPECT_THAT(turns_of_the_way(result, "rope.force"), Pointwise(Near(1e-9), fold_forces));
   }
 }
 
@@ -65,8 +70,8 @@ TEST(SpringsInSeries, HaveCoordinatesThatAddUpAndOneForce) {
     EXPECT_NEAR(u + v, value(result, row, "tool.x"), 1e-12);
     EXPECT_NEAR(u * (2.5 + u * (-3 + u)), 0.3 * (v - 1), 1e-11);
     EXPECT_NEAR(value(result, row, "rope.force"), 0.3 * (v - 1), 1e-12);
-    EXPECT_NEAR(value(result, row, "energy"), u * u * (1.25 + u * (-1 + u / 4)) + 0.15 * v * v,
-                1e-11);
+    EXPECT_NEAR(value(result, row, "energy"),
+                u * u * (1.25 + u * (-1 + u / 4)) + 0.15 * (v - 1) * (v - 1), 1e-11);
   }
 }
 
@@ -135,10 +140,10 @@ TEST(SpringsInSeries, SwitchInEveryPlace) {
   const std::string spring = "{ law = \"linear\", stiffness = 3, free = 0.7 }";
   for (const auto& [first, second] : {std::pair{cable, spring}, {spring, cable}}) {
     const StudyResult result = run(driven(as_spring(first, second), "mixed")).results[0];
-    const auto& events = result.branches[0].events;
     ASSERT_EQ(values_of(result, EventKind::switching, "tool.x").size(), 1u);
     EXPECT_NEAR(values_of(result, EventKind::switching, "tool.x")[0], 1.2, 1e-10);
-    EXPECT_THAT(events[0].detail, HasSubstr("spring rope"));
+    for (const auto& event : result.branches[0].events)
+      if (event.kind == EventKind::switching) EXPECT_THAT(event.detail, HasSubstr("spring rope"));
     const std::size_t last = result.branches[0].samples.size() - 1;
     EXPECT_NEAR(value(result, last, "rope.force"), 1.2 * (5.5 - 1.2), 1e-11);
   }
