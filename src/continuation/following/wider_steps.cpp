@@ -14,6 +14,8 @@
 namespace springfold::continuation {
 namespace {
 
+/// A curve on which steps end elsewhere more often than this is crowded all along: shorter steps, which are counted, lead on.
+constexpr int most_elsewhere = 200;
 /// Share of the anchor's step: a cluster is not crossed from nearer to it.
 constexpr double near_cluster = 0.2;
 
@@ -88,6 +90,7 @@ std::optional<Outcome> step_over_from(const Following& following, const Anchor& 
 std::optional<Outcome> step_of_like_length(const Following& following, Anchor& anchor,
                                            Progress& progress, Curve& curve) {
   const auto times = [](int power) { return std::pow(1.25, power); };
+  ++anchor.elsewhere;
   const double reached = progress.here.s;
   const std::size_t last = curve.points.size();
   const auto from = [&](std::size_t points, int power) {
@@ -153,14 +156,15 @@ void Anchor::note(const Refusal& refused, const Progress& progress, const Curve&
              .points = curve.points.size(),
              .hits = curve.hits.size(),
              .set = true,
-             .back_from = back_from};
+             .back_from = back_from,
+             .elsewhere = elsewhere};
   passing = passing || refused.passing;
   if (set && (refused.special || refused.astray)) ++refusals;
 }
 
 void Anchor::release(const Progress& progress, const Curve& curve) {
   if (set && (curve.hits.size() != hits || progress.here.s > before.here.s + before.ds))
-    *this = {.back_from = back_from};
+    *this = {.back_from = back_from, .elsewhere = elsewhere};
 }
 
 std::optional<Outcome> step_elsewhere(const Following& following, const Refusal& refused,
@@ -168,7 +172,8 @@ std::optional<Outcome> step_elsewhere(const Following& following, const Refusal&
   const bool free =
       !anchor.passing && curve.hits.size() == anchor.hits && anchor.before.left.empty();
   if (!anchor.set || anchor.tried || !free) return std::nullopt;
-  if (anchor.refusals == 2 && (refused.special || refused.astray))
+  const bool worth_it = anchor.before.ds >= told_apart && anchor.elsewhere < most_elsewhere;
+  if (anchor.refusals == 2 && (refused.special || refused.astray) && worth_it)
     return step_of_like_length(following, anchor, progress, curve);
   if (progress.ds >= unresolved_length) return std::nullopt;
   if (const auto outcome = step_over(following, anchor, progress, curve)) return outcome;

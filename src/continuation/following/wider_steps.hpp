@@ -15,6 +15,7 @@ struct Anchor {
   bool passing = false;   ///< branches pass each other there: nothing is crossed in one step
   int refusals = 0;       ///< of steps there, because of what lies on them or where they end
   double back_from = -1;  ///< up to this arc length no step begins once more behind the anchor
+  int elsewhere = 0;      ///< how often steps that end elsewhere were tried on the curve
 
   /// Takes note of a step that was refused.
   void note(const Refusal& refused, const Progress& progress, const Curve& curve);
