@@ -143,7 +143,9 @@ TEST(SpringsInSeries, SwitchInEveryPlace) {
     ASSERT_EQ(values_of(result, EventKind::switching, "tool.x").size(), 1u);
     EXPECT_NEAR(values_of(result, EventKind::switching, "tool.x")[0], 1.2, 1e-10);
     for (const auto& event : result.branches[0].events)
-      if (event.kind == EventKind::switching) EXPECT_THAT(event.detail, HasSubstr("spring rope"));
+      if (event.kind == EventKind::switching) {
+        EXPECT_THAT(event.detail, HasSubstr("spring rope"));
+      }
     const std::size_t last = result.branches[0].samples.size() - 1;
     EXPECT_NEAR(value(result, last, "rope.force"), 1.2 * (5.5 - 1.2), 1e-11);
   }
