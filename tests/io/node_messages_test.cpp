@@ -129,9 +129,9 @@ TEST_F(NodeMessages, WantOneStiffnessAndOneFreeLength) {
   EXPECT_THAT(
       after("EA = 6\n", "EA = 6\nstiffness = 1\n"),
       ElementsAre("case.toml:17:1: bar[2]: got stiffness and EA, need exactly one of them"));
-  EXPECT_THAT(after("EA = 6\n", "\n"),
-              ElementsAre("case.toml:17:1: bar[2]: got neither stiffness nor EA nor a law, need "
-                          "exactly one of them"));
+  EXPECT_THAT(after("EA = 6\n", "\n"), ElementsAre("case.toml:17:1: bar[2]: got neither stiffness "
+                                                   "nor EA nor a law nor springs in series, need "
+                                                   "exactly one of them"));
   EXPECT_THAT(
       after("pretension = 1", "pretension = 1\nfree = 1"),
       ElementsAre("case.toml:22:14: bar[2].pretension: either free or pretension, not both: "

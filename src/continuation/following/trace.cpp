@@ -24,7 +24,10 @@ void follow(const Following& following, const StepObserver& observer, Progress& 
   curve.stop = StopReason::max_points;
   Anchor anchor;
   double astray_at = -1;
-  while (static_cast<int>(curve.points.size()) < options.maximum_points) {
+  // Points may be taken back, refused steps keep none: both are counted, so that every trace ends.
+  constexpr int most_steps_per_point = 50;
+  long steps_left = static_cast<long>(most_steps_per_point) * options.maximum_points;
+  while (static_cast<int>(curve.points.size()) < options.maximum_points && steps_left-- > 0) {
     anchor.release(progress, curve);
     Refusal refused;
     // Where lambda stands still, short steps are as good as long ones; elsewhere they would be led by rounding.

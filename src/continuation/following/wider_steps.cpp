@@ -60,16 +60,22 @@ bool cross_cluster(const Following& following, Anchor& anchor, Progress& progres
   return false;
 }
 
+/// The state of the trace one point behind the anchor.
+Progress behind(const Anchor& anchor, const Curve& curve) {
+  Progress result = anchor.before;
+  result.here = curve.points[anchor.points - 2];
+  result.before = curve.points[anchor.points < 3 ? 0 : anchor.points - 3];
+  return result;
+}
+
 /// One step from a kept point, `times` as long as the anchor's, which must resolve everything on it.
+/// @param find  it must find something: otherwise it only ends nearer to what the others could not tell
 std::optional<Outcome> step_over_from(const Following& following, const Anchor& anchor,
-                                      std::size_t points, double times, Progress& progress,
-                                      Curve& curve) {
-  Progress longer = anchor.before;
+                                      std::size_t points, double times, bool find,
+                                      Progress& progress, Curve& curve) {
+  Progress longer = points < anchor.points ? behind(anchor, curve) : anchor.before;
   longer.here = curve.points[points - 1];
-  if (points < anchor.points) {
-    if (longer.here.piece != anchor.before.here.piece) return std::nullopt;
-    longer.before = curve.points[points < 2 ? 0 : points - 2];
-  }
+  if (longer.here.piece != anchor.before.here.piece) return std::nullopt;
   longer.ds *= times;
   if (longer.ds > following.walker.options.step.maximum) return std::nullopt;
   const double begin = longer.here.s;
@@ -77,7 +83,8 @@ std::optional<Outcome> step_over_from(const Following& following, const Anchor& 
   trial.points.resize(points);
   Refusal refused;
   const Outcome outcome = advance(following, false, longer, trial, refused);
-  if (outcome == Outcome::shorten) return std::nullopt;
+  if (outcome == Outcome::shorten || (find && trial.hits.size() == curve.hits.size()))
+    return std::nullopt;
   trial.log.push_back({begin, times * anchor.before.ds,
                        "steps over special points that shorter steps do not resolve"});
   curve = std::move(trial);
@@ -94,7 +101,7 @@ std::optional<Outcome> step_of_like_length(const Following& following, Anchor& a
   const double reached = progress.here.s;
   const std::size_t last = curve.points.size();
   const auto from = [&](std::size_t points, int power) {
-    return step_over_from(following, anchor, points, times(power), progress, curve);
+    return step_over_from(following, anchor, points, times(power), true, progress, curve);
   };
   for (const int power : {0, -1, 1, -2, 2, 3})
     for (std::size_t i = anchor.points; i <= last; ++i)
@@ -104,7 +111,7 @@ std::optional<Outcome> step_of_like_length(const Following& following, Anchor& a
       anchor.points > 1 && reached > anchor.back_from &&
       (curve.hits.empty() || curve.hits.back().point.s < curve.points[anchor.points - 2].s);
   if (!farther) return std::nullopt;
-  for (const int power : {2, 1, -2, -1})
+  for (const int power : {2, 1})
     if (const auto outcome = from(anchor.points - 1, power)) {
       anchor.back_from = reached + anchor.before.ds;
       return outcome;
@@ -122,7 +129,10 @@ std::optional<Outcome> step_over(const Following& following, const Anchor& ancho
       const double away = reached - curve.points[i - 1].s;
       if (i > anchor.points && away < near_cluster * anchor.before.ds) break;
       for (const double times : lengths)
-        if (const auto outcome = step_over_from(following, anchor, i, times, progress, curve))
+        if (curve.points[i - 1].s + times * anchor.before.ds <= reached)
+          continue;
+        else if (const auto outcome =
+                     step_over_from(following, anchor, i, times, false, progress, curve))
           return outcome;
     }
   return std::nullopt;
