@@ -115,6 +115,8 @@ class Filler {
   /// off by about e^(10/6): on a smooth curve each order more brings the same factor.
   static constexpr double nearly_exact = one_place;
   static constexpr int deepest = 24;
+  /// Cosine of a turn up to which polynomials of the way along a tangent converge fast.
+  static constexpr double little_turned = 0.9;
 
   double way_of(double k) const { return (k * spacing_ - stretch_->from.s) * per_s_; }
 
@@ -123,14 +125,15 @@ class Filler {
     return 0.5 * (a.u + b.u) + length_ / 8 * (a.rate - b.rate);
   }
 
-  /// Points of the curve around the stretch; where it turns too far it is no function of t.
+  /// Points of the curve around the stretch, as far as it turns little: a quarter of a turn away it is no function of t any
+  /// more, and polynomials of t see that from afar.
   std::vector<Node> nodes_of(const std::vector<CurvePoint>& around) const {
     const CurvePoint& from = stretch_->from;
     std::vector<Node> nodes;
     for (const CurvePoint& p : around) {
       const Direction away{p.x - from.x, p.lambda - from.lambda};
       const double t = metric_product(walker_.weights, away, from.tangent);
-      const bool ahead = metric_product(walker_.weights, p.tangent, from.tangent) > 0;
+      const bool ahead = metric_product(walker_.weights, p.tangent, from.tangent) > little_turned;
       if (ahead && (p.s < from.s ? t < 0 : t > length_)) nodes.push_back(node_of(p, t));
     }
     return nodes;
@@ -225,8 +228,10 @@ class Filler {
       point.lambda = u_[n];
       const bool inside = walker_.problem.residual(point.x, point.lambda, point.piece, F_);
       const double scale = std::max(1.0, u_.lpNorm<Eigen::Infinity>());
-      const bool small = inside && F_.lpNorm<Eigen::Infinity>() <=
-                                       walker_.options.newton.residual_tolerance * scale;
+      // Within the tolerance in the caller's units too, which the engine's are near to.
+      const bool small =
+          inside && F_.lpNorm<Eigen::Infinity>() <=
+                        small_share * walker_.options.newton.residual_tolerance * scale;
       if (!small || !stretch_->counted) {
         one_by_one(curve, k, k);
         continue;
@@ -339,16 +344,16 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
     PointGap stretch = stretches[i];
     stretch.from = own.inside(stretch.from);
     // A closed curve may end at another copy of its start, whole periods away.
-    const auto beside = [&](const CurvePoint& point) {
+    const auto as_seen = [&](const CurvePoint& point) {
       CurvePoint p = own.inside(point);
       const Direction chord = between(walker, stretch.from, p);
       p.tangent = direction_seen_from(walker, stretch.from.x, p);
       p.x = stretch.from.x + chord.dx;
       return p;
     };
-    stretch.to = beside(stretch.to);
+    stretch.to = as_seen(stretch.to);
     std::vector<CurvePoint> around;
-    for (const CurvePoint* point : points_around(stretches, i)) around.push_back(beside(*point));
+    for (const CurvePoint* point : points_around(stretches, i)) around.push_back(as_seen(*point));
     filler.fill(stretch, around);
   }
   for (CurvePoint& point : result.points) point = own.outside(std::move(point));
