@@ -8,6 +8,9 @@ install(TARGETS ${springfold_libraries} springfold_umbrella EXPORT springfoldTar
 if(TARGET springfold_program)
   install(TARGETS springfold_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
+if(TARGET springfold_mpi)
+  install(TARGETS springfold_mpi LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/springfold")
+endif()
 install(DIRECTORY include/ "${PROJECT_BINARY_DIR}/include/"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY plots/ DESTINATION "${CMAKE_INSTALL_DATADIR}/springfold/plots")

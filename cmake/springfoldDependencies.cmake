@@ -10,9 +10,21 @@ macro(springfold_find)
   endif()
 endmacro()
 
+# Archives are preferred where there are any: to find and bind fifteen shared libraries takes a program as long as to trace
+# a curve. -DSPRINGFOLD_ARCHIVES=OFF links shared libraries only.
+if(NOT DEFINED SPRINGFOLD_ARCHIVES)
+  set(SPRINGFOLD_ARCHIVES ON)
+endif()
+if(SPRINGFOLD_ARCHIVES)
+  find_library(SPRINGFOLD_BOOST_ARCHIVE libboost_iostreams.a)
+  mark_as_advanced(SPRINGFOLD_BOOST_ARCHIVE)
+  if(SPRINGFOLD_BOOST_ARCHIVE AND NOT DEFINED Boost_USE_STATIC_LIBS)
+    set(Boost_USE_STATIC_LIBS ON)
+  endif()
+endif()
+
 springfold_find(Threads)
 springfold_find(Eigen3 3.4 CONFIG)
-springfold_find(LAPACK)
 springfold_find(SUNDIALS 6.4 COMPONENTS kinsol cvode)
 springfold_find(NLopt 2.7 CONFIG)
 springfold_find(Boost 1.74 CONFIG COMPONENTS filesystem iostreams system)
@@ -20,11 +32,54 @@ springfold_find(fmt 9 CONFIG)
 springfold_find(muparser CONFIG)
 springfold_find(tomlplusplus CONFIG)
 
-# The C interface of LAPACK has no package file of its own.
+foreach(library kinsol cvode)
+  set(springfold_${library} SUNDIALS::${library})
+  if(SPRINGFOLD_ARCHIVES AND TARGET SUNDIALS::${library}_static)
+    set(springfold_${library} SUNDIALS::${library}_static)
+  endif()
+endforeach()
+
+# The C interface of LAPACK has no package file of its own. Archives of it need those of the Fortran compiler.
 if(NOT TARGET springfold::lapacke)
   find_path(SPRINGFOLD_LAPACKE_INCLUDE_DIR lapacke.h REQUIRED)
+  mark_as_advanced(SPRINGFOLD_LAPACKE_INCLUDE_DIR)
+  if(SPRINGFOLD_ARCHIVES)
+    set(archives)
+    foreach(library lapacke lapack tmglib blas gfortran quadmath)
+      string(TOUPPER "SPRINGFOLD_${library}_ARCHIVE" found)
+      execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -print-file-name=lib${library}.a
+                      OUTPUT_VARIABLE of_compiler OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+      get_filename_component(folder_of_compiler "${of_compiler}" DIRECTORY)
+      find_library(${found} lib${library}.a HINTS "${folder_of_compiler}")
+      mark_as_advanced(${found})
+      if(${found})
+        list(APPEND archives "${${found}}")
+      endif()
+    endforeach()
+    include(CheckCXXSourceCompiles)
+    set(CMAKE_REQUIRED_LIBRARIES ${archives})
+    set(CMAKE_REQUIRED_INCLUDES "${SPRINGFOLD_LAPACKE_INCLUDE_DIR}")
+    check_cxx_source_compiles("#include <lapacke.h>
+      int main() {
+        double a = 1, w = 0;
+        return LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', 1, &a, 1, &w);
+      }" SPRINGFOLD_LAPACKE_LINKS_AS_ARCHIVE)
+    unset(CMAKE_REQUIRED_LIBRARIES)
+    unset(CMAKE_REQUIRED_INCLUDES)
+    if(SPRINGFOLD_LAPACKE_LINKS_AS_ARCHIVE)
+      list(POP_FRONT archives first)
+      add_library(springfold::lapacke UNKNOWN IMPORTED)
+      set_target_properties(springfold::lapacke PROPERTIES
+        IMPORTED_LOCATION "${first}"
+        INTERFACE_INCLUDE_DIRECTORIES "${SPRINGFOLD_LAPACKE_INCLUDE_DIR}"
+        INTERFACE_LINK_LIBRARIES "${archives}")
+    endif()
+  endif()
+endif()
+if(NOT TARGET springfold::lapacke)
+  springfold_find(LAPACK)
   find_library(SPRINGFOLD_LAPACKE_LIBRARY lapacke REQUIRED)
-  mark_as_advanced(SPRINGFOLD_LAPACKE_INCLUDE_DIR SPRINGFOLD_LAPACKE_LIBRARY)
+  mark_as_advanced(SPRINGFOLD_LAPACKE_LIBRARY)
   add_library(springfold::lapacke UNKNOWN IMPORTED)
   set_target_properties(springfold::lapacke PROPERTIES
     IMPORTED_LOCATION "${SPRINGFOLD_LAPACKE_LIBRARY}"
@@ -35,7 +90,11 @@ endif()
 # Nettle has none either.
 if(NOT TARGET springfold::nettle)
   find_path(SPRINGFOLD_NETTLE_INCLUDE_DIR nettle/sha2.h REQUIRED)
-  find_library(SPRINGFOLD_NETTLE_LIBRARY nettle REQUIRED)
+  set(names nettle)
+  if(SPRINGFOLD_ARCHIVES)
+    set(names libnettle.a nettle)
+  endif()
+  find_library(SPRINGFOLD_NETTLE_LIBRARY NAMES ${names} REQUIRED)
   mark_as_advanced(SPRINGFOLD_NETTLE_INCLUDE_DIR SPRINGFOLD_NETTLE_LIBRARY)
   add_library(springfold::nettle UNKNOWN IMPORTED)
   set_target_properties(springfold::nettle PROPERTIES

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "settle_units.hpp"
 #include "springfold/core/scaling.hpp"
@@ -10,7 +11,8 @@
 namespace springfold::analysis {
 namespace {
 
-constexpr std::size_t members_kept = 24;
+/// Beside those of the last calls, those of a grid that neighbouring places share.
+constexpr std::size_t members_kept = 64;
 
 /// Natural size of the parameter: its range, or its value.
 double size_of(const CriticalPointSettings& settings, double value) {
@@ -45,6 +47,7 @@ continuation::CurvePoint Member::start() const {
 }
 
 const std::vector<QuantityDefinition>& Member::quantities() const {
+  if (columns_of != nullptr) return columns_of->quantities();
   if (quantities_.empty())
     quantities_ = quantities_of(study, setup.system, setup.scales, setup.lambda_scale,
                                 lambda_unit_of(study, setup.system));
@@ -88,6 +91,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* 
   Variant variant = cases.at({{parameter_, value}});
   auto member = std::make_unique<Member>();
   member->mu = mu;
+  member->columns_of = base_.get();
   member->study = as_curve(std::move(variant.study));
   std::optional<ParameterFamily> along;
   if (member->study.control == ControlMode::parameter) {
@@ -166,21 +170,21 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
 statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   constexpr std::size_t most = 4;
   std::vector<const Member*> nodes{&near};
-  while (nodes.size() < most) {
-    const Member* next = nullptr;
-    const auto take_nearer = [&](const Member& member) {
-      const double away = std::abs(member.mu - mu);
-      if (next != nullptr && away >= std::abs(next->mu - mu)) return;
-      const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
-        return std::abs(other->mu - member.mu) <= 0.5 * away;
-      });
-      if (apart) next = &member;
-    };
-    take_nearer(*base_);
-    for (const auto& member : recent_) take_nearer(*member);
-    if (next == nullptr) break;
-    nodes.push_back(next);
+  const auto take = [&](const Member& member) {
+    const double away = std::abs(member.mu - mu);
+    const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
+      return std::abs(other->mu - member.mu) <= 0.5 * away;
+    });
+    if (apart) nodes.push_back(&member);
+  };
+  auto above = recent_.lower_bound(mu), below = above;
+  while (nodes.size() < most && (above != recent_.end() || below != recent_.begin())) {
+    const bool upwards =
+        below == recent_.begin() ||
+        (above != recent_.end() && above->first - mu < mu - std::prev(below)->first);
+    take(upwards ? *(above++)->second.member : *(--below)->second.member);
   }
+  if (nodes.size() < most) take(*base_);
   statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
                               .rho = Vector::Zero(near.first.inputs.rho.size()),
                               .factors = near.first.factors};
@@ -200,25 +204,31 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
 const Member* CaseCurves::at(double mu) const {
   if (!base_ || !base_->report.found || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
-  const Member* near = base_.get();
-  for (auto i = recent_.end(); i != recent_.begin();) {
-    --i;
-    if ((*i)->mu == mu) {
-      std::rotate(i, i + 1, recent_.end());
-      return recent_.back().get();
-    }
-    if (std::abs((*i)->mu - mu) < std::abs(near->mu - mu)) near = i->get();
+  const auto above = recent_.lower_bound(mu);
+  ++calls_;
+  if (above != recent_.end() && above->first == mu) {
+    above->second.asked = calls_;
+    return above->second.member.get();
   }
+  const Member* near = base_.get();
+  const auto take_nearer = [&](const Member* other) {
+    if (std::abs(other->mu - mu) < std::abs(near->mu - mu)) near = other;
+  };
+  if (above != recent_.end()) take_nearer(above->second.member.get());
+  if (above != recent_.begin()) take_nearer(std::prev(above)->second.member.get());
   std::unique_ptr<Member> oldest;
   if (recent_.size() >= members_kept) {
-    const auto old = recent_.begin() + (recent_.front().get() == near ? 1 : 0);
-    oldest = std::move(*old);
+    auto old = recent_.end();
+    for (auto i = recent_.begin(); i != recent_.end(); ++i)
+      if (i->second.member.get() != near &&
+          (old == recent_.end() || i->second.asked < old->second.asked))
+        old = i;
+    oldest = std::move(old->second.member);
     recent_.erase(old);
   }
   auto made = make(mu, near, oldest.get());
   if (!made) return nullptr;
-  recent_.push_back(std::move(made));
-  return recent_.back().get();
+  return recent_.insert_or_assign(mu, Recent{std::move(made), calls_}).first->second.member.get();
 }
 
 continuation::Family CaseCurves::family() const {

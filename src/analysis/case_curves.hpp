@@ -1,6 +1,7 @@
 // The curve of a study for every value of one of the case's parameters. Private to analysis.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,8 @@ struct Member {
   const Evaluator& evaluator() const;
   const QuantityDefinition* quantity(const std::string& name) const;
 
+  const Member* columns_of = nullptr;  ///< the member whose columns these are; nullptr: its own
+
  private:
   mutable std::unique_ptr<Evaluator> evaluator_{};
   mutable std::vector<QuantityDefinition> quantities_{};
@@ -46,7 +49,7 @@ class CaseCurves {
   double value() const { return value_; }  ///< of the parameter in the case
   const std::string& name() const { return name_; }
   const Member& base() const { return *base_; }  ///< base().report.found: can be used
-  /// Nothing where the case has no start. Valid for the next dozen calls.
+  /// Nothing where the case has no start. Valid for the next two dozen calls.
   const Member* at(double mu) const;
   continuation::Family family() const;
   /// A point of `member`'s curve on the given piece.
@@ -63,7 +66,12 @@ class CaseCurves {
   std::string name_{};
   double value_ = 0, scale_ = 1;
   std::unique_ptr<Member> base_{};
-  mutable std::vector<std::unique_ptr<Member>> recent_{};  ///< the one asked for last behind
+  struct Recent {
+    std::unique_ptr<Member> member{};
+    long asked = 0;  ///< number of the last call that asked for it
+  };
+  mutable std::map<double, Recent> recent_{};  ///< by mu
+  mutable long calls_ = 0;
 };
 
 }  // namespace springfold::analysis

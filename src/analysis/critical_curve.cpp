@@ -65,6 +65,7 @@ void run_curve(const CaseCurves& curves, const Study& study, const Observer& obs
                          start->corank == 1 && !followed.growing.kept &&
                          !critical_rate(curves.family(), *start);
   if (is_broken) followed = limit_points_through(curves, study, *start, observer);
+  result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
   if (is_broken && !result.branches.front().samples.empty())
     mark_branch_point(*point, result.branches.front());

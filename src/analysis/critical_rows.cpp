@@ -7,8 +7,10 @@
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
+#include "springfold/analysis/row_memory.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -58,10 +60,12 @@ void count_without_vanishing(const Member& member, const continuation::CurvePoin
   if (!member.problem->symmetric() ||
       !linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
     return;
-  const Vector spectrum = symmetric_eigenvalues(at.dF_dx);
-  const double largest = spectrum.lpNorm<Eigen::Infinity>();
-  const auto count = static_cast<double>((spectrum.array() < -vanishing * largest).count() -
-                                         member.problem->closures());
+  // As many as are negative once all are greater by what vanishes beside the largest.
+  const double largest = at.dF_dx.cwiseAbs().colwise().sum().maxCoeff();
+  at.dF_dx.diagonal().array() += vanishing * largest;
+  const auto negative = negative_eigenvalues(at);
+  if (!negative) return;
+  const auto count = static_cast<double>(*negative - member.problem->closures());
   using Kind = QuantityDefinition::Kind;
   for (std::size_t i = 0; i < member.quantities().size(); ++i) {
     const Kind kind = member.quantities()[i].kind;
@@ -83,6 +87,13 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
             return (member->evaluator().value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
           },
           action};
+}
+
+/// As many as there is memory for.
+double most_rows(const CaseCurves& curves) {
+  const std::size_t columns = curves.base().quantities().size() + 1;
+  return most_memory / (bytes_of_row(columns) + bytes_of_text(columns) +
+                        bytes_of_point(static_cast<std::size_t>(curves.base().problem->size())));
 }
 
 }  // namespace
@@ -117,9 +128,28 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   int points = 0;
   const auto observe = [&](const CriticalPoint& p) { return !observer || observer(++points, p.s); };
   const auto options = critical_options(study);
-  followed.growing = follow_critical(family, start, true, events, options, observe);
-  followed.falling = follow_critical(family, start, false, events, options, observe);
+  continuation::FurtherPoints further{.spacing = study.trace.spacing, .most = most_rows(curves)};
+  followed.growing = follow_critical(family, start, true, events, options, observe, further);
+  further.most -= static_cast<double>(followed.growing.points.size());
+  followed.falling = follow_critical(family, start, false, events, options, observe, further);
   return followed;
+}
+
+std::vector<std::string> doubts_of(const CaseCurves& curves, const Study& study,
+                                   const FollowedCurve& followed) {
+  std::vector<std::string> doubts;
+  const double left_out = followed.falling.left_out + followed.growing.left_out;
+  const int missed = followed.falling.missed + followed.growing.missed;
+  const double spacing = study.trace.spacing;
+  if (left_out > 0)
+    doubts.push_back("trace.spacing: got " + rounded(spacing) + ", which makes about " +
+                     rounded(left_out) + " rows of a curve, need at most " +
+                     rounded(most_rows(curves)) +
+                     " in all: a larger spacing; the curve has the rows of its steps only");
+  if (missed > 0)
+    doubts.push_back(std::to_string(missed) +
+                     " rows beside degenerate points could not be computed");
+  return doubts;
 }
 
 std::vector<Quantity> critical_quantities(const CaseCurves& curves) {

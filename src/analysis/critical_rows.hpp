@@ -20,6 +20,10 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const continuation::CriticalStart& start, EventKind of,
                                const Observer& observer);
 
+/// Why rows that `spacing` wants are missing, with what to change; empty if none are.
+std::vector<std::string> doubts_of(const CaseCurves& curves, const Study& study,
+                                   const FollowedCurve& followed);
+
 /// Columns of the study's curve, then the parameter.
 std::vector<Quantity> critical_quantities(const CaseCurves& curves);
 

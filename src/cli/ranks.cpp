@@ -4,8 +4,12 @@
 #include <array>
 #include <cstdlib>
 
+#include "mpi_calls.hpp"
+
 #if SPRINGFOLD_HAS_MPI
-#include <mpi.h>
+#include <dlfcn.h>
+
+#include <filesystem>
 #endif
 
 namespace springfold::cli {
@@ -21,79 +25,67 @@ const char* given_count() {
   return nullptr;
 }
 
-}  // namespace
-
 #if SPRINGFOLD_HAS_MPI
 
-namespace {
-constexpr int row_tag = 1, end_tag = 2;
-}  // namespace
-
-bool Ranks::are_built_in() { return true; }
-bool Ranks::are_missed() { return false; }
-
-Ranks::Ranks() {
-  if (given_count() == nullptr) return;  // to begin MPI takes time, and a daemon
-  int given = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given);
-  begun_ = true;
-  if (given < MPI_THREAD_SERIALIZED) return;
-  MPI_Comm_rank(MPI_COMM_WORLD, &number_);
-  MPI_Comm_size(MPI_COMM_WORLD, &count_);
-}
-
-Ranks::~Ranks() {
-  if (begun_ && !gave_up_) MPI_Finalize();
-}
-
-bool Ranks::all(bool mine) const {
-  if (!are_several()) return mine;
-  int here = mine ? 1 : 0, everywhere = 0;
-  MPI_Allreduce(&here, &everywhere, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  return everywhere == 1;
-}
-
-void Ranks::share(std::vector<char>& flags) const {
-  if (!are_several()) return;
-  MPI_Bcast(flags.data(), static_cast<int>(flags.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
-}
-
-void Ranks::send(const std::string& text) const {
-  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, 0, row_tag, MPI_COMM_WORLD);
-}
-
-void Ranks::send_end() const { MPI_Send(nullptr, 0, MPI_CHAR, 0, end_tag, MPI_COMM_WORLD); }
-
-int Ranks::receive(const std::function<void(const std::string&)>& take) const {
-  int ends = 0;
-  for (;;) {
-    int arrived = 0, size = 0;
-    MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &arrived, &status);
-    if (arrived == 0) return ends;
-    MPI_Get_count(&status, MPI_CHAR, &size);
-    std::string text(static_cast<std::size_t>(size), '\0');
-    MPI_Recv(text.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
-             MPI_STATUS_IGNORE);
-    if (status.MPI_TAG == end_tag)
-      ++ends;
-    else
-      take(text);
+/// The module beside the program, or where it is installed. It stays loaded until the process ends.
+const MpiCalls* load_calls() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return nullptr;
+  for (const auto& folder : {program, program / SPRINGFOLD_MODULES}) {
+    // Components of Open MPI look for its symbols among those of all.
+    void* module = ::dlopen((folder / "springfold_mpi.so").c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (module == nullptr) continue;
+    const auto get = reinterpret_cast<GetMpiCalls>(::dlsym(module, mpi_calls_name));
+    return get == nullptr ? nullptr : get();
   }
+  return nullptr;
 }
 
 #else
 
-bool Ranks::are_built_in() { return false; }
-bool Ranks::are_missed() { return given_count() != nullptr; }
-Ranks::Ranks() = default;
-Ranks::~Ranks() = default;
-bool Ranks::all(bool mine) const { return mine; }
-void Ranks::share(std::vector<char>&) const {}
-void Ranks::send(const std::string&) const {}
-void Ranks::send_end() const {}
-int Ranks::receive(const std::function<void(const std::string&)>&) const { return 0; }
+const MpiCalls* load_calls() { return nullptr; }
 
 #endif
+
+}  // namespace
+
+bool Ranks::are_built_in() { return SPRINGFOLD_HAS_MPI != 0; }
+
+Ranks::Ranks() {
+  if (given_count() == nullptr) return;  // to begin MPI takes time, and a daemon
+  calls_ = load_calls();
+  if (calls_ != nullptr) calls_->begin(number_, count_);
+}
+
+Ranks::~Ranks() {
+  if (calls_ != nullptr && !gave_up_) calls_->end();
+}
+
+bool Ranks::are_missed() const { return given_count() != nullptr && calls_ == nullptr; }
+
+bool Ranks::all(bool mine) const { return are_several() ? calls_->all(mine) : mine; }
+
+void Ranks::share(std::vector<char>& flags) const {
+  if (are_several()) calls_->share(flags.data(), static_cast<int>(flags.size()));
+}
+
+void Ranks::send(const std::string& text) const { calls_->send(text); }
+
+void Ranks::send_end() const { calls_->send_end(); }
+
+int Ranks::receive(const std::function<void(const std::string&)>& take) const {
+  int ends = 0;
+  std::string text;
+  while (are_several()) {
+    const MpiCalls::Arrival arrival = calls_->receive(text);
+    if (arrival == MpiCalls::Arrival::none) break;
+    if (arrival == MpiCalls::Arrival::end)
+      ++ends;
+    else
+      take(text);
+  }
+  return ends;
+}
 
 }  // namespace springfold::cli

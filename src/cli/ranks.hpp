@@ -8,6 +8,8 @@
 
 namespace springfold::cli {
 
+struct MpiCalls;
+
 /// All processes that mpirun started together; without mpirun, or without MPI in this build, this one alone. One of
 /// them at a time; calls come from one thread at a time. Every function but number() and count() is called by all
 /// processes, in the same order, unless it says otherwise.
@@ -22,8 +24,8 @@ class Ranks {
   int count() const { return count_; }
   bool are_several() const { return count_ > 1; }
   static bool are_built_in();
-  /// mpirun started several processes, and this build knows nothing of MPI.
-  static bool are_missed();
+  /// mpirun started several processes, and this build knows nothing of MPI, or its module is not beside the program.
+  bool are_missed() const;
 
   bool all(bool mine) const;                   ///< is it true in every process?
   void share(std::vector<char>& flags) const;  ///< all get those of process 0
@@ -35,7 +37,7 @@ class Ranks {
 
  private:
   int number_ = 0, count_ = 1;
-  [[maybe_unused]] bool begun_ = false;  // without MPI nobody asks
+  const MpiCalls* calls_ = nullptr;  ///< where MPI has begun
   bool gave_up_ = false;
 };
 

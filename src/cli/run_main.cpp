@@ -52,9 +52,10 @@ int run_whole(int (*command)(const Arguments&, const Session&), const Arguments&
 
 int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& err,
                bool shows_progress, Ranks& ranks) {
-  if (Ranks::are_missed())
+  if (ranks.are_missed())
     say(err,
-        "warning: mpirun started several processes, but this springfold was built without MPI");
+        "warning: mpirun started several processes, but this springfold has no MPI: each of them "
+        "works alone");
   if (!parsed.error.empty()) {
     say(err, parsed.error);
     say(err, "try springfold --help");

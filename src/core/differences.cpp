@@ -8,18 +8,21 @@ namespace {
 
 constexpr int grid_nodes = 8;
 
-/// Derivative at t of the polynomial that is 1 at node j of 0, 1, 2, ... and 0 at the others.
-double slope_of_cardinal(int j, double t) {
+/// Derivative at t of the polynomial that is 1 at node j of first, ..., last and 0 at the others.
+double slope_of_cardinal(int first, int last, int j, double t) {
   double sum = 0;
-  for (int m = 0; m < grid_nodes; ++m) {
+  for (int m = first; m <= last; ++m) {
     if (m == j) continue;
     double product = 1.0 / (j - m);
-    for (int l = 0; l < grid_nodes; ++l)
+    for (int l = first; l <= last; ++l)
       if (l != j && l != m) product *= (t - l) / (j - l);
     sum += product;
   }
   return sum;
 }
+
+/// Which multiple of h is the first of eight, four on each side of p.
+double first_of_grid(double p, double h) { return std::floor(p / h) - (grid_nodes / 2 - 1); }
 
 }  // namespace
 
@@ -37,18 +40,37 @@ std::optional<Vector> six_point_derivative(const std::function<std::optional<Vec
   return sum / (60 * h);
 }
 
-std::optional<Vector> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                      double p, double h) {
-  const double first = std::floor(p / h) - (grid_nodes / 2 - 1);
+std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                              double p, double h) {
+  const double first = first_of_grid(p, h);
   const double t = p / h - first;
-  Vector sum;
-  for (int j = 0; j < grid_nodes; ++j) {
+  constexpr int last = grid_nodes - 1;
+  GridDerivative result;
+  Vector inner;
+  for (int j = 0; j <= last; ++j) {
     const auto value = f((first + j) * h);
     if (!value) return std::nullopt;
-    const Vector term = slope_of_cardinal(j, t) * *value;
-    sum = j == 0 ? term : Vector(sum + term);
+    if (j == 0) result.value = inner = Vector::Zero(value->size());
+    result.value += slope_of_cardinal(0, last, j, t) / h * *value;
+    if (j > 0 && j < last) inner += slope_of_cardinal(1, last - 1, j, t) / h * *value;
   }
-  return sum / h;
+  result.doubt = (result.value - inner).lpNorm<Eigen::Infinity>();
+  return result;
+}
+
+std::optional<Vector> rough_grid_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                            double p, double h) {
+  constexpr int low = grid_nodes / 2 - 2, high = grid_nodes / 2 + 1;
+  const double first = first_of_grid(p, h);
+  const double t = p / h - first;
+  Vector sum;
+  for (int j = low; j <= high; ++j) {
+    const auto value = f((first + j) * h);
+    if (!value) return std::nullopt;
+    if (j == low) sum = Vector::Zero(value->size());
+    sum += slope_of_cardinal(low, high, j, t) / h * *value;
+  }
+  return sum;
 }
 
 }  // namespace springfold

@@ -79,6 +79,19 @@ TEST(PointsBetween, CostOneResidualEachWhereThereAreMany) {
   EXPECT_LT(problem.derivatives_, 0.03 * static_cast<double>(between.points.size()));
 }
 
+TEST(PointsBetween, CostNoCorrectionWhereTheStepsAroundShowTheCurve) {
+  const Counted problem{.inner = circle()};
+  const Curve curve = follow(problem, at(0, 1, 1, 0), {x_reaches(0.9)}, steps_up_to(0.02));
+  problem.residuals = problem.derivatives_ = 0;
+  const Between between = points_between(problem, curve, 0.006, {});
+  ASSERT_GT(between.points.size(), 150u);
+  EXPECT_EQ(between.missed, 0);
+  // Those of the units and of the first and last steps, which have few around them.
+  EXPECT_LT(problem.derivatives_, 0.3 * static_cast<double>(between.points.size()));
+  for (const CurvePoint& p : between.points)
+    EXPECT_NEAR(p.x[0] * p.x[0] + p.lambda * p.lambda, 1, 1e-12);
+}
+
 TEST(PointsBetween, AreThereWhenOnlyOneOrTwoFitIntoAStep) {
   const ScalarProblem problem = fold_ladder();
   const Curve curve = ladder(problem, 0.05);

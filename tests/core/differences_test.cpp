@@ -56,7 +56,7 @@ TEST(GridDerivative, IsExactForPolynomialsUpToDegreeSeven) {
     };
     for (const double p : {1.5, 1.6, 1.75}) {
       const double exact = degree == 0 ? 0 : degree * std::pow(p, degree - 1);
-      EXPECT_NEAR((*grid_derivative(power, p, 0.25))[0], exact, 1e-11 * std::max(1.0, exact));
+      EXPECT_NEAR(grid_derivative(power, p, 0.25)->value[0], exact, 1e-11 * std::max(1.0, exact));
     }
   }
 }
@@ -64,10 +64,39 @@ TEST(GridDerivative, IsExactForPolynomialsUpToDegreeSeven) {
 TEST(GridDerivative, KeepsTwelveDigitsAtTheRecommendedStepWhereverItIsTaken) {
   for (const double h : {0x1p-6, 0x1p-7, 0x1p-8})
     for (const double p : {0.7, 0.703, 0.71, 0.75, -0.7})
-      EXPECT_LT((*grid_derivative(sine_and_exponential, p, h) - Vector{{std::cos(p), std::exp(p)}})
-                    .norm(),
-                1e-12)
+      EXPECT_LT(
+          (grid_derivative(sine_and_exponential, p, h)->value - Vector{{std::cos(p), std::exp(p)}})
+              .norm(),
+          1e-12)
           << "h = " << h << ", p = " << p;
+}
+
+TEST(GridDerivative, DoubtsItselfMoreThanItIsOff) {
+  for (const double h : {0.2, 0.1, 0.05})
+    for (const double p : {0.7, 0.71, 0.75}) {
+      const auto rate = grid_derivative(sine_and_exponential, p, h);
+      EXPECT_GT(rate->doubt, (rate->value - Vector{{std::cos(p), std::exp(p)}}).norm()) << h;
+    }
+}
+
+TEST(GridDerivative, DoubtsItselfAcrossAKink) {
+  const auto kink = [](double p) -> std::optional<Vector> {
+    return Vector::Constant(1, std::max(0.0, p - 0.701));
+  };
+  EXPECT_GT(grid_derivative(kink, 0.7, 0x1p-7)->doubt, 1e-3);
+  EXPECT_LT(grid_derivative(kink, 0.6, 0x1p-7)->doubt, 1e-12);
+}
+
+TEST(RoughGridDerivative, IsThatOfTheCubicThroughFourPlaces) {
+  for (int degree = 0; degree <= 3; ++degree) {
+    const auto power = [degree](double p) -> std::optional<Vector> {
+      return Vector::Constant(1, std::pow(p, degree));
+    };
+    const double exact = degree == 0 ? 0 : degree * std::pow(1.6, degree - 1);
+    EXPECT_NEAR((*rough_grid_derivative(power, 1.6, 0.25))[0], exact, 1e-11);
+  }
+  const auto rate = rough_grid_derivative(sine_and_exponential, 0.703, 0x1p-7);
+  EXPECT_LT((*rate - Vector{{std::cos(0.703), std::exp(0.703)}}).norm(), 1e-6);
 }
 
 TEST(GridDerivative, AsksForTheSamePlacesOfNeighbours) {

@@ -17,9 +17,10 @@ struct Between {
 /// The points at which the arc length s is a multiple of `spacing`, where no accepted point or kink is.
 ///
 /// A step that the engine has accepted and looked into is a smooth piece of one curve. Between its
-/// ends the curve is interpolated (quintic, from three points and their tangents); the intervals are
-/// halved until points corrected between them show an error below 1e-13, so that ten points or ten
-/// thousand on one step need the same few corrections. Every point is checked against the residual
+/// ends the curve is interpolated: by the polynomial through them and up to seven accepted points around,
+/// with their tangents, where its last two orders show that it is exact; otherwise by a quintic through three
+/// points, whose intervals are halved until points corrected between them show an error below 1e-13, so that
+/// ten points or ten thousand on one step need the same few corrections. Every point is checked against the residual
 /// tolerance, and corrected where it fails. The count of negative eigenvalues is that of the ends where
 /// these agree and no special point lies between; otherwise it is counted at the point.
 /// @param curve    what trace() or davidenko() returned for this problem

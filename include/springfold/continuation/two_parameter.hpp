@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -79,14 +80,23 @@ struct CriticalEvent {
   EventAction action = EventAction::record;
 };
 
+/// Points of a critical curve between the accepted ones, see points_between().
+struct FurtherPoints {
+  double spacing = 0;  ///< > 0: at the multiples of this arc length
+  double most = std::numeric_limits<double>::infinity();  ///< of a stretch that has more, none
+};
+
 struct CriticalCurve {
-  std::vector<CriticalPoint> points{};  ///< accepted points, the start first
-  std::vector<CriticalHit> hits{};      ///< in the order of s
+  std::vector<CriticalPoint>
+      points{};                     ///< accepted points, the start first; further points among them
+  std::vector<CriticalHit> hits{};  ///< in the order of s
   StopReason stop = StopReason::bad_start;
   std::string stop_detail{};
   /// Kind branch_point: false where the second parameter does not keep the branch, so that
   /// there is no curve of branch points.
   bool kept = true;
+  double left_out = 0;  ///< about so many further points were more than `most`
+  int missed = 0;       ///< places of further points at which the corrector found none
 };
 
 /// Follows a special point in (lambda, mu) by `trace`, both being free, as the zero of a minimally
@@ -111,7 +121,8 @@ struct CriticalCurve {
 /// @param growing  which way first: mu grows, or falls
 CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,
                               const std::vector<CriticalEvent>& events, const TraceOptions& options,
-                              const std::function<bool(const CriticalPoint&)>& observer = {});
+                              const std::function<bool(const CriticalPoint&)>& observer = {},
+                              const FurtherPoints& further = {});
 
 /// The special point itself to rounding, at its mu; nothing when Newton's method does not converge nearby.
 std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start);

@@ -21,7 +21,16 @@ std::optional<Vector> six_point_derivative(const std::function<std::optional<Vec
 /// that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h  a power of two,
 /// so that the places are the same numbers
 /// @returns nothing when f has no value at one of them
-std::optional<Vector> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                      double p, double h);
+struct GridDerivative {
+  Vector value{};
+  double doubt =
+      0;  ///< largest entry of the difference from the polynomial of degree five through the inner six
+};
+std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                              double p, double h);
+
+/// By the cubic through the inner four of these places: with an error O(h^3).
+std::optional<Vector> rough_grid_derivative(const std::function<std::optional<Vector>(double)>& f,
+                                            double p, double h);
 
 }  // namespace springfold

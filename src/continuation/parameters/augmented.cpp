@@ -17,6 +17,14 @@ namespace {
 /// Differences along directions move the largest entry by this much at their nearest points.
 constexpr double directional_step = 0x1p-8;
 
+/// The same of two points, where the error that is left may be a ten-millionth.
+constexpr double rough_step = 0x1p-10;
+
+/// Residuals above this are to be corrected: derivatives then serve the next correction alone, and need no more digits
+/// than that leaves. Below it, with room for the units that the corrector measures them in, they are exact: tangents and
+/// rates are made of them.
+constexpr double still_far = promised_place;
+
 /// Second derivatives below this share of what rounding of differences leaves visible are zero.
 constexpr double vanishing_second = 10 * root_of_rounding;
 
@@ -141,6 +149,46 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
       },
       0, directional_step / largest);
 }
+
+namespace {
+
+/// second_along() by two points.
+std::optional<Vector> rough_second_along(const Family& family, const Vector& x, double lambda,
+                                         double mu, const Piece& piece, const Vector& w,
+                                         const Vector& V) {
+  const Index n = x.size();
+  const double largest = V.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0)) return Vector::Zero(n + 1);
+  const double t = rough_step / largest;
+  BaseTerms above, below;
+  if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, above) ||
+      !base_terms(family, x - t * V.head(n), lambda - t * V[n], mu, piece, below))
+    return std::nullopt;
+  return Vector((above.J - below.J).transpose() * w / (2 * t));
+}
+
+/// By the grid of the family, or of one that is four times as wide where its last two orders show that it is as good:
+/// then neighbouring places share more members of the family.
+std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
+                                              double mu, double step) {
+  constexpr double wider = 4;
+  const auto wide = grid_derivative(f, mu, wider * step);
+  if (wide && wide->doubt <= one_place * std::max(1.0, wide->value.lpNorm<Eigen::Infinity>()))
+    return wide->value;
+  // Beside the end of the family's domain the formula that reaches less far may have all of its places.
+  if (const auto narrow = grid_derivative(f, mu, step)) return narrow->value;
+  return six_point_derivative(f, mu, step);
+}
+
+/// The same where a few digits are enough: by the four places of the wide grid around mu, or as above.
+std::optional<Vector> rough_derivative_by_parameter(
+    const std::function<std::optional<Vector>(double)>& f, double mu, double step) {
+  constexpr double wider = 4;
+  if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
+  return derivative_by_parameter(f, mu, step);
+}
+
+}  // namespace
 
 Augmented::Augmented(const Family& family, const CriticalStart& start, NullVectors borders)
     : family_{family}, start_{start}, borders_{std::move(borders)}, n_{start.x.size()} {
@@ -293,17 +341,27 @@ bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) con
   return true;
 }
 
+bool Augmented::is_far(const Vector& X, const Terms& terms) const {
+  Vector F;
+  return put_residual(X, terms, F) &&
+         F.lpNorm<Eigen::Infinity>() > still_far * std::max(1.0, X.lpNorm<Eigen::Infinity>());
+}
+
 bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Matrix& dF_dX,
                                 Vector& dF_dmu) const {
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
+  const bool far = is_far(X, terms);
+  const auto second = [&](const Vector& w, const Vector& along) {
+    return (far ? rough_second_along : second_along)(family_, x, l, mu, start_.piece, w, along);
+  };
   Vector last = Vector::Zero(n_ + 1);  // derivative of the last equation by (x, lambda)
   if (is_bordered()) {
     for (Index i = 0; i < V.cols(); ++i) {
       Vector along = Vector::Zero(n_ + 1);
       along.head(n_) = V.col(i);
-      const auto part = second_along(family_, x, l, mu, start_.piece, W.col(i), along);
+      const auto part = second(W.col(i), along);
       if (!part) return false;
       last -= *part;
     }
@@ -320,7 +378,7 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
   }
   const Index crossing = k_ > 0 && !held_ ? k_ : 0;  // equations W^T dF/dlambda = 0
   for (Index i = 0; i < crossing; ++i) {
-    const auto part = second_along(family_, x, l, mu, start_.piece, W.col(i), terms.along.col(0));
+    const auto part = second(W.col(i), terms.along.col(0));
     if (!part) return false;
     dF_dX.row(n_ + i).head(n_ + 1) = part->transpose();
   }
@@ -340,10 +398,9 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
     values[n_] = *g;
     return values;
   };
-  // A member of the family is dear: neighbours share those of a grid. Beside the end of its domain the formula that
-  // reaches less far may have all of its places.
-  auto by_mu = grid_derivative(at_parameter, mu, family_.step);
-  if (!by_mu) by_mu = six_point_derivative(at_parameter, mu, family_.step);
+  // A member of the family is dear: neighbours share those of a grid.
+  const auto by_mu = far ? rough_derivative_by_parameter(at_parameter, mu, family_.step)
+                         : derivative_by_parameter(at_parameter, mu, family_.step);
   if (!by_mu) return false;
   dF_dmu = Vector::Zero(size());
   dF_dmu.head(n_ + crossing) = by_mu->head(n_ + crossing);

@@ -8,6 +8,7 @@
 #include "continuation/parameters/augmented.hpp"
 #include "continuation/parameters/degeneracy.hpp"
 #include "continuation/points/entry_checks.hpp"
+#include "springfold/continuation/between.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -78,12 +79,14 @@ Matrix polar(const Matrix& columns) {
 class Follower {
  public:
   Follower(const Family& family, CriticalStart start, const std::vector<CriticalEvent>& events,
-           const TraceOptions& options, const std::function<bool(const CriticalPoint&)>& observer)
+           const TraceOptions& options, const std::function<bool(const CriticalPoint&)>& observer,
+           const FurtherPoints& further)
       : family_{family},
         start_{std::move(start)},
         events_{events},
         options_{options},
-        observer_{observer} {
+        observer_{observer},
+        further_{further} {
     options_.limit_points = false;  // turns of mu are events here: they are told apart
     options_.branch_points = false;
   }
@@ -179,8 +182,10 @@ class Follower {
       renew = !place || place->largest() > poor_borders;
       return !renew;
     };
-    const Curve curve = trace(system, X, mu, ray, events, options_, observe);
-    add(curve, watches, n);
+    Curve curve = trace(system, X, mu, ray, events, options_, observe);
+    for (CurvePoint& point : curve.points) point.s += length_;
+    for (Hit& hit : curve.hits) hit.point.s += length_;
+    add(curve, further_points(system, curve), watches, n);
     if (lost) {
       curve_.kept = false;
       curve_.stop_detail = "the second parameter does not keep the branch";
@@ -192,18 +197,36 @@ class Follower {
     return renew && curve.stop == StopReason::observer;
   }
 
-  void add(const Curve& curve, const std::vector<Watch>& watches, Index n) {
-    for (std::size_t i = curve_.points.empty() ? 0 : 1; i < curve.points.size(); ++i) {
-      curve_.points.push_back(critical_point(curve.points[i], n));
-      curve_.points.back().s += length_;
+  std::vector<CurvePoint> further_points(const Augmented& system, const Curve& curve) {
+    if (!(further_.spacing > 0) || curve.points.size() < 2) return {};
+    const double count = (curve.points.back().s - curve.points.front().s) / further_.spacing;
+    if (count > further_.most) {
+      curve_.left_out += count;
+      return {};
     }
+    Between between = points_between(system, curve, further_.spacing, options_);
+    curve_.missed += between.missed;
+    return std::move(between.points);
+  }
+
+  void add(const Curve& curve, const std::vector<CurvePoint>& further,
+           const std::vector<Watch>& watches, Index n) {
+    std::size_t f = 0;
+    const auto add_further = [&](double until) {
+      for (; f < further.size() && further[f].s < until; ++f)
+        curve_.points.push_back(critical_point(further[f], n));
+    };
+    for (std::size_t i = curve_.points.empty() ? 0 : 1; i < curve.points.size(); ++i) {
+      add_further(curve.points[i].s);
+      curve_.points.push_back(critical_point(curve.points[i], n));
+    }
+    add_further(infinity);
     for (const Hit& hit : curve.hits) {
       if (hit.kind != HitKind::user) continue;
       const Watch& watch = watches[static_cast<std::size_t>(std::stoul(hit.name))];
       CriticalHit found{
           .kind = watch.kind, .name = watch.name, .point = critical_point(hit.point, n)};
       if (watch.refine) found.kind = watch.refine(hit.point);
-      found.point.s += length_;
       curve_.hits.push_back(std::move(found));
     }
     curve_.stop = curve.stop;
@@ -213,7 +236,7 @@ class Follower {
       curve_.stop_detail =
           last.kind == Degeneracy::user ? last.name : std::string{to_string(last.kind)};
     }
-    if (!curve.points.empty()) length_ += curve.points.back().s;
+    if (!curve.points.empty()) length_ = curve.points.back().s;
   }
 
   /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own, and what lies between the two, which
@@ -249,6 +272,7 @@ class Follower {
   const std::vector<CriticalEvent>& events_;
   TraceOptions options_;
   const std::function<bool(const CriticalPoint&)>& observer_;
+  const FurtherPoints& further_;
   CriticalCurve curve_{};
   CurvePoint last_{};
   double length_ = 0;
@@ -259,8 +283,9 @@ class Follower {
 
 CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,
                               const std::vector<CriticalEvent>& events, const TraceOptions& options,
-                              const std::function<bool(const CriticalPoint&)>& observer) {
-  return Follower(family, start, events, options, observer).follow(growing);
+                              const std::function<bool(const CriticalPoint&)>& observer,
+                              const FurtherPoints& further) {
+  return Follower(family, start, events, options, observer, further).follow(growing);
 }
 
 std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start) {

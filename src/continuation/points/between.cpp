@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "continuation/numerics/numerics.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct PointGap {
   CurvePoint from{}, to{};
   bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
+  bool goes_on = false;  ///< `from` is the end of the gap before, on one smooth curve
 };
 
 /// The curve as a function of the way along the tangent at a stretch's begin.
@@ -40,7 +42,7 @@ class Hermite {
       for (std::size_t i = order - 1; i >= k; --i) {
         const double width = knots_[i] - knots_[i - k];
         const auto here = static_cast<Index>(i);
-        if (width > 0)
+        if (width != 0)
           c_.col(here) = (c_.col(here) - c_.col(here - 1)) / width;
         else
           c_.col(here) = nodes[i / 2]->rate;
@@ -57,6 +59,17 @@ class Hermite {
     }
   }
 
+  Index order() const { return c_.cols(); }  ///< twice the number of nodes
+
+  /// Its place alone, or that of the polynomial through the first nodes. @param order  twice their number
+  Vector at(double t, Index order) const {
+    Vector u = c_.col(order - 1);
+    for (Index i = order - 2; i >= 0; --i)
+      u = c_.col(i) + (t - knots_[static_cast<std::size_t>(i)]) * u;
+    return u;
+  }
+  Vector at(double t) const { return at(t, order()); }
+
  private:
   std::vector<double> knots_{};
   Matrix c_{};
@@ -67,7 +80,8 @@ class Filler {
   Filler(const Walker& walker, double spacing, Between& result)
       : walker_{walker}, spacing_{spacing}, result_{result} {}
 
-  void fill(const PointGap& stretch) {
+  /// @param around  further points of the smooth curve that the stretch lies on, the nearest ones first
+  void fill(const PointGap& stretch, const std::vector<CurvePoint>& around) {
     stretch_ = &stretch;
     const Direction chord{stretch.to.x - stretch.from.x, stretch.to.lambda - stretch.from.lambda};
     length_ = metric_product(walker_.weights, chord, stretch.from.tangent);
@@ -78,15 +92,21 @@ class Filler {
     const double first = std::floor(stretch.from.s / spacing_ + one_place) + 1;
     const double last = std::ceil(stretch.to.s / spacing_ - one_place) - 1;
     if (!(first <= last)) return;
-    const Node a = node_of(stretch.from), b = node_of(stretch.to);
-    // The cubic through the ends predicts the middle.
+    const Node a = node_of(stretch.from, 0), b = node_of(stretch.to, length_);
+    std::vector<Node> others = nodes_of(around);
+    const auto wide = polynomial(a, b, others);
+    if (wide && is_exact_at(*wide, {0.5})) return on_curve(*wide, first, last);
     const double half = 0.5 * length_;
-    const Vector guess = 0.5 * (a.u + b.u) + half / 4 * (a.rate - b.rate);
-    const auto m = node_near(half, guess, nullptr);
+    const auto m = node_near(half, wide ? wide->at(half) : between_ends(a, b), nullptr);
+    if (m && wide) {
+      others.insert(others.begin(), *m);
+      const auto finer = polynomial(a, b, others);
+      if (is_exact_at(*finer, {0.25, 0.75})) return on_curve(*finer, first, last);
+    }
     if (m)
       between(a, *m, b, first, last, 0);
     else {
-      const Node middle{half, guess, (b.u - a.u) / length_};
+      const Node middle{half, between_ends(a, b), (b.u - a.u) / length_};
       one_by_one(Hermite({&a, &middle, &b}), first, last);
     }
   }
@@ -96,13 +116,52 @@ class Filler {
   /// off by about e^(10/6): on a smooth curve each order more brings the same factor.
   static constexpr double nearly_exact = one_place;
   static constexpr int deepest = 24;
+  /// Cosine of a turn up to which polynomials of the way along a tangent converge fast.
+  static constexpr double little_turned = 0.9;
 
   double way_of(double k) const { return (k * spacing_ - stretch_->from.s) * per_s_; }
 
-  Node node_of(const CurvePoint& p) const {
+  /// The cubic through the ends predicts the middle.
+  Vector between_ends(const Node& a, const Node& b) const {
+    return 0.5 * (a.u + b.u) + length_ / 8 * (a.rate - b.rate);
+  }
+
+  /// Points of the curve around the stretch, as far as it turns little: a quarter of a turn away it is no function of t any
+  /// more, and polynomials of t see that from afar.
+  std::vector<Node> nodes_of(const std::vector<CurvePoint>& around) const {
+    const CurvePoint& from = stretch_->from;
+    std::vector<Node> nodes;
+    for (const CurvePoint& p : around) {
+      const Direction away{p.x - from.x, p.lambda - from.lambda};
+      const double t = metric_product(walker_.weights, away, from.tangent);
+      const bool ahead = metric_product(walker_.weights, p.tangent, from.tangent) > little_turned;
+      if (ahead && (p.s < from.s ? t < 0 : t > length_)) nodes.push_back(node_of(p, t));
+    }
+    return nodes;
+  }
+
+  /// The polynomial through the stretch's ends and the nodes around it; nothing where there are few.
+  static std::optional<Hermite> polynomial(const Node& a, const Node& b,
+                                           const std::vector<Node>& others) {
+    constexpr std::size_t few = 4;
+    if (others.size() < few) return std::nullopt;
+    std::vector<const Node*> nodes{&a, &b};
+    for (const Node& node : others) nodes.push_back(&node);
+    return Hermite(nodes);
+  }
+
+  /// Is it, as far as the polynomial without the last node shows? @param shares  of the stretch, where both differ most
+  bool is_exact_at(const Hermite& curve, std::initializer_list<double> shares) const {
+    return std::all_of(shares.begin(), shares.end(), [&](double share) {
+      const Vector all = curve.at(share * length_);
+      const Vector fewer = curve.at(share * length_, curve.order() - 2);
+      return is_exact((all - fewer).lpNorm<Eigen::Infinity>(), all.lpNorm<Eigen::Infinity>());
+    });
+  }
+
+  Node node_of(const CurvePoint& p, double t) const {
     const Index n = p.x.size();
-    Node node{
-        .t = &p == &stretch_->from ? 0.0 : length_, .u = Vector(n + 1), .rate = Vector(n + 1)};
+    Node node{.t = t, .u = Vector(n + 1), .rate = Vector(n + 1)};
     node.u << p.x, p.lambda;
     set_rate(p, node);
     return node;
@@ -170,8 +229,10 @@ class Filler {
       point.lambda = u_[n];
       const bool inside = walker_.problem.residual(point.x, point.lambda, point.piece, F_);
       const double scale = std::max(1.0, u_.lpNorm<Eigen::Infinity>());
-      const bool small = inside && F_.lpNorm<Eigen::Infinity>() <=
-                                       walker_.options.newton.residual_tolerance * scale;
+      // Within the tolerance in the caller's units too, which the engine's are near to.
+      const bool small =
+          inside && F_.lpNorm<Eigen::Infinity>() <=
+                        small_share * walker_.options.newton.residual_tolerance * scale;
       if (!small || !stretch_->counted) {
         one_by_one(curve, k, k);
         continue;
@@ -217,10 +278,12 @@ bool changes_the_count(const Hit& hit) { return hit.kind != HitKind::user; }
 std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
   std::vector<PointGap> stretches;
   CurvePoint from = curve.points.front();
-  bool special = false;
+  bool special = false, goes_on = false;
   const auto up_to = [&](const CurvePoint& to) {
     const bool counted = !special && from.negative == to.negative;
-    if (to.s > from.s) stretches.push_back({from, to, counted && (from.negative || !counts)});
+    if (to.s > from.s)
+      stretches.push_back({from, to, counted && (from.negative || !counts), goes_on});
+    goes_on = goes_on || to.s > from.s;
     special = false;
   };
   std::size_t h = 0;
@@ -233,6 +296,7 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
       up_to(hit.point);
       from = hit.leaving.empty() ? hit.point : hit.leaving.front();
       special = is_kink(hit);
+      goes_on = false;
     }
   };
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
@@ -242,6 +306,27 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
   }
   take_hits(infinity);
   return stretches;
+}
+
+/// Ends of the stretches before and behind on the same smooth curve, the nearest ones first, as many as a polynomial can use:
+/// with more of them rounding of the tangents grows faster than the error falls.
+std::vector<const CurvePoint*> points_around(const std::vector<PointGap>& stretches,
+                                             std::size_t i) {
+  constexpr std::size_t most = 7;
+  std::vector<const CurvePoint*> points;
+  std::size_t first = i, last = i;
+  while (points.size() < most) {
+    const bool before = stretches[first].goes_on;
+    const bool behind = last + 1 < stretches.size() && stretches[last + 1].goes_on;
+    if (!before && !behind) break;
+    const double back = before ? stretches[i].from.s - stretches[first - 1].from.s : infinity;
+    const double ahead = behind ? stretches[last + 1].to.s - stretches[i].to.s : infinity;
+    if (back <= ahead)
+      points.push_back(&stretches[--first].from);
+    else
+      points.push_back(&stretches[++last].to);
+  }
+  return points;
 }
 
 }  // namespace
@@ -256,14 +341,22 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
   const Normalised own(problem, start.x, start.lambda, start.piece);
   const Walker walker{own, own.metric(), options};
   Filler filler(walker, spacing, result);
-  for (PointGap& stretch : stretches_of(curve, problem.symmetric())) {
+  const std::vector<PointGap> stretches = stretches_of(curve, problem.symmetric());
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    PointGap stretch = stretches[i];
     stretch.from = own.inside(stretch.from);
-    const CurvePoint to = own.inside(stretch.to);
     // A closed curve may end at another copy of its start, whole periods away.
-    const Direction chord = between(walker, stretch.from, to);
-    stretch.to.x = stretch.from.x + chord.dx;
-    stretch.to.tangent = direction_seen_from(walker, stretch.from.x, to);
-    filler.fill(stretch);
+    const auto as_seen = [&](const CurvePoint& point) {
+      CurvePoint p = own.inside(point);
+      const Direction chord = between(walker, stretch.from, p);
+      p.tangent = direction_seen_from(walker, stretch.from.x, p);
+      p.x = stretch.from.x + chord.dx;
+      return p;
+    };
+    stretch.to = as_seen(stretch.to);
+    std::vector<CurvePoint> around;
+    for (const CurvePoint* point : points_around(stretches, i)) around.push_back(as_seen(*point));
+    filler.fill(stretch, around);
   }
   for (CurvePoint& point : result.points) point = own.outside(std::move(point));
   return result;
