@@ -56,6 +56,19 @@ inline Given arch(double e, double m) {
           2};
 }
 
+/// lambda = h(x; mu).
+inline Family graphs(std::function<double(double, double)> h,
+                     std::function<double(double, double)> slope) {
+  return family_of<ScalarProblem>([=](double mu) {
+    return graph([=](double x) { return h(x, mu); }, [=](double x) { return slope(x, mu); });
+  });
+}
+
+inline CriticalStart start_at(CriticalKind kind, Vector x, double lambda, double mu) {
+  return {.kind = kind, .x = std::move(x), .lambda = lambda, .mu = mu};
+}
+inline Vector single(double x) { return Vector::Constant(1, x); }
+
 /// Augusti's column, V = |t - e|^2/2 + P sqrt(1 - sin^2 t1 - sin^2 t2), e = m (cos psi, sin psi).
 inline Given augusti(double m, double psi) {
   const auto height = [](const Vector& t) {

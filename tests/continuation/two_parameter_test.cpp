@@ -10,19 +10,6 @@
 namespace springfold::continuation {
 namespace {
 
-/// lambda = h(x; mu).
-Family graphs(std::function<double(double, double)> h,
-              std::function<double(double, double)> slope) {
-  return family_of<ScalarProblem>([=](double mu) {
-    return graph([=](double x) { return h(x, mu); }, [=](double x) { return slope(x, mu); });
-  });
-}
-
-CriticalStart start_at(CriticalKind kind, Vector x, double lambda, double mu) {
-  return {.kind = kind, .x = std::move(x), .lambda = lambda, .mu = mu};
-}
-Vector single(double x) { return Vector::Constant(1, x); }
-
 TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
                                [](double x, double mu) { return 3 * x * x - mu; });
@@ -52,49 +39,6 @@ TEST(TwoParameters, NoPointStandsBesideACuspWhateverTheStep) {
     ASSERT_EQ(cusps.size(), 1U) << step;
     for (const auto& p : curve.points) EXPECT_GT(std::abs(p.s - cusps[0].point.s), 1e-6) << step;
   }
-}
-
-TEST(TwoParameters, FurtherPointsLieOnTheCurveAtMultiplesOfTheirSpacing) {
-  const Family family =
-      graphs([](double x, double mu) { return std::sin(x) * x * x - mu * x; },
-             [](double x, double mu) { return std::cos(x) * x * x + 2 * x * std::sin(x) - mu; });
-  const auto fold = [](double x) { return std::cos(x) * x * x + 2 * x * std::sin(x); };
-  TraceOptions options;
-  options.step.maximum = 0.3;
-  const double x = -0.9, mu = fold(x);
-  const CriticalStart start =
-      start_at(CriticalKind::limit_point, single(x), std::sin(x) * x * x - mu * x, mu);
-  const std::vector<CriticalEvent> events{stop_at(-1, mu)};
-  const auto own = follow_critical(family, start, false, events, options);
-  const double spacing = 0.004;
-  const auto curve =
-      follow_critical(family, start, false, events, options, {}, {.spacing = spacing});
-  EXPECT_EQ(curve.missed, 0);
-  EXPECT_EQ(curve.left_out, 0);
-  EXPECT_GT(curve.points.size(), 5 * own.points.size());
-  double before = -1;
-  int even = 0;
-  for (const auto& p : curve.points) {
-    EXPECT_GT(p.s, before);
-    before = p.s;
-    EXPECT_NEAR(p.mu, fold(p.x[0]), 1e-12);
-    EXPECT_NEAR(p.lambda, std::sin(p.x[0]) * p.x[0] * p.x[0] - p.mu * p.x[0], 1e-12);
-    even += std::abs(std::remainder(p.s, spacing)) < 1e-9 * spacing ? 1 : 0;
-  }
-  EXPECT_GE(even, static_cast<int>(own.points.back().s / spacing) - 1);
-  ASSERT_EQ(hits_of(curve, Degeneracy::cusp).size(), 1U);
-  EXPECT_EQ(hits_of(curve, Degeneracy::cusp)[0].point.s, hits_of(own, Degeneracy::cusp)[0].point.s);
-}
-
-TEST(TwoParameters, MoreFurtherPointsThanAllowedAreLeftOutAndCounted) {
-  const Family family = graphs([](double x, double mu) { return x * x * x - mu * x; },
-                               [](double x, double mu) { return 3 * x * x - mu; });
-  const CriticalStart start = start_at(CriticalKind::limit_point, single(-1), 2, 3);
-  const auto own = follow_critical(family, start, false, {stop_at(-1, 4)}, {});
-  const auto curve = follow_critical(family, start, false, {stop_at(-1, 4)}, {}, {},
-                                     {.spacing = 1e-3, .most = 10});
-  EXPECT_EQ(curve.points.size(), own.points.size());
-  EXPECT_NEAR(curve.left_out, own.points.back().s / 1e-3, 1);
 }
 
 TEST(TwoParameters, AClosedBranchThatShrinksIsAnIsolaCentreAndSaddlesAreCrossings) {

@@ -4,13 +4,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <deque>
 
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/numerics/sampling.hpp"
-#include "continuation/points/arc.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
@@ -51,65 +49,9 @@ double clear_value_beyond(const Function& value, double h, double noise) {
   return 0;
 }
 
-/// The points of one step that its events have asked for: those of one ask for the same places as those of another.
-class StepPoints {
- public:
-  StepPoints(const Walker& walker, Samples samples)
-      : walker_{walker}, from_{*samples.front()}, to_{*samples.back()} {
-    has_model_ = samples.size() > 2 && model_.go_through(walker.weights, from_, samples);
-  }
-
-  const std::optional<CurvePoint>& at(double ds) {
-    const auto known = std::find_if(points_.begin(), points_.end(),
-                                    [ds](const auto& entry) { return entry.first == ds; });
-    if (known != points_.end()) return known->second;
-    points_.emplace_back(ds, find(ds));
-    return points_.back().second;
-  }
-
-  /// Is the event clear of zero on the model through the ends and the middle? So far as it stays away, the curve itself,
-  /// which was found to be near to its model, does not reach zero either.
-  bool stays_clear(const Event& event, double ends) {
-    constexpr int parts = 8;
-    constexpr double clear = aside_share;
-    if (!has_model_) return false;
-    double least = std::abs(ends), most = least;
-    for (int k = 1; k < parts; ++k) {
-      const double share = static_cast<double>(k) / parts;
-      model_.point(walker_.weights, from_, share * model_.end(), expected_);
-      const double value = event.value(expected_);
-      if (!std::isfinite(value) || (value < 0) != (ends < 0)) return false;
-      least = std::min(least, std::abs(value));
-      most = std::max(most, std::abs(value));
-    }
-    return least > clear * most;
-  }
-
- private:
-  std::optional<CurvePoint> find(double ds) {
-    if (has_model_) {
-      model_.point(walker_.weights, from_, ds, expected_);
-      StepResult near =
-          point_on_curve(walker_, expected_.x, expected_.lambda, from_.piece, from_.tangent);
-      if (near.point && cosine(walker_, near.point->tangent, expected_.tangent) > same_way) {
-        near.point->s = from_.s + ds;
-        return std::move(near.point);
-      }
-    }
-    return point_between(walker_, from_, to_, ds);
-  }
-
-  const Walker& walker_;
-  const CurvePoint &from_, &to_;
-  ArcModel model_{};
-  bool has_model_ = false;
-  CurvePoint expected_{};
-  std::deque<std::pair<double, std::optional<CurvePoint>>> points_{};
-};
-
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
-bool add_user_event(const Walker& walker, Samples samples, StepPoints& points, const Event& event,
+bool add_user_event(const Walker& walker, Samples samples, const Event& event,
                     std::vector<Found>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
@@ -127,15 +69,11 @@ bool add_user_event(const Walker& walker, Samples samples, StepPoints& points, c
   for (double* end : {&values.front(), &values.back()})
     if (std::abs(*end) <= noise) *end = 0;
   if (!within_reach(values)) return true;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  if (*low * *high > 0 &&
-      points.stays_clear(event, std::abs(*low) < std::abs(*high) ? *low : *high))
-    return true;
   // At the ends the very values that the neighbouring steps see: a sign must not change in between.
   const auto value = [&](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
     if (ds == h) return values.back();
-    const auto& point = points.at(ds);
+    const auto point = point_between(walker, from, to, ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
@@ -151,7 +89,7 @@ bool add_user_event(const Walker& walker, Samples samples, StepPoints& points, c
   bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
     if (zero.touches || !(zero.at > begin)) continue;
-    auto point = points.at(zero.at);
+    auto point = point_between(walker, from, to, zero.at);
     if (!point) point = interpolated_point(walker, from, to, zero.at);
     // The end is zero itself, and a branch point, next to which there are no points and tangents are rough: see below.
     if (!point && h - zero.at <= one_place) {
@@ -184,9 +122,8 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   result.flat = singular.flat;
   std::vector<Found> found;
   for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
-  StepPoints points(walker, samples);
   for (const Event& event : events)
-    if (!add_user_event(walker, samples, points, event, found)) {
+    if (!add_user_event(walker, samples, event, found)) {
       result.doubt = "event \"" + event.name + "\" could not be located";
       result.of_caller = true;
     }

@@ -3,21 +3,10 @@
 
 #include <optional>
 
+#include "continuation/parameters/family_differences.hpp"
 #include "springfold/continuation/two_parameter.hpp"
 
 namespace springfold::continuation {
-
-/// The equations at one place of one member of the family.
-struct BaseTerms {
-  Vector F{};
-  Matrix J{};  ///< [dF/dx dF/dlambda], n x (n + 1)
-  Matrix A{};  ///< storage, as `b`
-  Vector b{};
-};
-
-/// False outside the domain.
-bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
-                BaseTerms& terms);
 
 /// M = [dF/dx B; C^T 0].
 Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C);
@@ -41,10 +30,6 @@ struct NullVectors {
   Matrix left{}, right{};
 };
 std::optional<NullVectors> null_vectors(const Family& family, const CriticalStart& at, int k);
-
-/// w^T D^2F [V, .] by (x, lambda), n + 1 entries: differences of J along V. @param V  n + 1 entries
-std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
-                                   const Piece& piece, const Vector& w, const Vector& V);
 
 /// All kinds as one SmoothProblem with the parameter mu.
 class Augmented {

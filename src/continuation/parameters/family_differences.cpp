@@ -1,0 +1,91 @@
+#include "continuation/parameters/family_differences.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "continuation/numerics/numerics.hpp"
+#include "springfold/core/differences.hpp"
+#include "springfold/core/finite.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// The same of two points, where the error that is left may be a ten-millionth.
+constexpr double rough_step = 0x1p-10;
+
+/// How much wider a grid is that neighbouring places share.
+constexpr double wider = 4;
+
+/// All members of a family have the unknowns and the switches of the first one.
+void check_shape(ProblemView problem, Index size, const Piece& piece) {
+  if (problem.size() != size)
+    throw std::invalid_argument("a problem of the family has " + std::to_string(problem.size()) +
+                                " unknowns, needed: " + std::to_string(size));
+  if (problem.switch_count() != static_cast<Index>(piece.size()))
+    throw std::invalid_argument("a problem of the family has " +
+                                std::to_string(problem.switch_count()) +
+                                " switches, the piece has " + std::to_string(piece.size()));
+}
+
+}  // namespace
+
+bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
+                BaseTerms& terms) {
+  const auto problem = family.at(mu);
+  if (!problem) return false;
+  const Index n = x.size();
+  check_shape(*problem, n, piece);
+  if (!problem->equations(x, lambda, piece, terms.F, terms.A, terms.b)) return false;
+  terms.J.resize(n, n + 1);
+  terms.J.leftCols(n) = terms.A;
+  terms.J.col(n) = terms.b;
+  return all_finite(terms.F) && all_finite(terms.J);
+}
+
+std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
+                                   const Piece& piece, const Vector& w, const Vector& V) {
+  const Index n = x.size();
+  const double largest = V.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0)) return Vector::Zero(n + 1);
+  BaseTerms base;
+  return six_point_derivative(
+      [&](double t) -> std::optional<Vector> {
+        if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
+          return std::nullopt;
+        return Vector(base.J.transpose() * w);
+      },
+      0, directional_step / largest);
+}
+
+std::optional<Vector> rough_second_along(const Family& family, const Vector& x, double lambda,
+                                         double mu, const Piece& piece, const Vector& w,
+                                         const Vector& V) {
+  const Index n = x.size();
+  const double largest = V.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0)) return Vector::Zero(n + 1);
+  const double t = rough_step / largest;
+  BaseTerms above, below;
+  if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, above) ||
+      !base_terms(family, x - t * V.head(n), lambda - t * V[n], mu, piece, below))
+    return std::nullopt;
+  return Vector((above.J - below.J).transpose() * w / (2 * t));
+}
+
+std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
+                                              double mu, double step) {
+  const auto wide = grid_derivative(f, mu, wider * step);
+  if (wide && wide->doubt <= one_place * std::max(1.0, wide->value.lpNorm<Eigen::Infinity>()))
+    return wide->value;
+  // Beside the end of the family's domain the formula that reaches less far may have all of its places.
+  if (const auto narrow = grid_derivative(f, mu, step)) return narrow->value;
+  return six_point_derivative(f, mu, step);
+}
+
+std::optional<Vector> rough_derivative_by_parameter(
+    const std::function<std::optional<Vector>(double)>& f, double mu, double step) {
+  if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
+  return derivative_by_parameter(f, mu, step);
+}
+
+}  // namespace springfold::continuation
