@@ -12,7 +12,8 @@
 #                  contours_n, edge_n, activation_n, unstable_n   x y of line segments
 #   has_gaps, has_infinite   1 if there are nodes without value, with an infinite value
 #   clipped        finite values beyond the ends of the colours
-#   formats        'png svg', also 'pdf'
+#   figure_format, figure_font, figure_font_size   as in style.gp
+#   figure_width, figure_height   size in pixels; 0: as large as it needs
 #   has_edge, has_activation, has_unstable   1 if any panel has such lines
 # style.gp is read before this file.
 
@@ -27,11 +28,15 @@ set style line 33 linecolor rgb '#D55E00' linewidth 3.0 dashtype (8, 5)   # spri
 set style line 34 linecolor rgb '#CC79A7' linewidth 3.0 dashtype (2, 4)   # stability is lost
 
 tic_font = sized(figure_font_size - 2)
-panel_size = 470.0
-left = 100.0; gap = 85.0; right = 150.0; bottom = 85.0
-top = 110.0
-figure_width = left + panels * panel_size + (panels - 1) * gap + right
-figure_height = bottom + panel_size + top
+scale = figure_font_size / 14.0
+left = 100.0 * scale; gap = 85.0 * scale; right = 150.0 * scale; bottom = 85.0 * scale; top = 110.0 * scale
+least_panel = 60.0
+panel_width = figure_width > 0 ? (figure_width - left - right - (panels - 1) * gap) / panels : 470.0
+panel_height = figure_height > 0 ? figure_height - bottom - top : 470.0
+panel_width = panel_width < least_panel ? least_panel : panel_width
+panel_height = panel_height < least_panel ? least_panel : panel_height
+figure_width = left + panels * panel_width + (panels - 1) * gap + right
+figure_height = bottom + panel_height + top
 
 set xrange [x_low:x_high]
 set yrange [y_low:y_high]
@@ -44,59 +49,61 @@ unset grid
 set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb '#EEEEEE' \
     fillstyle solid noborder
 set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.2
-set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center @figure_title_mode \
+set label 1 figure_title at screen 0.5, screen 1 - 24 * scale / figure_height center @figure_title_mode \
     font title_font textcolor rgb ink
 set cblabel value_title @value_title_mode textcolor rgb ink offset 1.5, 0
 do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
 
-do for [format in formats] {
-  if (format eq 'png') {
-    set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-  }
-  if (format eq 'pdf') {
-    set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
-  }
-  if (format eq 'svg') {
-    set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-        background rgb 'white'
-  }
-  set output figure_name.'.'.format
-  set multiplot
-  do for [n = 1:panels] {
-    x0 = left + (n - 1) * (panel_size + gap)
-    set lmargin at screen x0 / figure_width
-    set rmargin at screen (x0 + panel_size) / figure_width
-    set bmargin at screen bottom / figure_height
-    set tmargin at screen (bottom + panel_size) / figure_height
-    if (n == 1) { set ylabel y_title @y_title_mode textcolor rgb ink } else { unset ylabel }
-    if (n == panels) {
-      set colorbox user origin (x0 + panel_size + 18) / figure_width, bottom / figure_height \
-          size 20 / figure_width, panel_size / figure_height
-    } else { unset colorbox }
-    set title panel_title[n] @panel_title_mode font base_font textcolor rgb ink offset 0, -0.4
-    if (n == 1) {
-      set key at screen 0.5, screen 1 - 40 / figure_height top center horizontal noenhanced \
-          samplen 3 font key_font textcolor rgb ink Left reverse
-    } else { unset key }
-    plot '$field_'.n using 1:2:3 with image notitle, \
-         '$contours_'.n with lines linestyle 31 notitle, \
-         '$activation_'.n with lines linestyle 33 notitle, \
-         '$unstable_'.n with lines linestyle 34 notitle, \
-         '$edge_'.n with lines linestyle 32 notitle, \
-         '$numbers_'.n using 1:2:3 with labels boxed font tic_font textcolor rgb ink notitle, \
-         NaN with lines linestyle 32 title (has_edge ? 'edge of the workspace' : ''), \
-         NaN with lines linestyle 33 title (has_activation ? 'a spring switches' : ''), \
-         NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : ''), \
-         NaN with points pointtype 5 pointsize 2 linecolor rgb '#DDDDDD' \
-             title (has_gaps ? 'no value' : ''), \
-         NaN with lines linecolor rgb 'white' \
-             title (has_infinite ? 'infinite: colour at the end' : ''), \
-         NaN with lines linecolor rgb 'white' \
-             title (clipped > 0 ? sprintf('%d values beyond the colours', clipped) : '')
-    unset label 1
-  }
-  unset multiplot
-  unset output
-  set label 1 figure_title at screen 0.5, screen 1 - 24 / figure_height center @figure_title_mode \
-      font title_font textcolor rgb ink
+# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
+if (figure_format eq 'png') {
+  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
 }
+if (figure_format eq 'svg') {
+  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
+      background rgb 'white'
+}
+if (figure_format eq 'pdf') {
+  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
+}
+# This terminal takes numbers only, no names of them.
+tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
+if (figure_format eq 'tikz') {
+  set terminal tikz size @tikz_size standalone
+}
+set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+set multiplot
+do for [n = 1:panels] {
+  x0 = left + (n - 1) * (panel_width + gap)
+  set lmargin at screen x0 / figure_width
+  set rmargin at screen (x0 + panel_width) / figure_width
+  set bmargin at screen bottom / figure_height
+  set tmargin at screen (bottom + panel_height) / figure_height
+  if (n == 1) { set ylabel y_title @y_title_mode textcolor rgb ink } else { unset ylabel }
+  if (n == panels) {
+    set colorbox user origin (x0 + panel_width + 18) / figure_width, bottom / figure_height \
+        size 20 / figure_width, panel_height / figure_height
+  } else { unset colorbox }
+  set title panel_title[n] @panel_title_mode font base_font textcolor rgb ink offset 0, -0.4
+  if (n == 1) {
+    set key at screen 0.5, screen 1 - 40 * scale / figure_height top center horizontal noenhanced \
+        samplen 3 font key_font textcolor rgb ink Left reverse
+  } else { unset key }
+  plot '$field_'.n using 1:2:3 with image notitle, \
+       '$contours_'.n with lines linestyle 31 notitle, \
+       '$activation_'.n with lines linestyle 33 notitle, \
+       '$unstable_'.n with lines linestyle 34 notitle, \
+       '$edge_'.n with lines linestyle 32 notitle, \
+       '$numbers_'.n using 1:2:3 with labels boxed font tic_font textcolor rgb ink notitle, \
+       NaN with lines linestyle 32 title (has_edge ? 'edge of the workspace' : ''), \
+       NaN with lines linestyle 33 title (has_activation ? 'a spring switches' : ''), \
+       NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : ''), \
+       NaN with points pointtype 5 pointsize 2 linecolor rgb '#DDDDDD' \
+           title (has_gaps ? 'no value' : ''), \
+       NaN with lines linecolor rgb 'white' \
+           title (has_infinite ? 'infinite: colour at the end' : ''), \
+       NaN with lines linecolor rgb 'white' \
+           title (clipped > 0 ? sprintf('%d values beyond the colours', clipped) : '')
+  unset label 1
+}
+unset multiplot
+unset output

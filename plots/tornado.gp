@@ -3,13 +3,17 @@
 # The program has set before this file is read:
 #   figure_name, figure_title, x_title   texts; figure_title_mode, x_title_mode as in style.gp
 #   bars            number of bars; bar n has parameter[n] (its name), value[n], shown[n] (the value as text)
-#   formats         'png svg', and perhaps 'pdf'; figure_font, figure_font_size as in style.gp
+#   figure_format, figure_font, figure_font_size   as in style.gp
+#   figure_width, figure_height   size in pixels; 0: as large as it needs
 #   left_out        parameters without a bar and why, or ''
 # style.gp is read before this file.
 
-row = 46.0
-figure_width = 1000.0
-top = 80.0; bottom = 95.0 + (left_out eq '' ? 0 : 24.0)
+scale = figure_font_size / 14.0
+top = 80.0 * scale; bottom = (95.0 + (left_out eq '' ? 0 : 24.0)) * scale
+least_row = 12.0
+figure_width = figure_width > 0 ? figure_width : 1000.0
+row = figure_height > 0 ? (figure_height - top - bottom) / bars : 46.0 * scale
+row = row < least_row ? least_row : row
 figure_height = top + row * bars + bottom
 
 # Names stand at the left, room for values on both sides of the bars.
@@ -22,7 +26,7 @@ do for [i = 1:bars] {
 width = high - low > 0 ? high - low : 1
 set xrange [low - (low < 0 ? 0.16 : 0.02) * width : high + (high > 0 ? 0.16 : 0.02) * width]
 set yrange [bars + 0.5 : 0.5]
-set lmargin at screen (40.0 + 11.0 * longest) / figure_width
+set lmargin at screen (40.0 + 11.0 * longest) * scale / figure_width
 set rmargin at screen 0.97
 set bmargin at screen bottom / figure_height
 set tmargin at screen (figure_height - top) / figure_height
@@ -47,21 +51,25 @@ do for [i = 1:bars] {
         font point_label_font textcolor rgb ink
   }
 }
-if (left_out ne '') set label 1 left_out at screen 0.5, screen 18 / figure_height center noenhanced \
+if (left_out ne '') set label 1 left_out at screen 0.5, screen 18 * scale / figure_height center noenhanced \
     font point_label_font textcolor rgb '#777777'
 
-do for [format in formats] {
-  if (format eq 'png') {
-    set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-  }
-  if (format eq 'pdf') {
-    set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
-  }
-  if (format eq 'svg') {
-    set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-        background rgb 'white'
-  }
-  set output figure_name.'.'.format
-  plot NaN notitle
-  unset output
+# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
+if (figure_format eq 'png') {
+  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
 }
+if (figure_format eq 'svg') {
+  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
+      background rgb 'white'
+}
+if (figure_format eq 'pdf') {
+  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
+}
+# This terminal takes numbers only, no names of them.
+tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
+if (figure_format eq 'tikz') {
+  set terminal tikz size @tikz_size standalone
+}
+set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+plot NaN notitle
+unset output

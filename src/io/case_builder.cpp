@@ -282,6 +282,7 @@ class Builder {
       spec.factor = numbers[plot.factor];
       spec.x_factor = numbers[plot.x_factor];
       spec.y_factor = numbers[plot.y_factor];
+      set_numbers(plot.look, numbers, spec.look);
       for (const NumberId level : plot.levels) spec.levels.push_back(numbers[level]);
       if (!plot.range.empty()) spec.range = {numbers[plot.range[0]], numbers[plot.range[1]]};
       for (const MapPanelSpec& panel : spec.panels)
@@ -291,7 +292,9 @@ class Builder {
     }
     for (const TornadoDraft& tornado : draft_->tornados) {
       if (tornado.study) check_use(tornado.quantity, *tornado.study, tornado.spec.run);
-      result_.tornados.push_back(tornado.spec);
+      TornadoSpec spec = tornado.spec;
+      set_numbers(tornado.look, tornado.numbers.values(draft_->book, parameters).values, spec.look);
+      result_.tornados.push_back(std::move(spec));
     }
     for (const PictureDraft& picture : draft_->pictures) {
       for (const std::size_t i : picture.studies)

@@ -51,6 +51,10 @@ void check_numbers(const CaseDraft& draft, Problems& problems) {
     std::vector<bool> none;
     plot.numbers.check(plot.numbers.values(draft.book, parameters), "", problems, none);
   }
+  for (const TornadoDraft& tornado : draft.tornados) {
+    std::vector<bool> none;
+    tornado.numbers.check(tornado.numbers.values(draft.book, parameters), "", problems, none);
+  }
   for (const StudyDraft& study : draft.studies) check_runs(draft, study, reported, problems);
 }
 

@@ -31,11 +31,14 @@ struct MapPlotDraft {
   NumberTable numbers{};
   NumberId factor = 0, x_factor = 0, y_factor = 0;
   std::vector<NumberId> levels{}, range{};
+  SheetLookDraft look{};
   NamedPlace quantity{};
 };
 
 struct TornadoDraft {
-  TornadoSpec spec{};
+  TornadoSpec spec{};  ///< without its numbers
+  NumberTable numbers{};
+  SheetLookDraft look{};
   std::optional<std::size_t> study{};  ///< position in CaseDraft::studies
   NamedPlace quantity{};
 };

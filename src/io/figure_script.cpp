@@ -128,12 +128,6 @@ std::string on_screen(const PlotPoint& at, const Canvas& canvas) {
          rounded(at.second / canvas.height, 6);
 }
 
-/// Text for LaTeX has no markup of gnuplot, and its own signs are escaped.
-FigureText text_for(const FigureText& text, bool is_tex) {
-  if (!is_tex) return text;
-  return {tex_text(text.is_markup ? without_markup(text.text) : text.text)};
-}
-
 /// Labels hang on points of the axes: they follow where a script is given other ranges.
 void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, bool is_tex) {
   for (const auto& label : place_labels(figure, canvas)) {

@@ -73,6 +73,19 @@ std::string tex_text(std::string_view text) {
   return escaped;
 }
 
+FigureText text_for(const FigureText& text, bool is_tex) {
+  if (!is_tex) return text;
+  return {tex_text(text.is_markup ? without_markup(text.text) : text.text)};
+}
+
+std::string sheet_assignments(const SheetLook& look, const std::string& format) {
+  return "\nfigure_format = " + gnuplot_string(format) +
+         "\nfigure_font = " + gnuplot_string(look.font) +
+         "\nfigure_font_size = " + shortest(look.font_size) +
+         "\nfigure_width = " + shortest(look.width) + "\nfigure_height = " + shortest(look.height) +
+         "\n";
+}
+
 std::string markup_problem(std::string_view text) {
   for (std::size_t i = text.find('{'); i != std::string_view::npos; i = text.find('{', i + 1)) {
     const std::size_t begin = font_at(text, i);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "figure.hpp"
+#include "springfold/io/plot_look.hpp"
 
 namespace springfold::io {
 
@@ -25,6 +26,12 @@ std::string without_markup(std::string_view text);
 /// The text for LaTeX, all of whose signs with a meaning there are escaped; what is not visible is
 /// written out.
 std::string tex_text(std::string_view text);
+
+/// The text as a figure for LaTeX has it (format "tikz"): without gnuplot's markup, its own signs escaped.
+FigureText text_for(const FigureText& text, bool is_tex);
+
+/// The lines that set format, font and size of a map or a figure of bars.
+std::string sheet_assignments(const SheetLook& look, const std::string& format);
 
 /// What is wrong with a text in gnuplot's markup; empty if nothing is. Names of fonts, "{/Symbol q}", stand
 /// unquoted in SVG files: what could end them there is refused.

@@ -226,7 +226,7 @@ std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<St
   for (const MapPlotSpec& spec : specs_of(the_case)) {
     const auto given = [&spec](const std::string& text) { return FigureText{text, spec.markup}; };
     MapFigure figure{.name = spec.name, .title = given(spec.title)};
-    figure.formats = spec.formats;
+    figure.look = spec.look;
     std::vector<Plane> planes;
     for (const MapPanelSpec& wanted : spec.panels) {
       const StudyResult* result = result_of(results, wanted.study, wanted.run);

@@ -55,7 +55,7 @@ struct MapFigure {
   double low = 0, high = 1;  ///< of the colours
   std::vector<double> levels{};
   std::vector<MapPanel> panels{};
-  std::vector<std::string> formats{"png", "svg"};
+  SheetLook look{};
   bool has_gaps = false;      ///< nodes without value
   bool has_infinite = false;  ///< values beyond all bounds
   int clipped = 0;            ///< finite values beyond the colours

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "plot_look_reader.hpp"
 #include "plot_reader.hpp"
 
 namespace springfold::io {
@@ -8,10 +9,10 @@ namespace {
 class MapPlotReader {
  public:
   MapPlotReader(const Item& item, const std::vector<StudyDraft>& studies, Reading& reading)
-      : table_{*item.node,
-               item.key,
-               {"name", "title", "quantity", "label", "x_label", "y_label", "factor", "x_factor",
-                "y_factor", "levels", "range", "activation", "markup", "panels", "formats"},
+      : table_{*item.node, item.key,
+               with_sheet_keys({"name", "title", "quantity", "label", "x_label", "y_label",
+                                "factor", "x_factor", "y_factor", "levels", "range", "activation",
+                                "markup", "panels"}),
                reading},
         item_{item},
         studies_{studies},
@@ -37,7 +38,7 @@ class MapPlotReader {
     read_range();
     spec.activation = table_.truth("activation", spec.activation);
     spec.markup = read_markup(table_, item_, reading_);
-    spec.formats = read_formats(table_, {"png", "svg", "pdf"}, spec.formats, reading_);
+    draft_.look = read_sheet_look(table_, spec.look, draft_.numbers, reading_);
     read_panels();
     return std::move(draft_);
   }

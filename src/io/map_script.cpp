@@ -39,6 +39,21 @@ void add_field(std::string& script, const std::string& name, const GridField& fi
   script += "e\n";
 }
 
+std::string texts(const MapFigure& figure, bool is_tex) {
+  const std::vector<MapPanel>& panels = figure.panels;
+  std::string script = gnuplot_assignment("figure_title", text_for(figure.title, is_tex)) +
+                       gnuplot_assignment("x_title", text_for(figure.x_title, is_tex)) +
+                       gnuplot_assignment("y_title", text_for(figure.y_title, is_tex)) +
+                       gnuplot_assignment("value_title", text_for(figure.value_title, is_tex)) +
+                       "panel_title_mode = '" +
+                       gnuplot_mode(text_for(panels.front().title, is_tex)) + "'\n" +
+                       "array panel_title[" + std::to_string(panels.size()) + "]\n";
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    script += "panel_title[" + std::to_string(i + 1) +
+              "] = " + gnuplot_string(text_for(panels[i].title, is_tex).text) + "\n";
+  return script;
+}
+
 }  // namespace
 
 std::string map_script(const MapFigure& figure, const std::string& style,
@@ -49,17 +64,6 @@ std::string map_script(const MapFigure& figure, const std::string& style,
     script += name + " = " + value + "\n";
   };
   assign("figure_name", gnuplot_string(figure.name));
-  script += gnuplot_assignment("figure_title", figure.title) +
-            gnuplot_assignment("x_title", figure.x_title) +
-            gnuplot_assignment("y_title", figure.y_title) +
-            gnuplot_assignment("value_title", figure.value_title);
-  const PlotLook usual;
-  assign("figure_format", "'map'");
-  assign("figure_font", gnuplot_string(usual.font));
-  assign("figure_font_size", shortest(usual.font_size));
-  std::string formats;
-  for (const std::string& format : figure.formats) formats += (formats.empty() ? "" : " ") + format;
-  assign("formats", gnuplot_string(formats));
   assign("value_low", shortest(figure.low));
   assign("value_high", shortest(figure.high));
   std::string levels;
@@ -73,13 +77,10 @@ std::string map_script(const MapFigure& figure, const std::string& style,
   assign("x_high", shortest(std::max(xs.front(), xs.back())));
   assign("y_low", shortest(std::min(ys.front(), ys.back())));
   assign("y_high", shortest(std::max(ys.front(), ys.back())));
-  assign("panel_title_mode", "'" + gnuplot_mode(figure.panels.front().title) + "'");
   bool edge = false, activation = false, unstable = false;
-  script += "array panel_title[" + std::to_string(figure.panels.size()) + "]\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const MapPanel& panel = figure.panels[i];
     const std::string k = std::to_string(i + 1);
-    script += "panel_title[" + k + "] = " + gnuplot_string(panel.title.text) + "\n";
     add_field(script, "field_" + k, panel.field, figure.low, figure.high);
     add_block(script, "contours_" + k, panel.contours);
     script += "$numbers_" + k + " << e\n";
@@ -101,7 +102,10 @@ std::string map_script(const MapFigure& figure, const std::string& style,
   assign("has_edge", edge ? "1" : "0");
   assign("has_activation", activation ? "1" : "0");
   assign("has_unstable", unstable ? "1" : "0");
-  return script + "\n" + style + "\n" + drawing;
+  for (const std::string& format : figure.look.formats)
+    script += sheet_assignments(figure.look, format) + texts(figure, format == "tikz") + "\n" +
+              style + "\n" + drawing;
+  return script;
 }
 
 }  // namespace springfold::io

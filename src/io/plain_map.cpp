@@ -20,7 +20,13 @@ using drawing::Picture;
 using drawing::Place;
 using drawing::Words;
 
-constexpr double text_size = 19;
+/// Pixels of the words of axes: 96 stand for 72 points.
+double words_of(const SheetLook& look) { return look.font_size * 19 / 14; }
+
+/// What is left of a wanted length, or the usual one.
+double room_of(double wanted, double taken, double usual, double least) {
+  return wanted > 0 ? std::max(wanted - taken, least) : usual;
+}
 
 /// Viridis (van der Walt, Smith, Firing), as plots/map.gp has it.
 std::string map_colour(double part) {
@@ -126,6 +132,7 @@ std::vector<Entry> map_key_of(const MapFigure& figure) {
 
 void add_panel(const MapFigure& figure, const MapPanel& panel, const Frame& frame, bool is_first,
                Picture& picture) {
+  const double text_size = words_of(figure.look);
   picture.marks.emplace_back(Path{{{frame.box.left, frame.box.top},
                                    {frame.box.right, frame.box.top},
                                    {frame.box.right, frame.box.bottom},
@@ -172,18 +179,24 @@ void add_panel(const MapFigure& figure, const MapPanel& panel, const Frame& fram
 }  // namespace
 
 Picture picture_of(const MapFigure& figure) {
-  constexpr double size = 470, left = 110, gap = 85, right = 150, bottom = 85, top = 140;
+  const double text_size = words_of(figure.look), scale = text_size / 19;
+  const double left = 110 * scale, gap = 85 * scale, right = 150 * scale, bottom = 85 * scale;
+  const double top = 140 * scale;
   const auto count = static_cast<double>(figure.panels.size());
-  Picture picture{.width = left + count * size + (count - 1) * gap + right,
-                  .height = top + size + bottom,
+  const double beside = left + (count - 1) * gap + right;
+  const double usual = 470, least = 60;  // a panel
+  const double width = room_of(figure.look.width, beside, count * usual, count * least) / count;
+  const double height = room_of(figure.look.height, top + bottom, usual, least);
+  Picture picture{.width = beside + count * width,
+                  .height = top + height + bottom,
                   .title = text_of(figure.title)};
   const GridField& field = figure.panels.front().field;
   const auto [x0, x1] = std::minmax(field.xs.front(), field.xs.back());
   const auto [y0, y1] = std::minmax(field.ys.front(), field.ys.back());
-  Frame frame{{0, top, 0, top + size}, {x0, y0}, {x1, y1}};
+  Frame frame{{0, top, 0, top + height}, {x0, y0}, {x1, y1}};
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    frame.box.left = left + static_cast<double>(i) * (size + gap);
-    frame.box.right = frame.box.left + size;
+    frame.box.left = left + static_cast<double>(i) * (width + gap);
+    frame.box.right = frame.box.left + width;
     add_panel(figure, figure.panels[i], frame, i == 0, picture);
   }
   add_bar(frame, {text_of(figure.value_title), figure.low, figure.high}, 0.9 * text_size,
@@ -192,14 +205,20 @@ Picture picture_of(const MapFigure& figure) {
                                    .text = picture.title,
                                    .anchor = Anchor::middle,
                                    .size = 1.28 * text_size});
-  add_key(map_key_of(figure), {12, 40, picture.width - 12, top - 40}, 0.9 * text_size, picture);
+  add_key(map_key_of(figure), {12, 2.1 * text_size, picture.width - 12, top - 2.1 * text_size},
+          0.9 * text_size, picture);
   return picture;
 }
 
 Picture picture_of(const TornadoFigure& figure) {
-  constexpr double row = 46, width = 1000, top = 80, letter = 11, bar = 0.34;
+  const double text_size = words_of(figure.look), scale = text_size / 19;
+  const double top = 80 * scale, letter = 11 * scale, bar = 0.34;
   const auto count = static_cast<double>(figure.bars.size());
-  const double bottom = 95.0 + (figure.left_out.empty() ? 0 : 24);
+  const double bottom = (95.0 + (figure.left_out.empty() ? 0 : 24)) * scale;
+  const double width = room_of(figure.look.width, 0, 1000, 0);
+  const double usual = 46 * scale, least = 12;  // a row
+  const double row =
+      room_of(figure.look.height, top + bottom, count * usual, count * least) / count;
   Picture picture{
       .width = width, .height = top + row * count + bottom, .title = text_of(figure.title)};
   double low = 0, high = 0;
@@ -209,10 +228,10 @@ Picture picture_of(const TornadoFigure& figure) {
     longest = std::max(longest, width_of(b.parameter));
   }
   const double room = high > low ? high - low : 1;
-  const Frame frame{
-      {40 + letter * static_cast<double>(longest), top, 0.97 * width, picture.height - bottom},
-      {low - (low < 0 ? 0.16 : 0.02) * room, 0},
-      {high + (high > 0 ? 0.16 : 0.02) * room, 1}};
+  const Frame frame{{40 * scale + letter * static_cast<double>(longest), top, 0.97 * width,
+                     picture.height - bottom},
+                    {low - (low < 0 ? 0.16 : 0.02) * room, 0},
+                    {high + (high > 0 ? 0.16 : 0.02) * room, 1}};
   constexpr std::size_t most = 8;
   add_axes(frame, {round_ticks({frame.low.first, frame.high.first}, false, most), {}, text_size},
            picture);

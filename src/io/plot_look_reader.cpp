@@ -59,6 +59,22 @@ void check_font(const TableReader& table, const std::string& font, Reading& read
       "got \"" + font + "\", need the name of a font: letters, digits, blanks, '-'");
 }
 
+/// The keys that all figures have.
+template <typename Look, typename Draft>
+void read_size_and_font(const TableReader& table, Look& look, Draft& draft, NumberTable& numbers,
+                        Reading& reading) {
+  draft.size = read_pair(table, "size", "[width, height] in pixels", {}, numbers, reading);
+  draft.font_size = table.number("font_size", {}, numbers, look.font_size);
+  if (!draft.size.empty())
+    require_between(table, "size", draft.size, smallest_side, largest_side, "pixels", numbers);
+  if (table.has("font_size"))
+    require_between(table, "font_size", {draft.font_size}, smallest_font, largest_font, "points",
+                    numbers);
+  look.font = table.text("font").value_or(look.font);
+  if (table.has("font")) check_font(table, look.font, reading);
+  look.formats = read_formats(table, {"png", "svg", "pdf", "tikz"}, look.formats, reading);
+}
+
 void read_insets(const TableReader& table, PlotLook& look, PlotLookDraft& draft,
                  NumberTable& numbers, Reading& reading) {
   static const std::vector<std::string> corners{"top right", "top left", "bottom right",
@@ -123,16 +139,7 @@ PlotLookDraft read_look(const TableReader& table, PlotLook& look, NumberTable& n
   const Rule y_rule{.range = look.y_log ? Range::positive : Range::finite};
   draft.x_range = read_range(table, "x_range", x_rule, numbers, reading);
   draft.y_range = read_range(table, "y_range", y_rule, numbers, reading);
-  draft.size = read_pair(table, "size", "[width, height] in pixels", {}, numbers, reading);
-  draft.font_size = table.number("font_size", {}, numbers, look.font_size);
-  if (!draft.size.empty())
-    require_between(table, "size", draft.size, smallest_side, largest_side, "pixels", numbers);
-  if (table.has("font_size"))
-    require_between(table, "font_size", {draft.font_size}, smallest_font, largest_font, "points",
-                    numbers);
-  look.font = table.text("font").value_or(look.font);
-  if (table.has("font")) check_font(table, look.font, reading);
-  look.formats = read_formats(table, {"png", "svg", "pdf", "tikz"}, look.formats, reading);
+  read_size_and_font(table, look, draft, numbers, reading);
   read_insets(table, look, draft, numbers, reading);
   return draft;
 }
@@ -150,6 +157,23 @@ void set_numbers(const PlotLookDraft& draft, const std::vector<double>& values, 
       look.insets[i].x = pair(draft.insets[i].x);
       look.insets[i].y = pair(draft.insets[i].y);
     }
+}
+
+std::vector<std::string> with_sheet_keys(std::vector<std::string> others) {
+  for (const char* key : {"size", "font", "font_size", "formats"}) others.emplace_back(key);
+  return others;
+}
+
+SheetLookDraft read_sheet_look(const TableReader& table, SheetLook& look, NumberTable& numbers,
+                               Reading& reading) {
+  SheetLookDraft draft;
+  read_size_and_font(table, look, draft, numbers, reading);
+  return draft;
+}
+
+void set_numbers(const SheetLookDraft& draft, const std::vector<double>& values, SheetLook& look) {
+  if (!draft.size.empty()) look.width = values[draft.size[0]], look.height = values[draft.size[1]];
+  look.font_size = values[draft.font_size];
 }
 
 }  // namespace springfold::io

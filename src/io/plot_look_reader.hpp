@@ -31,6 +31,22 @@ PlotLookDraft read_look(const TableReader& table, PlotLook& look, NumberTable& n
 /// @param values  of the table that read_look was given
 void set_numbers(const PlotLookDraft& draft, const std::vector<double>& values, PlotLook& look);
 
+/// The numbers of a SheetLook, still formulas.
+struct SheetLookDraft {
+  std::vector<NumberId> size{};  ///< two, or none
+  NumberId font_size = 0;
+};
+
+/// The keys that read_sheet_look knows, after others.
+std::vector<std::string> with_sheet_keys(std::vector<std::string> others);
+
+/// @param look  gets everything but the numbers @returns these
+SheetLookDraft read_sheet_look(const TableReader& table, SheetLook& look, NumberTable& numbers,
+                               Reading& reading);
+
+/// @param values  of the table that read_sheet_look was given
+void set_numbers(const SheetLookDraft& draft, const std::vector<double>& values, SheetLook& look);
+
 /// Key `formats`: endings of the files that are written, all of `known`.
 std::vector<std::string> read_formats(const TableReader& table,
                                       const std::vector<std::string>& known,

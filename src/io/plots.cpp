@@ -168,8 +168,8 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
     make_names_differ(the_case, figures, maps, tornados);
     if (figures.empty() && maps.empty() && tornados.empty()) return outcome;
     for (const auto& figure : figures) expect_pictures(figure.name, figure.look.formats, outcome);
-    for (const auto& figure : maps) expect_pictures(figure.name, figure.formats, outcome);
-    for (const auto& figure : tornados) expect_pictures(figure.name, figure.formats, outcome);
+    for (const auto& figure : maps) expect_pictures(figure.name, figure.look.formats, outcome);
+    for (const auto& figure : tornados) expect_pictures(figure.name, figure.look.formats, outcome);
     if (options.stop_requested && options.stop_requested()) return outcome;
     const Templates templates = read_templates(options.templates, !maps.empty(), !tornados.empty());
     const auto gnuplot = find_executable(options.gnuplot);
@@ -188,11 +188,11 @@ PlotOutcome draw_plots(const fs::path& folder, const Case& the_case,
         write_figure_script(file, figure, templates.style, templates.figure);
       });
     for (const auto& figure : maps)
-      draw_one(figure, figure.formats, [&](const fs::path& file) {
+      draw_one(figure, figure.look.formats, [&](const fs::path& file) {
         write_file(file, map_script(figure, templates.style, templates.map));
       });
     for (const auto& figure : tornados)
-      draw_one(figure, figure.formats, [&](const fs::path& file) {
+      draw_one(figure, figure.look.formats, [&](const fs::path& file) {
         write_file(file, tornado_script(figure, templates.style, templates.tornado));
       });
   } catch (const std::exception& error) {

@@ -62,6 +62,17 @@ void add_bars(const StudyResult& result, const PlannedRun& planned, const Tornad
     figure.left_out += (figure.left_out.empty() ? "" : "; ") + ("no rate by: " + unknown);
 }
 
+std::string texts(const TornadoFigure& figure, bool is_tex) {
+  std::string script = gnuplot_assignment("figure_title", text_for(figure.title, is_tex)) +
+                       gnuplot_assignment("x_title", text_for(figure.x_title, is_tex)) +
+                       "left_out = " + gnuplot_string(text_for({figure.left_out}, is_tex).text) +
+                       "\n" + "array parameter[" + std::to_string(figure.bars.size()) + "]\n";
+  for (std::size_t i = 0; i < figure.bars.size(); ++i)
+    script += "parameter[" + std::to_string(i + 1) +
+              "] = " + gnuplot_string(text_for({figure.bars[i].parameter}, is_tex).text) + "\n";
+  return script;
+}
+
 }  // namespace
 
 std::vector<TornadoFigure> tornado_figures_of(const Case& the_case,
@@ -80,7 +91,7 @@ std::vector<TornadoFigure> tornado_figures_of(const Case& the_case,
     }
     TornadoFigure figure{.name = safe_file_name(spec.name), .title = {spec.title, spec.markup}};
     const std::string made = "d ln(" + spec.quantity + ") / d ln(parameter) at " + spec.at;
-    figure.formats = spec.formats;
+    figure.look = spec.look;
     figure.x_title = spec.label.empty() ? FigureText{made} : FigureText{spec.label, spec.markup};
     add_bars(*result, *planned, spec, *at, figure);
     const bool is_finite = !figure.bars.empty() &&
@@ -102,26 +113,18 @@ std::string tornado_script(const TornadoFigure& figure, const std::string& style
   std::string script =
       "# Written by springfold; `gnuplot " + figure.name + ".gp` draws it again.\n";
   script += "figure_name = " + gnuplot_string(figure.name) + "\n";
-  script += gnuplot_assignment("figure_title", figure.title) +
-            gnuplot_assignment("x_title", figure.x_title);
-  const PlotLook usual;
-  script += "figure_format = 'tornado'\nfigure_font = " + gnuplot_string(usual.font) +
-            "\nfigure_font_size = " + shortest(usual.font_size) + "\n";
-  std::string formats;
-  for (const std::string& format : figure.formats) formats += (formats.empty() ? "" : " ") + format;
-  script += "formats = " + gnuplot_string(formats) + "\n";
-  script += "left_out = " + gnuplot_string(figure.left_out) + "\n";
   const std::string count = std::to_string(figure.bars.size());
   script += "bars = " + count + "\n";
-  script +=
-      "array parameter[" + count + "]\narray value[" + count + "]\narray shown[" + count + "]\n";
+  script += "array value[" + count + "]\narray shown[" + count + "]\n";
   for (std::size_t i = 0; i < figure.bars.size(); ++i) {
     const std::string k = "[" + std::to_string(i + 1) + "] = ";
-    script += "parameter" + k + gnuplot_string(figure.bars[i].parameter) + "\n";
     script += "value" + k + shortest(figure.bars[i].value) + "\n";
     script += "shown" + k + gnuplot_string(rounded(figure.bars[i].value, 4)) + "\n";
   }
-  return script + "\n" + style + "\n" + drawing;
+  for (const std::string& format : figure.look.formats)
+    script += sheet_assignments(figure.look, format) + texts(figure, format == "tikz") + "\n" +
+              style + "\n" + drawing;
+  return script;
 }
 
 }  // namespace springfold::io

@@ -21,7 +21,7 @@ struct TornadoFigure {
   FigureText title{}, x_title{};
   std::vector<TornadoBar> bars{};  ///< sorted by size, the largest first; equal ones by name
   std::string left_out{};          ///< parameters without a bar, with the reason; empty: none
-  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
+  SheetLook look{};
 };
 
 /// The figures that the case asks for. What cannot be drawn is said in `problems`.

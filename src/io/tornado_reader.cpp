@@ -10,9 +10,8 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
   std::vector<TornadoDraft> drafts;
   for (const Item& item : tables) {
     const TableReader table{
-        *item.node,
-        item.key,
-        {"name", "title", "study", "run", "at", "quantity", "label", "markup", "formats"},
+        *item.node, item.key,
+        with_sheet_keys({"name", "title", "study", "run", "at", "quantity", "label", "markup"}),
         reading};
     TornadoDraft draft;
     TornadoSpec& spec = draft.spec;
@@ -27,7 +26,7 @@ std::vector<TornadoDraft> read_tornados(const std::vector<Item>& tables,
                       table.key_of("quantity")};
     spec.label = table.text("label").value_or("");
     spec.markup = read_markup(table, item, reading);
-    spec.formats = read_formats(table, {"png", "svg", "pdf"}, spec.formats, reading);
+    draft.look = read_sheet_look(table, spec.look, draft.numbers, reading);
     spec.study = table.required_text("study", "the name of a study").value_or("");
     if (!spec.study.empty()) {
       const Item at{table.find("study"), table.key_of("study")};

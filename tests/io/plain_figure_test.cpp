@@ -113,6 +113,15 @@ TEST(PlainMap, LeavesNodesWithoutValuePaleAndSaysSo) {
   EXPECT_EQ(patches(figure) - patches(without), 3U);
 }
 
+TEST(PlainMap, HasTheSizeThatIsWanted) {
+  MapFigure figure{.name = "a", .low = 0, .high = 3};
+  figure.panels = {{.field = {{0, 1}, {0, 1}, {0, 1, 2, 3}}},
+                   {.field = {{0, 1}, {0, 1}, {0, 1, 2, 3}}}};
+  figure.look.width = 900, figure.look.height = 500;
+  EXPECT_NEAR(plain::picture_of(figure).width, 900, 1e-9);
+  EXPECT_NEAR(plain::picture_of(figure).height, 500, 1e-9);
+}
+
 TEST(PlainTornado, HasABarOfTheRightLengthForEveryParameter) {
   TornadoFigure figure{.name = "a"};
   figure.bars = {{"L", -2}, {"k", 1}};

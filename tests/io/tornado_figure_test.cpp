@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "io/gnuplot_process.hpp"
 #include "io/gnuplot_text.hpp"
 #include "scratch_folder.hpp"
 #include "springfold/analysis/result.hpp"
@@ -72,7 +73,7 @@ TEST_F(Tornado, IsNotDrawnWhereTheQuantityIsZero) {
 }
 
 TEST_F(Tornado, IsDrawnByGnuplotInEveryFormatWithoutAWarning) {
-  the_case.tornados[0].formats = {"png", "svg", "pdf"};
+  the_case.tornados[0].look.formats = {"png", "svg", "pdf"};
   ScratchFolder scratch;
   const PlotOutcome outcome = draw_plots(scratch.path(), the_case, {result});
   EXPECT_THAT(outcome.warnings, IsEmpty());
@@ -80,6 +81,20 @@ TEST_F(Tornado, IsDrawnByGnuplotInEveryFormatWithoutAWarning) {
     EXPECT_TRUE(
         std::filesystem::exists(scratch.path() / "plots" / (std::string{"figure"} + ending)))
         << ending;
+}
+
+TEST_F(Tornado, HasTheSizeThatIsWantedAndIsWrittenForLatex) {
+  if (!find_executable("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
+  SheetLook& look = the_case.tornados[0].look;
+  look = {.width = 700, .height = 420, .font_size = 10, .font = "Serif", .formats = {"svg", "tikz"}};
+  the_case.tornados[0].title = "50 % of a_b";
+  ScratchFolder scratch;
+  const PlotOutcome outcome = draw_plots(scratch.path(), the_case, {result});
+  EXPECT_THAT(outcome.warnings, IsEmpty());
+  const std::string svg = text_in(scratch.path() / "plots/figure.svg");
+  EXPECT_THAT(svg, HasSubstr("width=\"700\" height=\"420\""));
+  EXPECT_THAT(svg, HasSubstr("font-family=\"Serif\""));
+  EXPECT_THAT(text_in(scratch.path() / "plots/figure.tex"), HasSubstr("50 \\% of a\\_b"));
 }
 
 TEST_F(Tornado, QuotesTextsOfTheCase) {

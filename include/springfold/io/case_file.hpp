@@ -157,7 +157,7 @@ struct MapPlotSpec {
   bool activation = true;                            ///< lines at which springs switch
   bool markup = false;                               ///< as PlotSpec::markup
   std::vector<MapPanelSpec> panels{};
-  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
+  SheetLook look{};
 };
 
 /// A figure of relative sensitivities of one special point, largest first.
@@ -170,7 +170,7 @@ struct TornadoSpec {
   std::string quantity = "lambda";  ///< whose sensitivities
   std::string label{};              ///< below the bars; empty: made from the quantity
   bool markup = false;              ///< as PlotSpec::markup
-  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf"
+  SheetLook look{};
 };
 
 /// A posture of a picture.

@@ -28,4 +28,12 @@ struct PlotLook {
   std::vector<PlotInset> insets{};
 };
 
+/// How a map or a figure of bars looks, whose axes are those of what it shows.
+struct SheetLook {
+  double width = 0, height = 0;  ///< [pixel], 96 to an inch; 0: as large as it needs
+  double font_size = 14;         ///< of axes and labels [pt]
+  std::string font = "DejaVu Sans";
+  std::vector<std::string> formats{"png", "svg"};  ///< also "pdf", "tikz"
+};
+
 }  // namespace springfold::io
