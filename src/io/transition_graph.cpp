@@ -1,5 +1,7 @@
 // The transition graph as GraphML and in Graphviz' language. All texts in it are our own labels and numbers:
 // nothing of the case is written.
+#include <algorithm>
+
 #include "springfold/analysis/snap.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
@@ -80,12 +82,42 @@ std::string transitions_graphml(const StudyResult& result) {
   return text + "  </graph>\n</graphml>\n";
 }
 
+namespace {
+
+/// What the signs of the figure mean, as far as they occur.
+std::string key_of(const TransitionReport& report) {
+  const auto drawn = [](const Transition& t) { return t.to > 0 && !t.is_alternative; };
+  const auto any_arrow = [&](auto is_so) {
+    return std::any_of(report.transitions.begin(), report.transitions.end(),
+                       [&](const Transition& t) { return drawn(t) && is_so(t); });
+  };
+  std::string key = "a state and the range of the load (lambda) in which it is stable";
+  if (std::any_of(report.states.begin(), report.states.end(),
+                  [](const StableState& s) { return s.is_garden_of_eden; }))
+    key += "\\ldashed: a state that no jump reaches";
+  if (any_arrow([](const Transition& t) { return t.loading > 0; }))
+    key += "\\lblue: a jump where the load grows, and its load";
+  if (any_arrow([](const Transition& t) { return t.loading < 0; }))
+    key += "\\lorange: a jump where the load falls";
+  if (any_arrow(
+          [](const Transition& t) { return t.verdict != analysis::SnapVerdict::unambiguous; }))
+    key += "\\ldashed arrow: other damping or masses may lead elsewhere";
+  return key + "\\l";
+}
+
+}  // namespace
+
 std::string transitions_dot(const StudyResult& result) {
   const TransitionReport* report = report_of(result);
   if (report == nullptr) return "";
   constexpr int digits = 4;
   std::string text =
       "digraph transitions {\n"
+      "  label=\"" +
+      key_of(*report) +
+      "\";\n"
+      "  labeljust=l;\n"
+      "  fontname=\"DejaVu Sans\"; fontsize=10;\n"
       "  node [fontname=\"DejaVu Sans\", fontsize=10];\n"
       "  edge [fontname=\"DejaVu Sans\", fontsize=8];\n";
   for (const StableState& s : report->states)

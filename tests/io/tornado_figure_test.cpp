@@ -86,7 +86,8 @@ TEST_F(Tornado, IsDrawnByGnuplotInEveryFormatWithoutAWarning) {
 TEST_F(Tornado, HasTheSizeThatIsWantedAndIsWrittenForLatex) {
   if (!find_executable("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
   SheetLook& look = the_case.tornados[0].look;
-  look = {.width = 700, .height = 420, .font_size = 10, .font = "Serif", .formats = {"svg", "tikz"}};
+  look = {
+      .width = 700, .height = 420, .font_size = 10, .font = "Serif", .formats = {"svg", "tikz"}};
   the_case.tornados[0].title = "50 % of a_b";
   ScratchFolder scratch;
   const PlotOutcome outcome = draw_plots(scratch.path(), the_case, {result});

@@ -51,6 +51,13 @@ TEST(TransitionText, HasAnArrowForEachJumpOfASwitch) {
   EXPECT_EQ(jumps_json(result)["transitions"]["memory"], "holds");
 }
 
+TEST(TransitionText, ExplainsTheSignsThatOccur) {
+  const std::string plain = transitions_dot(run("snap-through/case-switch.toml", "states"));
+  EXPECT_TRUE(has(plain, "\\lblue: a jump where the load grows"));
+  EXPECT_TRUE(has(plain, "\\lorange: a jump where the load falls"));
+  EXPECT_FALSE(has(plain, "dashed"));
+}
+
 /// The oblique springs of cases/snap-through/case-switch.toml are straight at the saddle: its pose is the middle.
 TEST(TransitionText, GivesTheSaddlesPose) {
   const auto result = run("snap-through/case-switch.toml", "states");
