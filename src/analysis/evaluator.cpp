@@ -261,7 +261,7 @@ RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
                                                         problem_.inputs(point.lambda).rho,
                                                         problem_.rule().load_rate)
                                          .segment(t_, d_));
-  return {rate, tangent_rounding * size};
+  return {rate, tangent_rounding * size + off_curve_rate};
 }
 
 Matrix Evaluator::platform_stiffness(const continuation::CurvePoint& point) const {

@@ -64,7 +64,8 @@ Departure shortened(const Landscape& landscape, const Vector& critical, const De
   const auto piece = landscape.piece_at(departure.x);
   if (!piece) return departure;
   const double noise = noise_of_force(landscape, critical, *piece);
-  for (double a = part * way; a < departure.amplitude; a *= 2) {
+  const double farthest = std::max(part * way, departure.amplitude);
+  for (double a = part * way; a <= farthest; a *= 2) {
     const auto at = pushed(landscape, critical, departure.along, critical, {.amplitude = a});
     if (at && at->force > noise && landscape.energy(at->x) < landscape.energy(critical))
       return {departure.side, departure.along, at->x, a};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/differences.hpp"
@@ -16,8 +17,11 @@ constexpr std::array<std::pair<double, double>, 3> gauss{
     {{0.2386191860831969, 0.4679139345726910},
      {0.6612093864662645, 0.3607615730481386},
      {0.9324695142031521, 0.1713244923791704}}};
-/// Difference step in lambda, where its unit is that of the path: error O(h^6).
-constexpr double difference_step = 1e-2;
+/// Difference steps in lambda, where its unit is that of the path: error O(h^6). The unit may be long beside a spring,
+/// and a spring may switch nearby: shorter ones follow until two agree.
+constexpr std::array difference_steps{1e-2, 2e-3, 4e-4, 8e-5};
+/// Two that differ by less, relative to what they are differences of, agree to rounding.
+constexpr double agreed = 1e-12;
 
 /// Pi and the closures times their wrenches: stationary at an equilibrium, so its derivative by lambda at
 /// fixed unknowns is that of Pi along the path.
@@ -30,6 +34,25 @@ std::optional<Vector> lagrangian(const PathProblem& problem, const Vector& x, do
   for (Index i = 0; i < system.first_pose; ++i)
     if (system.is_wrench[static_cast<std::size_t>(i)]) value += x[i] * F[i];
   return Vector::Constant(1, value);
+}
+
+/// The derivative by lambda at fixed unknowns: of all steps that which the next one changes least.
+std::optional<double> rate_by_lambda(const PathProblem& problem, const Vector& x, double lambda,
+                                     const Piece& piece) {
+  const auto value = [&](double at) { return lagrangian(problem, x, at, piece); };
+  std::optional<double> before, best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double h : difference_steps) {
+    const auto rate = six_point_derivative(value, lambda, h);
+    if (!rate) continue;  // the path does not reach so far
+    const double here = (*rate)[0];
+    const double change = before ? std::abs(here - *before) : least;
+    if (!best || change < least) best = here;
+    least = std::min(least, change);
+    if (least <= agreed * std::max(1.0, std::abs(here))) break;
+    before = here;
+  }
+  return best;
 }
 
 std::optional<Piece> piece_between(const PathProblem& problem, const PathState& from,
@@ -71,13 +94,11 @@ std::optional<double> path_work(const PathProblem& problem, const PathState& fro
       if (!converged(solved) || !linearise(problem, solved.x, solved.lambda, *piece, at))
         return std::nullopt;
       const auto tangent = tangent_at(at, weights, border);
-      const auto rate = six_point_derivative(
-          [&](double lambda) { return lagrangian(problem, solved.x, lambda, *piece); },
-          solved.lambda, difference_step);
+      const auto rate = rate_by_lambda(problem, solved.x, solved.lambda, *piece);
       if (!tangent || !rate) return std::nullopt;
       // The curve is passed at unit speed along the chord.
       const double along = continuation::metric_product(weights, *tangent, border);
-      work += weight / 2 * (*rate)[0] * length * tangent->dlambda / along;
+      work += weight / 2 * *rate * length * tangent->dlambda / along;
     }
   return work;
 }

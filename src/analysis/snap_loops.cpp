@@ -36,20 +36,18 @@ std::string towards(const StudyResult& result, const std::vector<QuantityDefinit
 void close_loops(const std::vector<QuantityDefinition>& quantities, const StudyResult& result,
                  SnapReport& report) {
   const StableWalk walk(quantities, result);
-  const auto jump_from = [&report](const Event* event, int loading) {
-    if (event == nullptr) return 0;
-    for (std::size_t i = 0; i < report.jumps.size(); ++i)
-      if (report.jumps[i].from == event->label && report.jumps[i].loading == loading)
-        return static_cast<int>(i) + 1;
-    return 0;
-  };
+  // Several jumps may leave one point, to sides that mirror each other: that which closes the loop counts.
   for (Jump& jump : report.jumps) {
     const Event* back = walk.end_of(jump.landing.branch, jump.landing.row, -jump.loading);
-    jump.back = jump_from(back, -jump.loading);
-    if (jump.back == 0) continue;
-    const Jump& other = report.jumps[static_cast<std::size_t>(jump.back - 1)];
-    const Event* again = walk.end_of(other.landing.branch, other.landing.row, jump.loading);
-    if (again != nullptr && again->label == jump.from) jump.loop = jump.released + other.released;
+    if (back == nullptr) continue;
+    for (std::size_t i = 0; i < report.jumps.size() && std::isnan(jump.loop); ++i) {
+      const Jump& other = report.jumps[i];
+      if (other.from != back->label || other.loading != -jump.loading) continue;
+      const Event* again = walk.end_of(other.landing.branch, other.landing.row, jump.loading);
+      const bool closes = again != nullptr && again->label == jump.from;
+      if (jump.back == 0 || closes) jump.back = static_cast<int>(i) + 1;
+      if (closes) jump.loop = jump.released + other.released;
+    }
   }
   for (const Loss& loss : losses_of(result, quantities)) {
     const Event& event = result.branches[loss.branch].events[loss.event];

@@ -38,6 +38,13 @@ bool find_support(const Item& item, const MechanismDraft& draft, bool base_allow
   return true;
 }
 
+/// A fixed node's place is among the numbers of the mechanism: the same numbers in the table of whoever asks.
+void bring_into(NumberTable& numbers, const MechanismDraft& draft, AnchorDraft& anchor) {
+  if (&numbers == &draft.numbers) return;
+  for (NumberId& id : anchor.at)
+    id = numbers.add(draft.numbers.definition(id), draft.numbers.rule(id));
+}
+
 }  // namespace
 
 void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
@@ -98,6 +105,7 @@ AnchorDraft read_anchor(const Item& item, const MechanismDraft& draft, NumberTab
   AnchorDraft anchor;
   if (item.node->kind == Node::Kind::text) {
     find_anchor(item, draft, true, anchor, reading);
+    bring_into(numbers, draft, anchor);
     return anchor;
   }
   const std::string need =
@@ -106,6 +114,7 @@ AnchorDraft read_anchor(const Item& item, const MechanismDraft& draft, NumberTab
   const TableReader table{*item.node, item.key, {"on", "at"}, reading};
   if (table.required_text("on", "\"base\", the name of a body, or \"chain.point\""))
     find_anchor({table.find("on"), table.key_of("on")}, draft, true, anchor, reading);
+  bring_into(numbers, draft, anchor);
   anchor.at = read_at(table, "at", draft, anchor, numbers, reading);
   return anchor;
 }

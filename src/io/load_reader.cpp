@@ -24,7 +24,8 @@ class LoadReader {
   LoadDraft read(Index body) {
     draft_.name = table_.text("name").value_or("");
     draft_.with_lambda = table_.choice("scale", {"constant", "lambda"}, 0) == 1;
-    if (table_.has("pressure")) {
+    const bool has_vector = table_.has("force") || table_.has("moment");
+    if (table_.has("pressure") || (table_.has("shape") && !has_vector)) {
       read_pressure();
       return std::move(draft_);
     }

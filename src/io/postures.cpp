@@ -58,6 +58,14 @@ drawing::Scene with_members(drawing::Scene scene, const PlannedRun& planned) {
   return scene;
 }
 
+/// Is every row of the study such a point?
+bool has_critical_rows(const analysis::Study& plan) {
+  const std::string& point = plan.critical.point;
+  return plan.kind == StudyKind::critical_load ||
+         (plan.kind == StudyKind::critical_curve &&
+          (point.starts_with("LP") || point.starts_with("BP")));
+}
+
 /// Does the label name a point at which an eigenvalue under dead load is zero, at an end of a stable stretch? Its own
 /// count says nothing.
 bool is_critical(const StudyResult& result, const std::string& label) {
@@ -109,6 +117,23 @@ double RowScenes::shown_value(const Sample& row, std::optional<std::size_t> colu
   return column ? shown_in(sizes_, *column, value(row, column)) : nothing;
 }
 
+/// Rows of designs and of curves over a further parameter belong to other values of it.
+std::optional<analysis::Variant> RowScenes::variant_of(const Sample& row) const {
+  const auto& cases = planned_.plan.critical.cases;
+  if (!cases) return std::nullopt;
+  std::vector<std::string> names{planned_.plan.critical.parameter};
+  if (planned_.plan.kind == StudyKind::design) names.clear();
+  for (const auto& parameter : planned_.plan.design.parameters) names.push_back(parameter.name);
+  std::vector<std::pair<std::size_t, double>> changes;
+  for (std::size_t i = 0; i < cases->names.size(); ++i)
+    if (std::find(names.begin(), names.end(), cases->names[i]) != names.end())
+      changes.emplace_back(i, value(row, column_of(result_, cases->names[i])));
+  const bool known = std::all_of(changes.begin(), changes.end(),
+                                 [](const auto& change) { return std::isfinite(change.second); });
+  if (changes.empty() || !known) return std::nullopt;
+  return cases->at(changes);
+}
+
 statics::System RowScenes::system_of(const Sample& row, double lambda) const {
   if (const auto& map = planned_.plan.map; planned_.plan.kind == StudyKind::map && map.situation) {
     std::vector<double> parameters;
@@ -117,20 +142,8 @@ statics::System RowScenes::system_of(const Sample& row, double lambda) const {
     if (!parameters.empty())
       return statics::prepare(acting(planned_, map.situation(parameters).mechanism));
   }
-  // Rows of designs and of curves over a further parameter belong to other values of it.
-  if (const auto& cases = planned_.plan.critical.cases) {
-    std::vector<std::string> names{planned_.plan.critical.parameter};
-    if (planned_.plan.kind == StudyKind::design) names.clear();
-    for (const auto& parameter : planned_.plan.design.parameters) names.push_back(parameter.name);
-    std::vector<std::pair<std::size_t, double>> changes;
-    for (std::size_t i = 0; i < cases->names.size(); ++i)
-      if (std::find(names.begin(), names.end(), cases->names[i]) != names.end())
-        changes.emplace_back(i, value(row, column_of(result_, cases->names[i])));
-    const bool known = std::all_of(changes.begin(), changes.end(),
-                                   [](const auto& change) { return std::isfinite(change.second); });
-    if (!changes.empty() && known)
-      return statics::prepare(acting(planned_, cases->at(changes).mechanism));
-  }
+  if (const auto variant = variant_of(row))
+    return statics::prepare(acting(planned_, variant->mechanism));
   if (planned_.plan.control != ControlMode::parameter || !planned_.family ||
       planned_.plan.kind != StudyKind::force_deflection)
     return system_;
@@ -138,8 +151,10 @@ statics::System RowScenes::system_of(const Sample& row, double lambda) const {
 }
 
 void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture& posture) const {
-  const analysis::Study& plan = planned_.plan;
-  const bool traces = plan.kind == StudyKind::force_deflection;
+  const auto variant = variant_of(row);
+  const analysis::Study& plan = variant ? variant->study : planned_.plan;
+  const StudyKind kind = planned_.plan.kind;
+  const bool traces = kind == StudyKind::force_deflection || analysis::is_of_critical_points(kind);
   Vector w = plan.constant_load;
   if (traces && plan.control == ControlMode::parameter && planned_.family)
     w = planned_.family->at(lambda).constant_load;
@@ -215,7 +230,7 @@ std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::
                        .title = title,
                        .unstable_dead = count_of(value(row, dead_)),
                        .unstable_driven = count_of(value(row, driven_))};
-  panel.is_critical = is_critical(result_, row.event);
+  panel.is_critical = is_critical(result_, row.event) || has_critical_rows(planned_.plan);
   for (const auto column : {lambda_, force_, deflection_}) {
     const double v = shown_value(row, column);
     if (!column || !std::isfinite(v)) continue;

@@ -186,6 +186,19 @@ void read_line_spring(const Item& item, MechanismDraft& draft, Reading& reading)
   draft.springs.push_back(std::move(spring));
 }
 
+/// A point twice makes a shape without a direction somewhere; a path may come back, but not at once.
+void refuse_twice(const std::vector<Item>& items, bool is_path, Reading& reading) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t k = is_path && i > 0 ? i - 1 : 0; k < i; ++k)
+      if (items[i].node->kind == Node::Kind::text && items[k].node->kind == Node::Kind::text &&
+          items[i].node->text == items[k].node->text) {
+        reading.problems.add(
+            items[i].node->place, items[i].key,
+            "got " + described(*items[i].node) + " a second time, need another point");
+        break;
+      }
+}
+
 }  // namespace
 
 JointUnits units_of(model::ShapeKind kind, const UnitLabels& labels) {
@@ -213,8 +226,9 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
   const std::string word = words[table.choice("shape", words, 0)];
   shape.kind = word_for(word).kind;
   table.require("of", "a list of points");
-  for (const Item& item : table.list("of", "a list of points"))
-    shape.points.push_back(read_anchor(item, draft, numbers, reading));
+  const std::vector<Item> items = table.list("of", "a list of points");
+  for (const Item& item : items) shape.points.push_back(read_anchor(item, draft, numbers, reading));
+  refuse_twice(items, shape.kind == ShapeKind::path, reading);
   check_count(table, word_for(word), shape.points.size(), reading);
   if (shape.points.size() > most_shape_points)
     reading.problems.add(table.find("of")->place, table.key_of("of"),

@@ -151,7 +151,9 @@ std::string diagram_lines(const StudyResult& result, const PlannedRun* planned) 
   add(std::to_string(result.branches.size()));
   if (const std::string omitted = left_out(result); !omitted.empty()) add(omitted);
   for (const auto& search : result.searches) add(search_text(search));
-  if (result.searches.empty())
+  // Stable states have a search, and lines, of their own.
+  const bool has_graph = result.snap && result.snap->transitions;
+  if (result.searches.empty() && !has_graph)
     add("nothing is claimed about branches that are not connected to the start: no search was run");
   for (const auto& doubt : result.doubts) add("UNRESOLVED: " + doubt);
   return text;

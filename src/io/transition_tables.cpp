@@ -37,12 +37,23 @@ std::string memory_word(TransitionReport::Memory memory) {
   return "";
 }
 
-/// "S2, S5": where a state is left to in one sense.
+std::string target_of(const Transition& t) {
+  if (t.to > 0) return name_of(t.to);
+  const bool nowhere = t.verdict == analysis::SnapVerdict::runs_away ||
+                       t.verdict == analysis::SnapVerdict::no_stable_state;
+  return nowhere ? to_string(t.verdict) : "unknown";
+}
+
+/// "S2 or S5": where a state is left to in one sense; both sides of a symmetric one may lead to the same.
 std::string exits(const TransitionReport& report, int state, int loading) {
-  std::string text;
+  std::vector<std::string> targets;
   for (const Transition& t : report.transitions)
     if (t.from == state && t.loading == loading && !t.is_alternative)
-      text += (text.empty() ? "" : " or ") + (t.to > 0 ? name_of(t.to) : std::string{"unknown"});
+      if (std::string target = target_of(t);
+          std::find(targets.begin(), targets.end(), target) == targets.end())
+        targets.push_back(std::move(target));
+  std::string text;
+  for (const std::string& target : targets) text += (text.empty() ? "" : " or ") + target;
   return text;
 }
 
@@ -160,14 +171,17 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
         "", std::to_string(alternatives) + " more may take place with other damping or masses");
   text +=
       summary_line("", report->is_closed ? "every transition within the range leads to one of them"
-                                         : "NOT CLOSED: a transition leads nowhere that is known");
+                                         : "NOT CLOSED: a transition leads to none of them");
   text += summary_line(
       "",
       "checked: every state is stable within its stretch, where that ends, and where the "
       "overdamped motion goes from there; searched only: further states, lower saddles");
   if (report->limit_reached) text += summary_line("", "NOT COMPLETE: as many states as allowed");
-  text += summary_line("memory", "return-point memory " + memory_word(report->memory) + ", " +
-                                     std::to_string(report->loops) + " loops gone through");
+  text += summary_line(
+      "memory", report->loops == 0
+                    ? "nothing is said of return-point memory: there is no loop to go through"
+                    : "return-point memory " + memory_word(report->memory) + ", " +
+                          std::to_string(report->loops) + " loops gone through");
   for (std::size_t i = 0; i < std::min(most_lines, report->states.size()); ++i)
     text += state_line(*report, i);
   if (report->states.size() > most_lines)

@@ -36,6 +36,7 @@ class RowScenes {
  private:
   double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
   double shown_value(const analysis::Sample& row, std::optional<std::size_t> column) const;
+  std::optional<analysis::Variant> variant_of(const analysis::Sample& row) const;
   statics::System system_of(const analysis::Sample& row, double lambda) const;
   void add_wrenches(const analysis::Sample& row, double lambda, drawing::Posture& posture) const;
 

@@ -132,6 +132,7 @@ class ZeroFinder {
     const double from = std::max(p.a, first - margin * length),
                  to = std::min(p.b, end + margin * length);
     if (last) {
+      if (comes_from_zero(p)) return true;
       if (first != end || fit.error > together * scale || !locate(fit, first, end, true)) give_up();
       return true;
     }
@@ -143,6 +144,17 @@ class ZeroFinder {
     else
       examine(closer, from, to, depth + 1);
     return true;
+  }
+
+  /// At an end that is zero itself the function may rise like any power, also one that no polynomial follows: a power law
+  /// at the surface where it begins to act. Without a change of sign beside it nothing lies there but that end.
+  bool comes_from_zero(const Interpolant& p) const {
+    const auto is_zero = [&](double t) {
+      const auto value = f_(t);
+      return value && *value == 0;
+    };
+    const bool at_end = (p.a == low_ && is_zero(low_)) || (p.b == high_ && is_zero(high_));
+    return at_end && (p.values.minCoeff() >= 0 || p.values.maxCoeff() <= 0);
   }
 
   void give_up() { result.resolved = false; }
