@@ -31,6 +31,11 @@ std::string towards(const StudyResult& result, const std::vector<QuantityDefinit
   return name;
 }
 
+bool leads_to(const std::vector<const Event*>& ends, const std::string& label) {
+  return std::any_of(ends.begin(), ends.end(),
+                     [&](const Event* end) { return end->label == label; });
+}
+
 }  // namespace
 
 void close_loops(const std::vector<QuantityDefinition>& quantities, const StudyResult& result,
@@ -38,13 +43,12 @@ void close_loops(const std::vector<QuantityDefinition>& quantities, const StudyR
   const StableWalk walk(quantities, result);
   // Several jumps may leave one point, to sides that mirror each other: that which closes the loop counts.
   for (Jump& jump : report.jumps) {
-    const Event* back = walk.end_of(jump.landing.branch, jump.landing.row, -jump.loading);
-    if (back == nullptr) continue;
+    const auto back = walk.ends_of(jump.landing.branch, jump.landing.row, -jump.loading);
     for (std::size_t i = 0; i < report.jumps.size() && std::isnan(jump.loop); ++i) {
       const Jump& other = report.jumps[i];
-      if (other.from != back->label || other.loading != -jump.loading) continue;
-      const Event* again = walk.end_of(other.landing.branch, other.landing.row, jump.loading);
-      const bool closes = again != nullptr && again->label == jump.from;
+      if (!leads_to(back, other.from) || other.loading != -jump.loading) continue;
+      const bool closes =
+          leads_to(walk.ends_of(other.landing.branch, other.landing.row, jump.loading), jump.from);
       if (jump.back == 0 || closes) jump.back = static_cast<int>(i) + 1;
       if (closes) jump.loop = jump.released + other.released;
     }

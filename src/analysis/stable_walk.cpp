@@ -14,32 +14,39 @@ StableWalk::StableWalk(const std::vector<QuantityDefinition>& quantities, const 
       index_{column_of(Kind::index, quantities)},
       lambda_{column_of(Kind::lambda, quantities)} {}
 
-const Event* StableWalk::end_of(int branch, std::size_t row, int direction) const {
-  if (branch < 1) return nullptr;
-  auto b = static_cast<std::size_t>(branch - 1);
-  const auto& rows = result_.branches[b].samples;
-  if (row + 1 >= rows.size()) return nullptr;
+std::vector<const Event*> StableWalk::ends_of(int branch, std::size_t row, int direction) const {
+  if (branch < 1) return {};
+  const auto first = static_cast<std::size_t>(branch - 1);
+  const auto& rows = result_.branches[first].samples;
+  if (row + 1 >= rows.size()) return {};
   const bool grows = rows[row + 1].values[lambda_] > rows[row].values[lambda_];
-  int step = grows == (direction > 0) ? 1 : -1;
-  std::size_t at = step > 0 ? row : row + 1;
-  constexpr int most_branches = 100;
-  for (int k = 0; k < most_branches; ++k) {
-    const Event* event = first_unstable(b, at, step);
-    if (event == nullptr) return nullptr;
-    const auto next = stable_branch_from(*event, b, direction);
-    if (!next) return event;
-    b = next->branch;
-    at = next->row;
-    step = next->step;
+  const int step = grows == (direction > 0) ? 1 : -1;
+  std::vector<Next> open{{first, step > 0 ? row : row + 1, step}};
+  std::vector<const Event*> ends;
+  constexpr std::size_t most_branches = 100;
+  for (std::size_t k = 0; k < open.size() && k < most_branches; ++k) {
+    const Next at = open[k];
+    const Event* event = first_unstable(at.branch, at.row, at.step);
+    if (event == nullptr) continue;
+    const auto next = stable_branches_from(*event, at.branch, direction);
+    if (next.empty()) ends.push_back(event);
+    open.insert(open.end(), next.begin(), next.end());
   }
-  return nullptr;
+  return ends;
 }
 
 std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& event, std::size_t from,
                                                                int direction) const {
+  const auto all = stable_branches_from(event, from, direction);
+  return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
+std::vector<StableWalk::Next> StableWalk::stable_branches_from(const Event& event, std::size_t from,
+                                                               int direction) const {
   if (event.kind != EventKind::branch_point && event.kind != EventKind::branching_kink &&
       event.kind != EventKind::touch)
-    return std::nullopt;
+    return {};
+  std::vector<Next> list;
   for (std::size_t b = 0; b < result_.branches.size(); ++b) {
     const Branch& branch = result_.branches[b];
     for (const Event& other : branch.events) {
@@ -51,11 +58,11 @@ std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& even
         const auto& values = branch.samples[static_cast<std::size_t>(row)].values;
         const double moved = values[lambda_] - branch.samples[other.row].values[lambda_];
         if (values[index_] == 0 && moved * direction > 0)
-          return Next{b, static_cast<std::size_t>(row), step, b != from};
+          list.push_back({b, static_cast<std::size_t>(row), step, b != from});
       }
     }
   }
-  return std::nullopt;
+  return list;
 }
 
 const Event* StableWalk::event_at(std::size_t branch, std::size_t row) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "quantities.hpp"
 #include "springfold/analysis/result.hpp"
@@ -12,9 +13,10 @@ class StableWalk {
  public:
   StableWalk(const std::vector<QuantityDefinition>& quantities, const StudyResult& result);
 
-  /// The special point at which stability ends when lambda goes in this direction from between the rows
-  /// `row` and `row` + 1 of a branch (numbers from 1); null where the range ends before.
-  const Event* end_of(int branch, std::size_t row, int direction) const;
+  /// The special points at which stability ends when lambda goes in this direction from between the rows
+  /// `row` and `row` + 1 of a branch (numbers from 1): several where a symmetric branch hands stability over to both of
+  /// its sides; none where the range ends before.
+  std::vector<const Event*> ends_of(int branch, std::size_t row, int direction) const;
 
   struct Next {
     std::size_t branch = 0, row = 0;
@@ -22,7 +24,8 @@ class StableWalk {
     bool is_start = false;
   };
 
-  /// A branch that leaves this point stably as lambda goes on.
+  /// The branches that leave this point stably as lambda goes on, and the first of them.
+  std::vector<Next> stable_branches_from(const Event& event, std::size_t from, int direction) const;
   std::optional<Next> stable_branch_from(const Event& event, std::size_t from, int direction) const;
 
   /// The special point behind the last stable row.

@@ -39,6 +39,28 @@ TEST(Zeros, ThatTouchWithinNoiseOverAWideStretchAreOneTouch) {
   }
 }
 
+TEST(Zeros, AreNoneWhereAFunctionRisesFromZeroAtAnEndLikeARoot) {
+  for (const double power : {0.2, 0.5, 0.8, 1.5}) {
+    const auto falling = [power](double t) -> std::optional<double> {
+      return t == 1 ? 0 : -std::pow(1 - t, power);
+    };
+    const auto rising = [power](double t) -> std::optional<double> { return std::pow(t, power); };
+    for (const SampledFunction& f : {SampledFunction{falling}, SampledFunction{rising}}) {
+      const ZeroSearch found = find_zeros(f, 0, 1, 1e-14, 1e-12);
+      EXPECT_TRUE(found.resolved) << power;
+      for (const ZeroOf& zero : found.zeros) EXPECT_TRUE(zero.at == 0 || zero.at == 1) << zero.at;
+    }
+  }
+}
+
+TEST(Zeros, BesideAnEndThatIsZeroAreFound) {
+  const auto f = [](double t) -> std::optional<double> { return std::sqrt(1 - t) * (t - 0.999); };
+  const ZeroSearch found = find_zeros(f, 0, 1, 1e-14, 1e-12);
+  ASSERT_TRUE(found.resolved);
+  ASSERT_GE(found.zeros.size(), 1u);
+  EXPECT_NEAR(found.zeros[0].at, 0.999, 1e-9);
+}
+
 TEST(Zeros, OfNoiseAreGivenUpSoon) {
   int asked = 0;
   const auto noise = [&](double t) -> std::optional<double> {

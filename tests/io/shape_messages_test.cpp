@@ -39,6 +39,21 @@ class ShapeMessages : public CaseFiles {
 
 const std::string corners = "of = [\"base\", \"arm.knee\", { on = \"tip\" }]\n";
 
+TEST_F(ShapeMessages, WantDifferentPoints) {
+  EXPECT_THAT(
+      spring("shape = \"path\"\nof = [\"base\", \"arm.knee\", \"arm.knee\"]\nstiffness = 1\n"),
+      ElementsAre(
+          "case.toml:19:27: spring[1].of[3]: got \"arm.knee\" a second time, need another point"));
+  EXPECT_THAT(spring("shape = \"angle\"\nof = [\"base\", \"arm.knee\", \"base\"]\nstiffness = 1\n"),
+              ElementsAre(HasSubstr("of[3]: got \"base\" a second time")));
+  EXPECT_THAT(spring("shape = \"path\"\nof = [\"base\", \"arm.knee\", \"base\"]\nstiffness = 1\n"),
+              ElementsAre());
+}
+
+TEST_F(ShapeMessages, WantThePressureOfALoadWithAShape) {
+  EXPECT_THAT(load("shape = \"area\"\n" + corners), ElementsAre(HasSubstr("pressure: missing")));
+}
+
 TEST_F(ShapeMessages, AreNoneForGoodSprings) {
   for (const std::string shape : {"path", "angle", "area", "line"})
     EXPECT_THAT(spring("shape = \"" + shape + "\"\n" + corners + "stiffness = 1\nfree = 0.5\n"),

@@ -1,0 +1,117 @@
+// Load cycles under driven displacement, and loops of jumps to both sides.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "case_runs.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+
+/// A guided mass with a spring of 1, between two oblique springs of 2 whose feet are 0.12 beside the guide.
+TEST(DrivenCycle, HasTheWorkOfSpringsThatAreShortBesideTheMechanism) {
+  const Ran ran = run(R"toml(
+[[body]]
+name = "mass"
+task_space = "xy"
+pose = [0, -0.8]
+[[chain]]
+name = "guide"
+elements = [{ joint = "prismatic", axis = "y", name = "y", role = "preloaded", initial = -0.4, spring = { law = "linear", stiffness = 1, free = 0 } }]
+[[spring]]
+name = "left"
+from_at = [-0.12, 0]
+to = "mass"
+stiffness = 2
+free = 0.9
+[[spring]]
+name = "right"
+from_at = [0.12, 0]
+to = "mass"
+stiffness = 2
+free = 0.9
+[[study]]
+name = "cycle"
+kind = "load_cycle"
+control = "mixed"
+direction = [0, 1]
+start = { solve = "pose" }
+until = { mass.y = [-1.5, 1.5] }
+cycle = { levels = [0.3, 0.8, 1.1] }
+)toml");
+  const auto& cycle = *ran.of("cycle").snap->cycle;
+  const auto energy = [](double y) {
+    const double u = std::hypot(0.12, y) - 0.9;
+    return y * y / 2 + 2 * u * u;
+  };
+  const auto& samples = ran.of("cycle").branches.front().samples;
+  const double y0 = value(ran.of("cycle"), 0, "mass.y"), l0 = value(ran.of("cycle"), 0, "lambda");
+  ASSERT_FALSE(samples.empty());
+  const double change = energy(y0 + 1.1 - l0) - energy(y0);
+  EXPECT_NEAR(cycle.energy_change, change, 1e-11);
+  EXPECT_NEAR(cycle.area, change, 1e-11);
+}
+
+/// A strut whose hinge softens at 0.4 rad to both sides: it snaps from corners, to either side and back.
+TEST(LoopsOfJumps, AreTheSameToBothSides) {
+  const Ran ran = run(R"toml(
+[[body]]
+name = "tip"
+task_space = "planar"
+pose = [0, 1.3, 0]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [-0.4, 0.4], stiffnesses = [0.24, 0.8, 0.24] } },
+  { rigid = [0, 1.3] },
+]
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "load"
+direction = [0, -1, 0]
+until = { lambda = [-0.12, 0.92], strut.hinge = [-3, 3] }
+)toml");
+  const auto& jumps = ran.of("press").snap->jumps;
+  ASSERT_GE(jumps.size(), 2u);
+  int loops = 0;
+  for (const auto& jump : jumps)
+    if (std::isfinite(jump.loop)) {
+      ++loops;
+      EXPECT_NEAR(jump.loop, jumps.front().loop, 1e-9);
+    }
+  EXPECT_EQ(loops, static_cast<int>(jumps.size()));
+}
+
+/// Contact with the power 1.5 (Hertz) that carries alone, driven out: its stiffness ends as a root does.
+TEST(PowerContact, IsDrivenOutOfTouchWhateverItsPower) {
+  for (const char* power : {"1.1", "1.5", "1.9"}) {
+    const Ran ran = run(R"toml(
+[[body]]
+name = "ball"
+task_space = "xy"
+pose = [1, 0]
+[[chain]]
+name = "guide"
+elements = [{ joint = "prismatic", axis = "x", name = "x", role = "preloaded", initial = 1, spring = { law = "power", force = 1, from = 0.5, exponent = )toml" +
+                        std::string{power} + R"toml( } }]
+[[study]]
+name = "out"
+control = "mixed"
+direction = [-1, 0]
+start = { solve = "wrench" }
+until = { lambda = [0, 1] }
+)toml");
+    const auto& result = ran.of("out");
+    EXPECT_TRUE(complete(result)) << power;
+    EXPECT_THAT(lambdas(result, EventKind::switching),
+                testing::ElementsAre(testing::DoubleNear(0.5, 1e-10)));
+    EXPECT_THAT(lambdas(result, EventKind::unresolved), testing::IsEmpty()) << power;
+  }
+}
+
+}  // namespace
+}  // namespace springfold::io
