@@ -190,9 +190,10 @@ Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scen
       json["modes"].push_back(base64_of(motion_at(scenes, *list.rows[event.row], mode)));
   }
   if (event.stiffness.size() > 0) {
+    const Matrix stiffness = shown_matrix(event.stiffness);
     json["stiffness"] = Json::array();
-    for (Index i = 0; i < event.stiffness.rows(); ++i) {
-      const Vector row = event.stiffness.row(i);
+    for (Index i = 0; i < stiffness.rows(); ++i) {
+      const Vector row = stiffness.row(i);
       json["stiffness"].push_back(std::vector<double>(row.begin(), row.end()));
     }
   }
