@@ -13,6 +13,7 @@
 #include "report_lists.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
+#include "smooth_line.hpp"
 #include "springfold/drawing/illustration.hpp"
 #include "springfold/io/postures.hpp"
 #include "springfold/io/shown_text.hpp"
@@ -249,11 +250,13 @@ Json map_of(const PlannedRun& planned) {
 Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& planned,
              const std::vector<std::string>& files, const std::string& equilibria) {
   const bool is_traced = planned.plan.kind == StudyKind::force_deflection;
+  const bool is_commanded = planned.plan.kind == StudyKind::control;
   const PageAxes axes = page_axes_of(planned, result);
   Json json = {{"study", shown_in_line(result.study)},
                {"run", result.run},
                {"label", shown_in_line(result.label)},
                {"kind", to_string(planned.plan.kind)},
+               {"along", is_commanded ? smooth_along(planned.plan) : "s"},
                {"control", is_traced ? to_string(planned.plan.control) : std::string_view{}},
                {"parameters", planned.parameters},
                {"varied", planned.varied},
