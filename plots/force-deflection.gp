@@ -74,7 +74,10 @@ if (!has_bar) { palette_text = '0 "black", 1 "white"'; set cbrange [0:1] }
 if (has_bar) {
   set palette defined (@palette_text)
   set cbrange [bar_low:bar_high]
-  set cblabel bar_title noenhanced textcolor rgb ink offset 1, 0
+  # At the edge of the picture, clear of the numbers however long they are.
+  unset cblabel
+  set label bar_title at screen 1 - 0.9 * figure_font_size / figure_width, \
+      screen (frame_bottom + frame_top) / 2 center rotate by 90 noenhanced font base_font textcolor rgb ink
   set colorbox user origin frame_right + 25.0 / figure_width, frame_bottom \
       size 20.0 / figure_width, frame_top - frame_bottom
 }

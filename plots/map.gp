@@ -97,7 +97,7 @@ do for [n = 1:panels] {
        NaN with lines linestyle 32 title (has_edge ? 'edge of the workspace' : ''), \
        NaN with lines linestyle 33 title (has_activation ? 'a spring switches' : ''), \
        NaN with lines linestyle 34 title (has_unstable ? 'stability is lost' : ''), \
-       NaN with points pointtype 5 pointsize 2 linecolor rgb '#DDDDDD' \
+       NaN with points pointtype 5 pointsize 2 * mark_scale linecolor rgb '#DDDDDD' \
            title (has_gaps ? 'no value' : ''), \
        NaN with lines linecolor rgb 'white' \
            title (has_infinite ? 'infinite: colour at the end' : ''), \

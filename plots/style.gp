@@ -48,25 +48,29 @@ set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
 set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
 
+# SVG draws marks larger than the other formats do, diamonds most.
+mark_scale = figure_format eq 'svg' ? 0.58 : 1.0
+diamond_scale = figure_format eq 'svg' ? 0.41 : 1.0
+
 # Degeneracies of critical curves, and where their load is stationary or jumps.
-set style line 25 linecolor rgb ink pointtype 13 pointsize 2.0
-set style line 26 linecolor rgb ink pointtype 1 pointsize 1.9 linewidth 2.2
+set style line 25 linecolor rgb ink pointtype 13 pointsize 2.0 * diamond_scale
+set style line 26 linecolor rgb ink pointtype 1 pointsize 1.9 * mark_scale linewidth 2.2
 
 # Special points: one shape for each code.
-set style line 11 linecolor rgb ink pointtype 6 pointsize 2.4 linewidth 2.2   # start
-set style line 12 linecolor rgb ink pointtype 7 pointsize 1.9                 # LP
-set style line 13 linecolor rgb ink pointtype 9 pointsize 2.2                 # CL
-set style line 14 linecolor rgb ink pointtype 5 pointsize 1.7                 # SA
-set style line 15 linecolor rgb ink pointtype 13 pointsize 2.3                # BP
-set style line 16 linecolor rgb ink pointtype 11 pointsize 2.2                # KB
-set style line 17 linecolor rgb ink pointtype 3 pointsize 2.2 linewidth 2     # KS
-set style line 18 linecolor rgb ink pointtype 12 pointsize 2.2 linewidth 2.2  # TP
-set style line 19 linecolor rgb ink pointtype 2 pointsize 1.9 linewidth 2.2   # UZ
-set style line 20 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 linewidth 3.5  # UR
-set style line 21 linecolor rgb ink pointtype 4 pointsize 1.9 linewidth 2.2   # FM
-set style line 22 linecolor rgb stable_color pointtype 7 pointsize 2.2        # ES
-set style line 23 linecolor rgb unstable_color pointtype 6 pointsize 2.2 linewidth 2.5  # EU
-set style line 24 linecolor rgb ink pointtype 8 pointsize 2.2 linewidth 2.2   # SC
+set style line 11 linecolor rgb ink pointtype 6 pointsize 2.4 * mark_scale linewidth 2.2            # start
+set style line 12 linecolor rgb ink pointtype 7 pointsize 1.9 * mark_scale                          # LP
+set style line 13 linecolor rgb ink pointtype 9 pointsize 2.2 * mark_scale                          # CL
+set style line 14 linecolor rgb ink pointtype 5 pointsize 1.7 * mark_scale                          # SA
+set style line 15 linecolor rgb ink pointtype 13 pointsize 2.3 * diamond_scale                      # BP
+set style line 16 linecolor rgb ink pointtype 11 pointsize 2.2 * mark_scale                         # KB
+set style line 17 linecolor rgb ink pointtype 3 pointsize 2.2 * mark_scale linewidth 2              # KS
+set style line 18 linecolor rgb ink pointtype 12 pointsize 2.2 * diamond_scale linewidth 2.2        # TP
+set style line 19 linecolor rgb ink pointtype 2 pointsize 1.9 * mark_scale linewidth 2.2            # UZ
+set style line 20 linecolor rgb '#CC0000' pointtype 2 pointsize 2.8 * mark_scale linewidth 3.5      # UR
+set style line 21 linecolor rgb ink pointtype 4 pointsize 1.9 * mark_scale linewidth 2.2            # FM
+set style line 22 linecolor rgb stable_color pointtype 7 pointsize 2.2 * mark_scale                 # ES
+set style line 23 linecolor rgb unstable_color pointtype 6 pointsize 2.2 * mark_scale linewidth 2.5 # EU
+set style line 24 linecolor rgb ink pointtype 8 pointsize 2.2 * mark_scale linewidth 2.2            # SC
 
 point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13 : \
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \

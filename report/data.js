@@ -19,7 +19,7 @@
  *            base: {at: number, towards: number}[], names: {name: string, at: number}[]}} Parts
  * @typedef {{name: string, from: number, to: number, points: number}} MapAxis
  * @typedef {{axes: MapAxis[], quantity: string}} WrittenMap
- * @typedef {{study: string, run: number, label: string, kind: string, control: string,
+ * @typedef {{study: string, run: number, label: string, kind: string, along: string, control: string,
  *            parameters: Object<string, number>, varied: string[], start: string, doubts: string[],
  *            axes: string[], map: WrittenMap | null, quantities: Quantity[],
  *            branches: WrittenBranch[], mechanisms: Parts[]}} Run

@@ -9,7 +9,18 @@ const d3 = /** @type {any} */ (window)["d3"];
  * @typedef {{run: Run, branch: WrittenBranch, number: number, x: Float64Array, y: Float64Array, kinds: string[],
  *            special: Uint8Array, between: number[][]}} Plot
  * @typedef {{kind: string, plot: Plot, path: string, spots: number[]}} Line
+ * @typedef {{path: string, style: string}} Stroke
  */
+
+/** Kinds of lines from the most stable on, and those of marks: classes of the style sheet. */
+const kindsOfLines = ["stable", "unknown", "driven", "unstable", "moving"];
+
+/** @param {number[]} spots */
+function pathOf(spots) {
+  const places = [];
+  for (let i = 0; i < spots.length; i += 2) places.push(`${spots[i].toFixed(1)},${spots[i + 1].toFixed(1)}`);
+  return `M${places.join("L")}`;
+}
 
 /** @param {Run} run @param {number} number @param {number} xColumn @param {number} yColumn @returns {Plot} */
 function plotOf(run, number, xColumn, yColumn) {
@@ -45,6 +56,7 @@ class Diagram {
     /** @type {Plot[]} */ this.plots = [];
     /** @type {Plot[]} */ this.others = [];
     /** @type {MapView | null} */ this.map = null;
+    /** Kinds of lines of the whole diagram; "mixed": one lies on a more stable one. @type {Set<string>} */ this.kinds = new Set();
     this.branch = this.row = 0;
     d3.select(svg).attr("viewBox", `0 0 ${this.width} ${this.height}`);
     this.x = d3.scale.linear().range([this.edges.left, this.width - this.edges.right]);
@@ -187,7 +199,7 @@ class Diagram {
     this.zoom.x(this.x).y(this.y);
     this.xLabel.text(titleOf(run, xColumn));
     this.yLabel.text(titleOf(run, yColumn));
-    this.redraw();
+    this.kinds = this.redraw();
   }
 
   /** From the least to the largest value, with room.
@@ -254,24 +266,44 @@ class Diagram {
     end();
   }
 
+  /** What is drawn of lines: dashes that lie on a line are not drawn again. The branch that is shown comes first, then those of
+   * this run.
+   * @param {Line[]} lines @returns {Stroke[]} */
+  strokes(lines) {
+    /** @type {Map<Plot, number>} */ const numbers = new Map();
+    for (const {plot} of lines) if (!numbers.has(plot)) numbers.set(plot, numbers.size);
+    const placeOf = (/** @type {Plot} */ plot) => plot.run !== this.run ? 2 : plot.number === this.branch ? 0 : 1;
+    const seen = withoutOverlaps(lines.map(l => ({curve: numbers.get(l.plot) ?? 0, place: placeOf(l.plot),
+                                                  rank: Math.max(0, kindsOfLines.indexOf(l.kind)), spots: l.spots})), this.width, this.height);
+    /** @type {Stroke[]} */ const bands = [];
+    /** @type {Stroke[]} */ const strokes = [];
+    lines.forEach((line, i) => {
+      const place = placeOf(line.plot), style = `curve ${line.kind}${["", " other", " run"][place]}`;
+      if (place < 2) for (const spots of seen[i].beneath) bands.push({path: pathOf(spots), style: "curve mixed"});
+      if (seen[i].isWhole) strokes.push({path: line.path, style});
+      else for (const spots of seen[i].stretches) strokes.push({path: pathOf(spots), style});
+    });
+    return [...bands, ...strokes];
+  }
+
+  /** @returns {Set<string>} kinds of its lines */
   redraw() {
-    if (!this.run) return;
+    if (!this.run) return new Set();
     this.hover.attr("display", "none");
     this.xAxis.call(d3.svg.axis().scale(this.x).orient("bottom").ticks(6).tickFormat(ticksOf(this.x)));
     this.yAxis.call(d3.svg.axis().scale(this.y).orient("left").ticks(6).tickFormat(ticksOf(this.y)));
     /** @type {Line[]} */ const lines = [];
     for (const plot of this.others) this.addLines(plot, lines);
     for (const plot of this.plots) this.addLines(plot, lines);
-    const drawn = this.curves.selectAll("path").data(lines);
+    const strokes = this.strokes(lines);
+    const drawn = this.curves.selectAll("path").data(strokes);
     drawn.enter().append("path");
     drawn.exit().remove();
-    drawn.attr("d", (/** @type {Line} */ l) => l.path).attr("class", (/** @type {Line} */ l) => {
-      const here = l.plot.run === this.run;
-      return `curve ${l.kind}${!here ? " run" : l.plot.number === this.branch ? "" : " other"}`;
-    });
+    drawn.attr("d", (/** @type {Stroke} */ s) => s.path).attr("class", (/** @type {Stroke} */ s) => s.style);
     this.redrawNodes();
     this.mark();
     this.label(lines);
+    return new Set([...lines.map(l => l.kind), ...(strokes.some(s => s.style === "curve mixed") ? ["mixed"] : [])]);
   }
 
   /** Names of special points beside them, where there is room.

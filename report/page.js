@@ -18,6 +18,12 @@ function fill(select, texts) {
   texts.forEach((text, i) => { append(select, "option", text).value = String(i); });
 }
 
+/** What a line, mark or colour says.
+ * @type {Object<string, string>} */
+const kindWords = {stable: "stable under dead load", driven: "held as driven, unstable under dead load", unstable: "unstable",
+                   critical: "critical, stability ends here", unknown: "stability not known", moving: "a jump",
+                   mixed: "with a less stable one on it"};
+
 class ReportPage {
   /** @param {Page} page */
   constructor(page) {
@@ -47,7 +53,6 @@ class ReportPage {
     byId("colour").addEventListener("change", () => {
       if (this.map) this.map.choose(Number(byId("colour").value));
       this.showAxes();
-      this.showKey();
     });
     this.listenToTurns();
     for (const id of ["x", "y"]) byId(id).addEventListener("change", () => this.showAxes());
@@ -149,7 +154,6 @@ class ReportPage {
     this.diagram.branch = this.diagram.row = 0;
     this.showAxes();
     this.showTables();
-    this.showKey();
     byId("parts").textContent = this.view ? this.view.words() : "";
     this.go(0, run.branches.length ? run.branches[0].start : 0);
   }
@@ -165,15 +169,34 @@ class ReportPage {
   showAxes() {
     this.diagram.show(this.run, Number(byId("x").value), Number(byId("y").value), byId("others").checked ? this.otherRuns() : [],
                       this.map);
+    this.showKey();
   }
 
+  /** The lines and marks that the diagram has, each with what it means; of a map its colours. */
   showKey() {
     const key = byId("key");
-    key.textContent = this.map ? this.map.words()
-      : "Solid: stable under dead load. Long dashes: held as driven, unstable under dead load. Short dashes: unstable." +
-        (this.run.branches.some(b => b.form === "jump") ? " Dots: a jump." : "") +
-        (this.run.branches.some(b => b.form === "points") ? " Marks: blue as solid lines, yellow as long dashes, orange as short ones." : "");
-    if (this.map) append(key, "span").className = "ramp";
+    key.textContent = this.map ? this.map.words() : "";
+    if (this.map) { append(key, "span").className = "ramp"; return; }
+    const lines = [...kindsOfLines, "mixed"].filter(kind => this.diagram.kinds.has(kind));
+    for (const kind of lines) this.addSample(key, kind === "mixed" ? ["mixed", "stable"] : [kind], "M0,5H44", kindWords[kind]);
+    const points = this.diagram.plots.filter(p => p.branch.form === "points").flatMap(p => p.kinds);
+    for (const kind of kindsOfLines.filter(kind => points.includes(kind))) this.addSample(key, [kind], "", kindWords[kind]);
+  }
+
+  /** @param {HTMLElement} key @param {string[]} kinds @param {string} path  of lines; empty: a mark @param {string} words */
+  addSample(key, kinds, path, words) {
+    const entry = append(key, "span"), image = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    entry.className = "entry";
+    entry.dataset.kind = kinds[0];
+    image.setAttribute("viewBox", path ? "0 0 44 10" : "0 0 14 14");
+    for (const kind of kinds) {
+      const mark = document.createElementNS("http://www.w3.org/2000/svg", path ? "path" : "circle");
+      const attributes = path ? {class: `curve ${kind}`, d: path} : {class: `special ${kind}`, cx: 7, cy: 7, r: 5};
+      for (const [name, value] of Object.entries(attributes)) mark.setAttribute(name, String(value));
+      image.appendChild(mark);
+    }
+    entry.appendChild(image);
+    entry.appendChild(document.createTextNode(` ${words} `));
   }
 
   /** The special points of all runs of the study; of a sweep beside the values that it varies. */
@@ -249,12 +272,9 @@ class ReportPage {
     this.diagram.go(branch, this.row);
     const stability = stabilityAt(run, b, this.row);
     if (this.view) this.view.draw(b, this.row, stability);
-    /** @type {Object<string, string>} */
-    const words = {stable: "stable under dead load", driven: "held as driven, unstable under dead load", unstable: "unstable", critical: "critical, stability ends here",
-                   unknown: "stability not known", moving: "not at rest"};
     const status = b.status ? b.status.texts[b.status.of[this.row]] : "";
     byId("shown").textContent = `${run.study}, run ${run.run}${run.label ? `: ${run.label}` : ""}`;
-    byId("posture").textContent = `${b.name}, row ${this.row + 1} of ${b.rows}: ${words[stability]}${status ? ` (${status})` : ""}.`;
+    byId("posture").textContent = `${b.name}, row ${this.row + 1} of ${b.rows}: ${stability === "moving" ? "not at rest" : kindWords[stability]}${status ? ` (${status})` : ""}.`;
     this.showPoint();
     this.showValues();
   }

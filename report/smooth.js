@@ -7,12 +7,12 @@ const mostBentRows = 2000;
 const piecesOfAStep = 8;
 
 /**
- * Cubics over the arc length between rows, with the slopes of the parabola through a row and its neighbours, never across a
- * row at which a spring switches; none where there is no arc length.
+ * Cubics over the arc length, or along a path of commands without corners, between rows, with the slopes of the parabola through
+ * a row and its neighbours, never across a row at which a spring switches; none where there is neither.
  * @param {Run} run @param {WrittenBranch} branch @param {Float64Array} x @param {Float64Array} y
  * @returns {number[][]} x and y by turns, for each step */
 function pointsBetween(run, branch, x, y) {
-  const column = columnOf(run, "s");
+  const column = columnOf(run, run.along);
   if (column < 0 || branch.form !== "curve" || branch.rows < 3 || branch.rows > mostBentRows) return [];
   const s = valuesAlong(run, branch, column), rows = branch.rows, last = rows - 1, near = 1e-6 * Math.abs(s[last] - s[0]);
   const kinks = new Set(branch.events.filter(e => ["SA", "CL", "KB"].includes(e.code)).flatMap(e => [e.row, e.row + 1]));

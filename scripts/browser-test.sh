@@ -22,4 +22,6 @@ page long "$folder/long.toml"
 page figure "$here/cases/orthoglide-planar/case-figure-5.toml"
 page platform "$here/cases/rpr-platform/case.toml"
 page dome "$here/cases/n-bar-dome/case.toml"
+page truss "$here/tests/browser/steep-truss.toml"
+page follower "$here/cases/ziegler-column/case.toml"
 timeout -s KILL 150 node "$here/tests/browser/page_test.mjs" chromium "$folder" ${2:+"$2"} ${3:+"$3"}

@@ -51,6 +51,23 @@ std::string colour_between(const DiagramPoint& a, const DiagramPoint& b) {
   return stability_colour(panel);
 }
 
+struct Style {
+  Ink ink{};
+  int rank = 0;  ///< the more stable ones first
+};
+
+Style style_of(const std::string& colour) {
+  Style style{{colour, "", 2, {}}};
+  const auto dash = [&](int rank, std::vector<double> dashes) {
+    style.rank = rank;
+    style.ink.dashes = std::move(dashes);
+  };
+  if (colour == ink_colour) dash(1, {8, 3, 2, 3});  // not known
+  if (colour == driven_colour) dash(2, {8, 4});
+  if (colour == unstable_colour) dash(3, {3, 4});
+  return style;
+}
+
 }  // namespace
 
 bool is_known(const DiagramPoint& point) {
@@ -109,11 +126,12 @@ void DiagramAxes::paint_ticks(Picture& picture) const {
   words({frame_.left, frame_.top - 8}, diagram_.y_name, Anchor::start);
 }
 
-void DiagramAxes::paint_curve(Picture& picture) const {
+std::vector<Path> DiagramAxes::curve() const {
   constexpr double visible = 0.6;  // pixels between points of a line
+  std::vector<Path> parts;
   Path path;
   const auto finish = [&] {
-    if (path.places.size() > 1) picture.marks.emplace_back(path);
+    if (path.places.size() > 1) parts.push_back(path);
     path.places.clear();
   };
   for (std::size_t i = 1; i < diagram_.points.size(); ++i) {
@@ -128,15 +146,40 @@ void DiagramAxes::paint_curve(Picture& picture) const {
       finish();
     }
     if (path.places.empty()) {
-      path.ink = {colour, "", 2, {}};
-      if (colour == driven_colour) path.ink.dashes = {8, 4};
-      if (colour == unstable_colour) path.ink.dashes = {3, 4};
+      path.ink = style_of(colour).ink;
       path.places.push_back(place(a));
     }
     const bool is_last = i + 1 == diagram_.points.size() || !is_known(diagram_.points[i + 1]);
     if (is_last || length(place(b) - path.places.back()) > visible) path.places.push_back(place(b));
   }
   finish();
+  return parts;
+}
+
+std::vector<SeenLine> DiagramAxes::seen_parts(const std::vector<Path>& parts) const {
+  std::vector<RankedLine> lines;
+  for (const Path& part : parts)
+    lines.push_back({.rank = style_of(part.ink.stroke).rank, .places = part.places});
+  return without_overlaps(lines, frame_.right, frame_.bottom);
+}
+
+bool DiagramAxes::is_mixed() const {
+  const std::vector<SeenLine> seen = seen_parts(curve());
+  return std::any_of(seen.begin(), seen.end(),
+                     [](const SeenLine& line) { return !line.beneath.empty(); });
+}
+
+void DiagramAxes::paint_curve(Picture& picture) const {
+  const std::vector<Path> parts = curve();
+  const std::vector<SeenLine> seen = seen_parts(parts);
+  for (const SeenLine& line : seen)
+    for (const Stretch& stretch : line.beneath)
+      picture.marks.emplace_back(Path{stretch.places, false, {mixed_colour, "", mixed_width, {}}});
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (seen[i].is_whole) picture.marks.emplace_back(parts[i]);
+    for (const Stretch& stretch : seen[i].stretches)
+      picture.marks.emplace_back(Path{stretch.places, false, parts[i].ink});
+  }
 }
 
 void DiagramAxes::paint_points(Picture& picture) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "springfold/drawing/movie.hpp"
+#include "springfold/drawing/overlaps.hpp"
 
 namespace springfold::drawing {
 
@@ -11,13 +12,18 @@ class DiagramAxes {
   DiagramAxes(const Diagram& diagram, const Box& frame);
   Place place(const DiagramPoint& point) const;
 
-  /// Frame, ticks, names, curve and labels of special points.
+  /// Frame, ticks, names, curve and labels of special points. Dashes that lie on a line are not drawn again.
   void paint(Picture& picture) const;
+
+  /// Somewhere a line lies on a more stable one: that is drawn on a pale band.
+  bool is_mixed() const;
 
  private:
   void paint_ticks(Picture& picture) const;
   void paint_curve(Picture& picture) const;
   void paint_points(Picture& picture) const;
+  std::vector<Path> curve() const;
+  std::vector<SeenLine> seen_parts(const std::vector<Path>& parts) const;
 
   const Diagram& diagram_;
   Box frame_{};

@@ -73,7 +73,7 @@ Picture illustrate(const std::vector<Panel>& panels, const IllustrationOptions& 
     paint(panels[i], sheet, room, picture);
   }
   picture.height = top + (above + grid.height) * static_cast<double>(grid.rows);
-  picture.height += add_legend(panels, sheet, options, picture.height, picture);
+  picture.height += add_legend(panels, sheet, options, picture.height, false, picture);
   return picture;
 }
 

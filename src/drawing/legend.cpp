@@ -20,9 +20,12 @@ struct Entry {
 
 class Legend {
  public:
-  Legend(const std::vector<Panel>& panels, const Sheet& sheet, const IllustrationOptions& options)
+  Legend(const std::vector<Panel>& panels, const Sheet& sheet, const IllustrationOptions& options,
+         bool has_mixed)
       : panels_{panels}, sheet_{sheet} {
     add_colours(options);
+    if (has_mixed)
+      entries_.push_back({"with a less stable one on it", {mixed_colour, "", mixed_width, {}}});
     add_joints();
     add_springs();
     add_loads();
@@ -126,9 +129,10 @@ class Legend {
 }  // namespace
 
 double add_legend(const std::vector<Panel>& panels, const Sheet& sheet,
-                  const IllustrationOptions& options, double top, Picture& picture) {
+                  const IllustrationOptions& options, double top, bool has_mixed,
+                  Picture& picture) {
   double x = margin, y = top + line_height;
-  const Legend legend{panels, sheet, options};
+  const Legend legend{panels, sheet, options, has_mixed};
   for (const Entry& entry : legend.entries()) {
     Words words{.at = {0, y}, .text = entry.text, .size = font_size, .colour = "#333333"};
     const Box box = box_of(words);

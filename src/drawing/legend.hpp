@@ -8,8 +8,9 @@
 namespace springfold::drawing {
 
 /// Adds lines of legend from `top` downwards, only of what occurs in the panels.
+/// @param has_mixed  beside them lines lie on more stable ones
 /// @returns the height that they take
 double add_legend(const std::vector<Panel>& panels, const Sheet& sheet,
-                  const IllustrationOptions& options, double top, Picture& picture);
+                  const IllustrationOptions& options, double top, bool has_mixed, Picture& picture);
 
 }  // namespace springfold::drawing

@@ -84,7 +84,8 @@ Movie animate(const Film& film, const IllustrationOptions& options) {
   axes.paint(movie.still);
   add_states_of(film.diagram, panels);
   const double bottom = head + notes + film_height;
-  movie.still.height = bottom + add_legend(panels, sheet, options, bottom, movie.still);
+  movie.still.height =
+      bottom + add_legend(panels, sheet, options, bottom, axes.is_mixed(), movie.still);
   for (const Frame& frame : film.frames) {
     const DiagramPoint& point = film.diagram.points[frame.point];
     movie.frames.push_back(marks_of(frame, sheet, axes.place(point), is_known(point)));

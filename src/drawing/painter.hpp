@@ -16,6 +16,9 @@ inline constexpr const char* stable_colour = "#0072b2";
 inline constexpr const char* driven_colour = "#e69f00";  // held by the drive alone
 inline constexpr const char* unstable_colour = "#d55e00";
 inline constexpr const char* critical_colour = "#7d4bb3";
+inline constexpr const char* mixed_colour =
+    "#f5cba7";  // beneath a line, a less stable one lies on it
+inline constexpr double mixed_width = 7;
 inline constexpr const char* gap_colour = "#c00000";
 
 /// Light to dark for t from 0 to 1, told apart in grey too.

@@ -38,10 +38,10 @@ bool is_marked(EventKind kind) { return kind != EventKind::end_of_range; }
 struct Axes {
   const PlotSpec& spec;
   const UnitLabels& units;
-  std::string y{};         ///< the quantity that is plotted: spec.y or one of spec.more_y
-  bool is_traced = false;  ///< rows lie on curves over arc length
-  int hue = 0;             ///< of several quantities: the number of this one
-  bool has_start = true;   ///< false: its rows begin where they are found first
+  std::string y{};        ///< the quantity that is plotted: spec.y or one of spec.more_y
+  std::string along{};    ///< rows lie on smooth curves over this quantity; empty: on none
+  int hue = 0;            ///< of several quantities: the number of this one
+  bool has_start = true;  ///< false: its rows begin where they are found first
   std::vector<double>
       sizes{};  ///< of the result's quantities; nothing is rounding where there are none
 
@@ -72,17 +72,18 @@ void add_mark(Figure& figure, FigureMark mark) {
   if (is_finite(mark.at) && !is_there) figure.marks.push_back(std::move(mark));
 }
 
-/// A curve over arc length bends between its rows as it does at them; rows of commands and targets are
-/// what they are: straight in the values, which logarithmic axes bend. Adds the points in between, and the
+/// A curve over arc length, or over a path without corners, bends between its rows as it does at them; rows of other commands
+/// and targets are what they are: straight in the values, which logarithmic axes bend. Adds the points in between, and the
 /// stability of the steps that they make.
-void bend(const StudyResult& result, const Branch& branch, bool is_smooth, const PlotLook& look,
-          std::vector<PlotPoint>& points, std::vector<Stability>& steps) {
+/// @param along  as in Axes
+void bend(const StudyResult& result, const Branch& branch, const std::string& along,
+          const PlotLook& look, std::vector<PlotPoint>& points, std::vector<Stability>& steps) {
   std::vector<LineRow> rows;
   int piece = 0;
   for (std::size_t row = 0; row < points.size(); ++row) {
-    if (row > 0 && (!is_smooth || branch.samples[row].piece != branch.samples[row - 1].piece))
+    if (row > 0 && (along.empty() || branch.samples[row].piece != branch.samples[row - 1].piece))
       ++piece;
-    rows.push_back({points[row], value_at(result, branch, row, "s"), piece});
+    rows.push_back({points[row], along.empty() ? 0 : value_at(result, branch, row, along), piece});
   }
   for (const analysis::Event& event : branch.events)
     if (event.row < rows.size()) rows[event.row].is_special = true;
@@ -112,10 +113,10 @@ void add_branch(Figure& figure, const Axes& axes, const StudyResult& result, con
     points.push_back(axes.point(result, branch, row));
   std::vector<Stability> steps = stability_of_steps(result, branch);
   const PlotLook& look = axes.spec.look;
-  const bool is_smooth = axes.is_traced && look.smooth && column_of(result, "s");
+  const std::string along = look.smooth && column_of(result, axes.along) ? axes.along : "";
   for (const PlotPoint& at : points) lower(at.first, figure.least.first);
   for (const PlotPoint& at : points) lower(at.second, figure.least.second);
-  if (is_smooth || look.x_log || look.y_log) bend(result, branch, is_smooth, look, points, steps);
+  if (!along.empty() || look.x_log || look.y_log) bend(result, branch, along, look, points, steps);
   figure.curves.push_back({label, parts_of(points, steps), hue});
   for (const auto& event : branch.events)
     if (is_marked(event.kind))
@@ -224,10 +225,7 @@ void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
   axes.has_start = planned == nullptr || planned->plan.kind != analysis::StudyKind::critical_load;
   // On a logarithmic axis rounding is seen for what it is.
   if (!spec.look.x_log && !spec.look.y_log) axes.sizes = quantity_sizes(result);
-  axes.is_traced = planned != nullptr &&
-                   (planned->plan.kind == analysis::StudyKind::force_deflection ||
-                    analysis::is_of_critical_points(planned->plan.kind)) &&
-                   planned->plan.path == analysis::Path::arc_length;
+  if (planned != nullptr) axes.along = smooth_along(planned->plan);
   if (spec.more_y.empty()) return add_run(figure, axes, result, label);
   std::vector<std::string> quantities{spec.y};
   quantities.insert(quantities.end(), spec.more_y.begin(), spec.more_y.end());

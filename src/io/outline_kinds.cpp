@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "map_figure.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/design.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -25,13 +26,19 @@ constexpr int word_digits = 4;
 
 std::string number_words(double value) { return rounded(value, word_digits); }
 
+/// "0.02701"; 0 where it is rounding beside what the run has of this quantity.
+std::string value_words(const StudyResult& result, std::size_t column, double value) {
+  return number_words(shown_in(quantity_sizes(result), column, value));
+}
+
 /// "0.02701 N"; the number alone where there is no unit.
 std::string value_words(const Case& the_case, const StudyResult& result, const std::string& name,
                         double value) {
   const auto column = column_of(result, name);
+  if (!column) return number_words(value);
   const std::string unit =
-      column ? unit_label(result.quantities[*column].unit, result.lambda_unit, the_case.units) : "";
-  return number_words(value) + (unit.empty() ? "" : " " + unit);
+      unit_label(result.quantities[*column].unit, result.lambda_unit, the_case.units);
+  return value_words(result, *column, value) + (unit.empty() ? "" : " " + unit);
 }
 
 /// Least and largest finite value of a column, and the rows that have them.
@@ -97,7 +104,7 @@ std::string map_words(const Case& the_case, const PlannedRun& planned, const Stu
   const auto column = column_of(result, quantity);
   const Extremes found = column ? extremes_of(samples, *column) : Extremes{};
   if (found.least == nullptr) return text;
-  return text + "; " + quantity + " from " + number_words(found.low) + " to " +
+  return text + "; " + quantity + " from " + value_words(result, *column, found.low) + " to " +
          value_words(the_case, result, quantity, found.high);
 }
 
@@ -125,7 +132,7 @@ std::string critical_words(const Case& the_case, const PlannedRun& planned,
   const Extremes found = extremes_of(samples, *lambda), range = extremes_of(samples, *varied);
   if (found.least == nullptr || range.least == nullptr) return {};
   const auto at = [&](const Sample& sample) {
-    return " at " + parameter + " = " + number_words(sample.values[*varied]);
+    return " at " + parameter + " = " + value_words(result, *varied, sample.values[*varied]);
   };
   const bool is_first = planned.plan.kind == StudyKind::critical_load;
   return (is_first ? "first critical load from " : "lambda from ") +

@@ -13,6 +13,7 @@
 #include "report_lists.hpp"
 #include "result_access.hpp"
 #include "result_tables.hpp"
+#include "smooth_line.hpp"
 #include "springfold/drawing/illustration.hpp"
 #include "springfold/io/postures.hpp"
 #include "springfold/io/shown_text.hpp"
@@ -190,9 +191,10 @@ Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scen
       json["modes"].push_back(base64_of(motion_at(scenes, *list.rows[event.row], mode)));
   }
   if (event.stiffness.size() > 0) {
+    const Matrix stiffness = shown_matrix(event.stiffness);
     json["stiffness"] = Json::array();
-    for (Index i = 0; i < event.stiffness.rows(); ++i) {
-      const Vector row = event.stiffness.row(i);
+    for (Index i = 0; i < stiffness.rows(); ++i) {
+      const Vector row = stiffness.row(i);
       json["stiffness"].push_back(std::vector<double>(row.begin(), row.end()));
     }
   }
@@ -248,11 +250,13 @@ Json map_of(const PlannedRun& planned) {
 Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& planned,
              const std::vector<std::string>& files, const std::string& equilibria) {
   const bool is_traced = planned.plan.kind == StudyKind::force_deflection;
+  const bool is_commanded = planned.plan.kind == StudyKind::control;
   const PageAxes axes = page_axes_of(planned, result);
   Json json = {{"study", shown_in_line(result.study)},
                {"run", result.run},
                {"label", shown_in_line(result.label)},
                {"kind", to_string(planned.plan.kind)},
+               {"along", is_commanded ? smooth_along(planned.plan) : "s"},
                {"control", is_traced ? to_string(planned.plan.control) : std::string_view{}},
                {"parameters", planned.parameters},
                {"varied", planned.varied},

@@ -161,6 +161,22 @@ double shown_against(double value, double scale) {
   return std::abs(value) <= shown_below(scale) ? 0 : value;
 }
 
+Matrix shown_matrix(Matrix matrix) {
+  // Rounding of the largest entry; no more of it, as rows may have other units.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const Matrix whole = matrix;
+  double largest = 0;
+  for (const double entry : whole.reshaped())
+    if (std::isfinite(entry)) largest = std::max(largest, std::abs(entry));
+  for (Eigen::Index r = 0; r < whole.rows(); ++r)
+    for (Eigen::Index c = 0; c < whole.cols(); ++c) {
+      const double coupled = r == c ? 0 : std::sqrt(std::abs(whole(r, r) * whole(c, c)));
+      if (std::abs(whole(r, c)) <= std::max(shown_below(coupled), rounding * largest))
+        matrix(r, c) = 0;
+    }
+  return matrix;
+}
+
 double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
                    std::size_t column) {
   const Unit unit = result.quantities[column].unit;

@@ -38,6 +38,10 @@ double shown_below(double scale);
 /// The number for people: 0 where it is nothing but rounding beside the scale.
 double shown_against(double value, double scale);
 
+/// A stiffness or compliance for people: entries are 0 where they are rounding beside the diagonal entries that they couple,
+/// whatever the units of both, or where no accuracy of the whole matrix reaches down to them.
+Matrix shown_matrix(Matrix matrix);
+
 /// An entry of a row for people: 0 where it is nothing but rounding beside the largest entry of its unit (angles: beside 1 rad).
 double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
                    std::size_t column);

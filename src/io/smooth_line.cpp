@@ -153,7 +153,29 @@ bool is_gentle(const std::vector<LineRow>& rows, std::size_t step, const AxisSca
   return true;
 }
 
+/// Does the path turn, or its load change its rate, at a target? One in even steps along a straight line does not.
+bool has_corners(const analysis::ControlPath& path) {
+  if (path.loads.size() > 2) return true;
+  if (path.circle || path.targets.empty()) return false;
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  const Vector &from = path.targets.front(), &to = path.targets.back();
+  const double size = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+  const auto last = static_cast<double>(path.targets.size() - 1);
+  for (std::size_t i = 0; i < path.targets.size(); ++i) {
+    const Vector even = from + static_cast<double>(i) / last * (to - from);
+    if (!((path.targets[i] - even).cwiseAbs().maxCoeff() <= rounding * size)) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+std::string smooth_along(const analysis::Study& study) {
+  if (study.kind == analysis::StudyKind::control) return has_corners(study.targets) ? "" : "path";
+  const bool is_traced = study.kind == analysis::StudyKind::force_deflection ||
+                         analysis::is_of_critical_points(study.kind);
+  return is_traced && study.path == analysis::Path::arc_length ? "s" : "";
+}
 
 AxisScales scales_of(const std::vector<LineRow>& rows, bool x_log, bool y_log) {
   AxisScales scales{.x_log = x_log, .y_log = y_log};

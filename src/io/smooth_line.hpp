@@ -1,17 +1,23 @@
 // Lines through the rows of a branch that bend as the branch does.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "figure.hpp"
 #include "log_line.hpp"
+#include "springfold/analysis/study.hpp"
 
 namespace springfold::io {
+
+/// The quantity over which the rows of a study lie on smooth curves: "s"; of commands "path", if it has no corners, that is
+/// for a circle and for even steps along a straight line; empty: none.
+std::string smooth_along(const analysis::Study& study);
 
 /// A row of a branch in a figure.
 struct LineRow {
   PlotPoint at{};
-  double s = 0;   ///< arc length along the branch
+  double s = 0;   ///< along the branch: arc length, or what smooth_along says
   int piece = 0;  ///< rows of different pieces lie on different smooth curves
   bool is_special =
       false;  ///< a located special point: what has an extremum at it there turns exactly there

@@ -85,15 +85,11 @@ namespace {
 /// A matrix under its name.
 std::string matrix_lines(const std::string& name, const Matrix& matrix) {
   const int shown = matrix.rows() <= 3 ? summary_digits : 6;
-  // Coupling terms are compared with what they couple, whatever the units of both.
-  const auto scale = [&](Index r, Index c) {
-    return r == c ? 0 : std::sqrt(std::abs(matrix(r, r) * matrix(c, c)));
-  };
+  const Matrix entries = shown_matrix(matrix);
   std::vector<std::vector<std::string>> rows;
   for (Index r = 0; r < matrix.rows(); ++r) {
     auto& row = rows.emplace_back();
-    for (Index c = 0; c < matrix.cols(); ++c)
-      row.push_back(rounded(shown_against(matrix(r, c), scale(r, c)), shown));
+    for (Index c = 0; c < matrix.cols(); ++c) row.push_back(rounded(entries(r, c), shown));
   }
   const std::vector<Align> right(static_cast<std::size_t>(matrix.cols()), Align::right);
   const std::string table = aligned(rows, right, summary_indent + summary_label_width);

@@ -1,5 +1,5 @@
 // The HTML page in a real browser: node page_test.mjs CHROMIUM FOLDER [SCREENSHOTS] [--renew]
-// FOLDER holds the results of the cases toggle, figure, dome, platform and long, each with report.html; scripts/browser-test.sh makes
+// FOLDER holds the results of the cases toggle, figure, dome, truss, follower, platform and long, each with report.html; scripts/browser-test.sh makes
 // it. SCREENSHOTS: a folder for what was seen, to be looked at. --renew keeps it as what later runs are compared with.
 // Ends with 0 if all holds.
 import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
@@ -180,6 +180,45 @@ async function modes() {
   expect(await apex() === rest, "after the last of them it rests again");
 }
 
+/** A branch that runs back over itself keeps its dashes, and the key has the lines that are there. */
+async function dashes() {
+  await tab.load(join(folder, "truss", "report.html"));
+  await value("(s => { s.selectedIndex = 1; s.dispatchEvent(new Event('change')); })(document.getElementById('branch'))");
+  await tab.settle();
+  const drawn = await value(`[...document.querySelectorAll('#diagram .curve.driven:not(.other)')].reduce((sum, p) => sum + p.getTotalLength(), 0)`);
+  const ends = await value(`["BP1", "BP4"].map(l => document.querySelector('#diagram circle[data-label="' + l + '"]'))
+      .map(c => [Number(c.getAttribute("cx")), Number(c.getAttribute("cy"))])`);
+  const chord = Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+  expect(drawn > chord && drawn < 1.15 * chord, `the branch aside and back is drawn once: ${(drawn / chord).toFixed(3)} of its chord`);
+  const kinds = () => value("[...document.querySelectorAll('#key .entry')].map(e => `${e.dataset.kind}: ${e.textContent.trim()}`)");
+  expect(JSON.stringify(await kinds()) === JSON.stringify(["stable: stable under dead load", "driven: held as driven, unstable under dead load", "unstable: unstable"]),
+         `the key has the lines that are there: ${await kinds()}`);
+  const dashesOf = kind => value(`(p => p ? getComputedStyle(p).strokeDasharray : "")(document.querySelector('#key .curve.${kind}'))`);
+  expect(await dashesOf("stable") === "none" && await dashesOf("driven") !== "none", "with their dashes");
+  await tab.load(join(folder, "follower", "report.html"));
+  expect((await kinds()).includes("unknown: stability not known"), `under a follower load stability is not known: ${await kinds()}`);
+  expect((await dashesOf("unknown")).split(",").length === 4, "which is a line of dashes and dots");
+  expect(await value("getComputedStyle(document.querySelector('#diagram .curve.unknown')).strokeDasharray") === await dashesOf("unknown"), "in the diagram too");
+}
+
+/** Two lines on the same place: what is drawn of each kind. */
+async function overlaps() {
+  const seen = (...lines) => value(`JSON.stringify(withoutOverlaps(${JSON.stringify(lines)}, 560, 420))`).then(JSON.parse);
+  const line = (rank, spots, curve = 0, place = 0) => ({curve, place, rank, spots});
+  const way = [100, 100, 300, 200], back = [300, 200, 100, 100];
+  const [first, second] = await seen(line(3, way, 0), line(3, back, 1));
+  expect(first.isWhole && !second.isWhole && second.stretches.length + second.beneath.length === 0, "of two dashed lines on each other one is drawn");
+  const [less, more] = await seen(line(3, way, 0), line(0, back, 1));
+  expect(more.isWhole && less.stretches.length === 0 && less.beneath.length === 1, "an unstable line on a stable one is a band beneath it");
+  const [solid, other] = await seen(line(0, way, 0), line(0, way, 1));
+  expect(solid.isWhole && other.isWhole, "solid lines are all drawn");
+  expect((await seen(line(3, way, 0), line(3, [100, 200, 300, 100], 1))).every(l => l.isWhole), "lines that cross are left alone");
+  const [turn] = await seen(line(3, [100, 100, 200, 100, 150, 100, 150, 300]));
+  expect(turn.stretches.length === 2 && turn.stretches[1].at(-1) === 300, "the rest of a line that runs back over itself is kept");
+  const chosen = await seen(line(2, way, 0, 1), line(3, way, 1, 0));
+  expect(chosen.every(l => l.isWhole), "of the branch that is shown nothing is left out for another");
+}
+
 /** The mouse alone shows the values of the row that is nearest. */
 async function hover() {
   const place = join(folder, "toggle");
@@ -237,7 +276,7 @@ async function longCurve() {
 }
 
 try {
-  for (const part of [curve, hover, map, inSpace, modes, () => allRuns("platform"), longCurve]) await part();
+  for (const part of [curve, hover, dashes, overlaps, map, inSpace, modes, () => allRuns("platform"), longCurve]) await part();
   expect(browser.complaints.length === 0, `no errors on the console ${browser.complaints.join("; ")}`);
 } catch (error) {
   console.error(error, browser.complaints);

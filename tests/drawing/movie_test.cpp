@@ -8,6 +8,7 @@
 
 #include "drawing/glyphs.hpp"
 #include "drawing/mechanisms.hpp"
+#include "drawing/painter.hpp"
 
 namespace springfold::drawing {
 namespace {
@@ -127,6 +128,61 @@ TEST(Movie, TheLegendExplainsStatesThatOnlyTheCurveHas) {
   EXPECT_THAT(svg_text(animate(film, {})), Not(HasSubstr(">unstable<")));
   film.diagram.points[2].unstable_dead = 1;
   EXPECT_THAT(svg_text(animate(film, {})), HasSubstr(">unstable<"));
+}
+
+/// The straight curve from 0 to 4, with this many unstable modes on the way there and on the way back.
+Film there_and_back(int there, int back) {
+  Film film = small_film();
+  film.diagram.points.clear();
+  for (int i = 0; i <= 16; ++i) {
+    const int modes = i <= 8 ? there : back;
+    const double x = 0.5 * (i <= 8 ? i : 16 - i);
+    film.diagram.points.push_back(
+        {.x = x, .y = 0.1 * x, .unstable_dead = modes, .unstable_driven = modes});
+  }
+  return film;
+}
+
+/// Length of all lines of a colour and a width [px].
+double length_of(const Picture& picture, const std::string& colour, double width) {
+  double sum = 0;
+  for (const Mark& mark : picture.marks)
+    if (const auto* path = std::get_if<Path>(&mark);
+        path && path->ink.stroke == colour && path->ink.width == width &&
+        path->places.back().y < 430)  // above the legend
+      for (std::size_t i = 1; i < path->places.size(); ++i)
+        sum += length(path->places[i] - path->places[i - 1]);
+  return sum;
+}
+
+TEST(Movie, DashesOfACurveThatRunsBackOverItselfAreDrawnOnce) {
+  const Film film = there_and_back(1, 1);
+  const Picture still = animate(film, {}).still;
+  const double way = length(place_in_movie(film, film.diagram.points[8]) -
+                            place_in_movie(film, film.diagram.points[0]));
+  constexpr double piece = 3;  // lines are compared in pieces of this length
+  EXPECT_NEAR(length_of(still, unstable_colour, 2), way, piece);
+  EXPECT_THAT(svg_text(still), Not(HasSubstr("with a less stable one on it")));
+}
+
+TEST(Movie, AnUnstableWayBackOverAStableOneIsABandBeneathIt) {
+  const Film film = there_and_back(0, 1);
+  const Picture still = animate(film, {}).still;
+  const double stable = length_of(still, stable_colour, 2);
+  EXPECT_GT(stable, 300);
+  EXPECT_LT(length_of(still, unstable_colour, 2), 60) << "the turn, as the worse side counts";
+  EXPECT_NEAR(length_of(still, mixed_colour, mixed_width), stable, 60);
+  EXPECT_THAT(svg_text(still), HasSubstr("with a less stable one on it"));
+}
+
+TEST(Movie, WhereStabilityIsNotKnownTheCurveHasDashesAndDots) {
+  Film film = small_film();  // no point of it has counts
+  const Picture still = animate(film, {}).still;
+  const bool has_dots = std::any_of(still.marks.begin(), still.marks.end(), [](const Mark& mark) {
+    const auto* path = std::get_if<Path>(&mark);
+    return path && path->ink.stroke == ink_colour && path->ink.dashes.size() == 4;
+  });
+  EXPECT_TRUE(has_dots);
 }
 
 TEST(Movie, TheSameFilmGivesTheSameBytes) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "io/overlaps.hpp"
@@ -74,6 +75,33 @@ TEST(PointsBetween, KeepTheCornerAtWhichASpringSwitches) {
   for (int i = 0; i <= 4; ++i) rows.push_back({{0.1 * i, 0.1 * i}, 0.1 * i, 0});
   for (int i = 4; i <= 8; ++i) rows.push_back({{0.1 * i, 0.8 - 0.1 * i}, 0.1 * i, 1});
   for (const Polyline& line : points_between(rows)) EXPECT_THAT(line, IsEmpty());
+}
+
+/// Commands to n targets, at places that grow with i.
+analysis::Study commands_to(int n, const std::function<double(double)>& place) {
+  analysis::Study study;
+  study.kind = analysis::StudyKind::control;
+  for (int i = 0; i < n; ++i)
+    study.targets.targets.push_back(Vector{{-30 + place(i), 110 + 0.1 * place(i)}});
+  return study;
+}
+
+TEST(SmoothAlong, IsThePathOfCommandsThatHasNoCorners) {
+  const analysis::Study line = commands_to(13, [](double i) { return i / 3; });
+  EXPECT_EQ(smooth_along(line), "path");
+  analysis::Study circle;
+  circle.kind = analysis::StudyKind::control;
+  circle.targets.circle = analysis::CirclePath{.centre = Vector::Zero(2), .radius = 1};
+  circle.targets.circle_points = 9;
+  EXPECT_EQ(smooth_along(circle), "path");
+}
+
+TEST(SmoothAlong, IsNothingWhereTheWayOrTheLoadTurnsAtATarget) {
+  EXPECT_EQ(smooth_along(commands_to(5, [](double i) { return std::abs(i - 2); })), "");
+  EXPECT_EQ(smooth_along(commands_to(5, [](double i) { return i * i; })), "") << "other steps";
+  analysis::Study line = commands_to(3, [](double i) { return i; });
+  line.targets.loads = {Vector::Zero(2), Vector::Ones(2), Vector::Zero(2)};
+  EXPECT_EQ(smooth_along(line), "");
 }
 
 Figure with_parts(std::vector<CurvePart> parts) {

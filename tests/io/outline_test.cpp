@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "io/fitted_table.hpp"
+#include "io/outline_kinds.hpp"
+#include "io/result_access.hpp"
 #include "io/sample_results.hpp"
 #include "springfold/io/results.hpp"
 
@@ -82,6 +84,32 @@ TEST(PointTables, SayThatRoundingIsZero) {
   values[2] = 3e-17;  // deflection [m], beside lengths about 1
   const std::string table = summary_table(sample::two_runs(), {result});
   EXPECT_THAT(table, testing::Not(HasSubstr("e-17")));
+}
+
+TEST(ShownMatrix, HasNoRoundingButSmallStiffnessesOfOtherUnits) {
+  Matrix K(3, 3);
+  K << 2.2e-16, 1e-17, 0,  //
+      1e-17, 4.8, 3e-18,   //
+      0, 3e-18, 2e-9;      // [N m/rad]
+  const Matrix shown = shown_matrix(K);
+  EXPECT_EQ(shown(0, 0), 0);
+  EXPECT_EQ(shown(0, 1), 0);
+  EXPECT_EQ(shown(1, 2), 0) << "beside the root of 4.8 times 2e-9";
+  EXPECT_EQ(shown(1, 1), 4.8);
+  EXPECT_EQ(shown(2, 2), 2e-9);
+}
+
+TEST(OutlineOfKind, SaysThatACurveBeginsAtZeroNotAtItsRounding) {
+  Case the_case = sample::two_runs();
+  PlannedRun& planned = the_case.runs.front();
+  planned.plan.kind = analysis::StudyKind::critical_load;
+  planned.plan.critical.parameter = "kt";
+  analysis::StudyResult result;
+  result.quantities = {{"lambda", analysis::Unit::force}, {"kt", analysis::Unit::none}};
+  result.branches.resize(1);
+  for (const double kt : {1.6e-15, 50.0, 100.0})
+    result.branches[0].samples.push_back({.values = {2 + 0.01 * kt, kt}});
+  EXPECT_THAT(outline_of_kind(the_case, planned, result), ElementsAre(HasSubstr("at kt = 0 to 3")));
 }
 
 TEST(FittedTable, HasNoLineBeyondTheTerminalAndKeepsEveryCell) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "io/gnuplot_process.hpp"
 #include "io/sample_results.hpp"
@@ -74,6 +75,16 @@ TEST_F(RealGnuplot, DrawsPngAndSvgWithoutAWarning) {
         "limit point (LP)", "rgb(  0, 114, 178)", "rgb(213,  94,   0)"})
     EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_EQ(count_files(plots), 3) << "pictures and script, nothing unfinished";
+}
+
+TEST_F(RealGnuplot, DrawsMarksOfTheSvgFileAsLargeAsThoseOfThePngFile) {
+  draw(scratch.path(), {});
+  const std::string svg = text_in(scratch.path() / "out" / "plots" / "push_from_Q2.svg");
+  const std::regex disc{R"(#gpPt6' transform='translate\([^)]*\) scale\(([0-9.]+)\))"};
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(svg, found, disc));
+  // pngcairo draws a limit point as a disc 13 pixels wide.
+  EXPECT_NEAR(2 * std::stod(found[1]), 13, 1.5);
 }
 
 TEST_F(RealGnuplot, GivesTheSameBytesTwice) {
