@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "springfold/analysis/snap.hpp"
+
 namespace springfold::analysis {
 
 std::string code_of(EventKind kind) {
@@ -71,7 +73,8 @@ int ways_not_followed(const StudyResult& result) {
 
 bool complete(const StudyResult& result) {
   if (result.row) return result.row->complete;
-  return result.start.found && result.doubts.empty() &&
+  const bool refused = result.snap && !result.snap->refusals.empty();
+  return result.start.found && result.doubts.empty() && !refused &&
          std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
            return branch.backward.complete && branch.forward.complete &&
                   std::none_of(branch.events.begin(), branch.events.end(), [](const Event& event) {

@@ -111,5 +111,28 @@ until = { lambda = [0, 1] }
   }
 }
 
+TEST(RefusedJumps, MakeARunIncomplete) {
+  const Ran ran = run(R"toml(
+[[body]]
+name = "tip"
+task_space = "planar"
+pose = [0, 1, 0]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "linear", stiffness = 1 } },
+  { rigid = [0, 1] },
+]
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "load"
+until = { lambda = [0, 0.5] }
+loads = [{ force = [0, -1], follows = true, scale = "lambda" }]
+)toml");
+  EXPECT_FALSE(ran.of("press").snap->refusals.empty());
+  EXPECT_FALSE(complete(ran.of("press")));
+}
+
 }  // namespace
 }  // namespace springfold::io
