@@ -9,8 +9,9 @@ namespace springfold::model {
 
 inline Vec3<double> random_unit(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  Vec3<double> a(normal(random), normal(random), normal(random));
-  return a.normalized();
+  // One after the other: in which order arguments are evaluated is up to the compiler.
+  const double z = normal(random), y = normal(random), x = normal(random);
+  return Vec3<double>(x, y, z).normalized();
 }
 
 inline Vector random_vector(std::mt19937& random, Index n, double size) {

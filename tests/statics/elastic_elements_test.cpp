@@ -100,7 +100,8 @@ TEST(LoadedSpatialStiffness, IsSymmetricAndThatOfDifferencedEquilibria) {
   std::mt19937 random(53);
   int compared = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const auto state = loaded(random_platform(random), random_vector(random, 3, 0.2));
+    const Vector load = random_vector(random, 3, 0.2);
+    const auto state = loaded(random_platform(random), load);
     if (!state) continue;
     ++compared;
     const Matrix A = evaluate(*state).A;
@@ -162,7 +163,8 @@ TEST(LoadedSpatialStiffness, TurnsWithTheBaseAndKnowsNoOrigin) {
 TEST(ElasticElements, PapersEliminationAgreesWithTheFullMatrix) {
   std::mt19937 random(55);
   for (int trial = 0; trial < 12; ++trial) {
-    const auto state = loaded(random_platform(random), random_vector(random, 3, 0.2));
+    const Vector load = random_vector(random, 3, 0.2);
+    const auto state = loaded(random_platform(random), load);
     if (!state) continue;
     const Evaluated at = evaluate(*state);
     for (std::size_t i = 0; i < 3; ++i) {
