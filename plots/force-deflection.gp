@@ -82,23 +82,9 @@ if (has_bar) {
       size 20.0 / figure_width, frame_top - frame_bottom
 }
 
-# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
-if (figure_format eq 'png') {
-  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-}
-if (figure_format eq 'svg') {
-  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-      background rgb 'white'
-}
-if (figure_format eq 'pdf') {
-  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
-}
-# This terminal takes numbers only, no names of them.
-tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
-if (figure_format eq 'tikz') {
-  set terminal tikz size @tikz_size standalone
-}
-set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+figure_terminal = terminal_of(figure_format)
+set terminal @figure_terminal
+set output output_of(figure_format)
 if (insets > 0) { set multiplot }
 plot for [k = 1:regions] region_block(k) with filledcurves closed fillcolor rgb region_tint(k) \
          fillstyle solid noborder title region_name[k], \

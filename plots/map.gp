@@ -54,23 +54,9 @@ set label 1 figure_title at screen 0.5, screen 1 - 24 * scale / figure_height ce
 set cblabel value_title @value_title_mode textcolor rgb ink offset 1.5, 0
 do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
 
-# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
-if (figure_format eq 'png') {
-  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-}
-if (figure_format eq 'svg') {
-  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-      background rgb 'white'
-}
-if (figure_format eq 'pdf') {
-  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
-}
-# This terminal takes numbers only, no names of them.
-tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
-if (figure_format eq 'tikz') {
-  set terminal tikz size @tikz_size standalone
-}
-set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+figure_terminal = terminal_of(figure_format)
+set terminal @figure_terminal
+set output output_of(figure_format)
 set multiplot
 do for [n = 1:panels] {
   x0 = left + (n - 1) * (panel_width + gap)

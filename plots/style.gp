@@ -37,6 +37,16 @@ point_label_color = ink
 curve_label_font = sized(figure_font_size)
 curve_label_color = ink
 
+# The terminal of each format, once the size is known. SVG sizes its text in pixels, PNG in points: 96 pixels stand for
+# 72 points, and for an inch. That of LaTeX takes numbers only, no names of them.
+terminal_of(format) = \
+    format eq 'png' ? "pngcairo size figure_width, figure_height font base_font background rgb 'white'" : \
+    format eq 'svg' ? "svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 ". \
+                      "background rgb 'white'" : \
+    format eq 'pdf' ? "pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75" : \
+    sprintf('tikz size %gin,%gin standalone', figure_width / 96.0, figure_height / 96.0)
+output_of(format) = figure_name.'.'.(format eq 'tikz' ? 'tex' : format)
+
 # 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 8 stability not known, 7 beneath a line on
 # which a less stable one lies, 3 grid, 4 line from a label to its point, 5 axes through zero
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid

@@ -54,22 +54,8 @@ do for [i = 1:bars] {
 if (left_out ne '') set label 1 left_out at screen 0.5, screen 18 * scale / figure_height center noenhanced \
     font point_label_font textcolor rgb '#777777'
 
-# SVG sizes its text in pixels, PNG in points: 96 pixels stand for 72 points, and for an inch.
-if (figure_format eq 'png') {
-  set terminal pngcairo size figure_width, figure_height font base_font background rgb 'white'
-}
-if (figure_format eq 'svg') {
-  set terminal svg size figure_width, figure_height font base_font fontscale 96.0 / 72.0 \
-      background rgb 'white'
-}
-if (figure_format eq 'pdf') {
-  set terminal pdfcairo size figure_width / 96.0, figure_height / 96.0 font base_font linewidth 0.75
-}
-# This terminal takes numbers only, no names of them.
-tikz_size = sprintf('%gin,%gin', figure_width / 96.0, figure_height / 96.0)
-if (figure_format eq 'tikz') {
-  set terminal tikz size @tikz_size standalone
-}
-set output figure_name.'.'.(figure_format eq 'tikz' ? 'tex' : figure_format)
+figure_terminal = terminal_of(figure_format)
+set terminal @figure_terminal
+set output output_of(figure_format)
 plot NaN notitle
 unset output
