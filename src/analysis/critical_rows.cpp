@@ -91,9 +91,8 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
 
 /// As many as there is memory for.
 double most_rows(const CaseCurves& curves) {
-  const std::size_t columns = curves.base().quantities().size() + 1;
-  return most_memory / (bytes_of_row(columns) + bytes_of_text(columns) +
-                        bytes_of_point(static_cast<std::size_t>(curves.base().problem->size())));
+  return most_memory / bytes_of_traced_row(curves.base().quantities().size() + 1,
+                                           static_cast<std::size_t>(curves.base().problem->size()));
 }
 
 }  // namespace

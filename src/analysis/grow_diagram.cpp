@@ -156,9 +156,8 @@ double length_of(const Curve& curve) {
 /// Do the rows over a curve so long fit beside those before? Otherwise says what to change.
 bool has_room(const Tracing& tracing, double length) {
   const double spacing = tracing.study.trace.spacing;
-  const std::size_t columns = tracing.quantities.size();
-  const double row = bytes_of_row(columns) + bytes_of_text(columns) +
-                     bytes_of_point(static_cast<std::size_t>(tracing.problem.size()));
+  const double row = bytes_of_traced_row(tracing.quantities.size(),
+                                         static_cast<std::size_t>(tracing.problem.size()));
   const double bytes = length / spacing * row;
   RowBudget& budget = tracing.budget;
   if (bytes <= budget.bytes) {

@@ -22,4 +22,9 @@ constexpr double bytes_of_point(std::size_t unknowns) {
   return 400 + 16 * static_cast<double>(unknowns);
 }
 
+/// Both, and the row's text [byte].
+constexpr double bytes_of_traced_row(std::size_t columns, std::size_t unknowns) {
+  return bytes_of_row(columns) + bytes_of_text(columns) + bytes_of_point(unknowns);
+}
+
 }  // namespace springfold::analysis

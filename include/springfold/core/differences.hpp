@@ -17,15 +17,16 @@ namespace springfold {
 std::optional<Vector> six_point_derivative(const std::function<std::optional<Vector>(double)>& f,
                                            double p, double h);
 
+struct GridDerivative {
+  Vector value{};
+  /// Largest entry of the difference from the polynomial of degree five through the inner six places.
+  double doubt = 0;
+};
+
 /// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for functions
 /// that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h  a power of two,
 /// so that the places are the same numbers
 /// @returns nothing when f has no value at one of them
-struct GridDerivative {
-  Vector value{};
-  double doubt =
-      0;  ///< largest entry of the difference from the polynomial of degree five through the inner six
-};
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
                                               double p, double h);
 

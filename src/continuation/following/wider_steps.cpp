@@ -60,12 +60,10 @@ bool cross_cluster(const Following& following, Anchor& anchor, Progress& progres
   return false;
 }
 
-/// The state of the trace one point behind the anchor.
-Progress behind(const Anchor& anchor, const Curve& curve) {
-  Progress result = anchor.before;
-  result.here = curve.points[anchor.points - 2];
-  result.before = curve.points[anchor.points < 3 ? 0 : anchor.points - 3];
-  return result;
+/// Does a step from a kept point, `times` as long as the anchor's, end behind what has been reached?
+bool leads_beyond(double reached, const Anchor& anchor, const Curve& curve, std::size_t points,
+                  double times) {
+  return curve.points[points - 1].s + times * anchor.before.ds > reached;
 }
 
 /// One step from a kept point, `times` as long as the anchor's, which must resolve everything on it.
@@ -73,8 +71,9 @@ Progress behind(const Anchor& anchor, const Curve& curve) {
 std::optional<Outcome> step_over_from(const Following& following, const Anchor& anchor,
                                       std::size_t points, double times, bool find,
                                       Progress& progress, Curve& curve) {
-  Progress longer = points < anchor.points ? behind(anchor, curve) : anchor.before;
+  Progress longer = anchor.before;
   longer.here = curve.points[points - 1];
+  if (points < anchor.points) longer.before = curve.points[points < 2 ? 0 : points - 2];
   if (longer.here.piece != anchor.before.here.piece) return std::nullopt;
   longer.ds *= times;
   if (longer.ds > following.walker.options.step.maximum) return std::nullopt;
@@ -105,7 +104,7 @@ std::optional<Outcome> step_of_like_length(const Following& following, Anchor& a
   };
   for (const int power : {0, -1, 1, -2, 2, 3})
     for (std::size_t i = anchor.points; i <= last; ++i)
-      if (curve.points[i - 1].s + times(power) * anchor.before.ds > reached)
+      if (leads_beyond(reached, anchor, curve, i, times(power)))
         if (const auto outcome = from(i, power)) return outcome;
   const bool farther =
       anchor.points > 1 && reached > anchor.back_from &&
@@ -129,11 +128,10 @@ std::optional<Outcome> step_over(const Following& following, const Anchor& ancho
       const double away = reached - curve.points[i - 1].s;
       if (i > anchor.points && away < near_cluster * anchor.before.ds) break;
       for (const double times : lengths)
-        if (curve.points[i - 1].s + times * anchor.before.ds <= reached)
-          continue;
-        else if (const auto outcome =
-                     step_over_from(following, anchor, i, times, false, progress, curve))
-          return outcome;
+        if (leads_beyond(reached, anchor, curve, i, times))
+          if (const auto outcome =
+                  step_over_from(following, anchor, i, times, false, progress, curve))
+            return outcome;
     }
   return std::nullopt;
 }

@@ -17,6 +17,11 @@ namespace {
 /// rates are made of them.
 constexpr double still_far = promised_place;
 
+Exactness exactness_for(const Vector& X, const Vector& F) {
+  const double size = std::max(1.0, X.lpNorm<Eigen::Infinity>());
+  return F.lpNorm<Eigen::Infinity>() > still_far * size ? Exactness::rough : Exactness::exact;
+}
+
 /// Second derivatives below this share of what rounding of differences leaves visible are zero.
 constexpr double vanishing_second = 10 * root_of_rounding;
 
@@ -232,13 +237,17 @@ bool Augmented::residual(const Vector& X, double mu, Vector& F) const {
 
 bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
   const auto here = terms(X, mu);
-  return here && put_derivatives(X, mu, *here, dF_dX, dF_dmu);
+  if (!here) return false;
+  Vector F;
+  const auto exactness = put_residual(X, *here, F) ? exactness_for(X, F) : Exactness::exact;
+  return put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
 }
 
 bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,
                           Vector& dF_dmu) const {
   const auto here = terms(X, mu);
-  return here && put_residual(X, *here, F) && put_derivatives(X, mu, *here, dF_dX, dF_dmu);
+  return here && put_residual(X, *here, F) &&
+         put_derivatives(X, mu, *here, exactness_for(X, F), dF_dX, dF_dmu);
 }
 
 bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) const {
@@ -254,20 +263,13 @@ bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) con
   return true;
 }
 
-bool Augmented::is_far(const Vector& X, const Terms& terms) const {
-  Vector F;
-  return put_residual(X, terms, F) &&
-         F.lpNorm<Eigen::Infinity>() > still_far * std::max(1.0, X.lpNorm<Eigen::Infinity>());
-}
-
-bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Matrix& dF_dX,
-                                Vector& dF_dmu) const {
+bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                                Matrix& dF_dX, Vector& dF_dmu) const {
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
-  const bool far = is_far(X, terms);
   const auto second = [&](const Vector& w, const Vector& along) {
-    return (far ? rough_second_along : second_along)(family_, x, l, mu, start_.piece, w, along);
+    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
   };
   Vector last = Vector::Zero(n_ + 1);  // derivative of the last equation by (x, lambda)
   if (is_bordered()) {
@@ -312,8 +314,7 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
     return values;
   };
   // A member of the family is dear: neighbours share those of a grid.
-  const auto by_mu = far ? rough_derivative_by_parameter(at_parameter, mu, family_.step)
-                         : derivative_by_parameter(at_parameter, mu, family_.step);
+  const auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness);
   if (!by_mu) return false;
   dF_dmu = Vector::Zero(size());
   dF_dmu.head(n_ + crossing) = by_mu->head(n_ + crossing);

@@ -73,10 +73,8 @@ class Augmented {
   /// cross askew, as symmetry makes them: the branch point stays on the branch that does not move along the null vectors.
   bool may_hold() const;
   bool put_residual(const Vector& X, const Terms& terms, Vector& F) const;
-  /// Is something left to be corrected, so that derivatives are asked for the next correction alone?
-  bool is_far(const Vector& X, const Terms& terms) const;
-  bool put_derivatives(const Vector& X, double mu, const Terms& terms, Matrix& dF_dX,
-                       Vector& dF_dmu) const;
+  bool put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                       Matrix& dF_dX, Vector& dF_dmu) const;
 
   const Family& family_;
   CriticalStart start_;

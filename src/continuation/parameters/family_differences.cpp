@@ -11,7 +11,7 @@
 namespace springfold::continuation {
 namespace {
 
-/// The same of two points, where the error that is left may be a ten-millionth.
+/// As directional_step, of two points, where the error that is left may be a ten-millionth.
 constexpr double rough_step = 0x1p-10;
 
 /// How much wider a grid is that neighbouring places share.
@@ -44,48 +44,35 @@ bool base_terms(const Family& family, const Vector& x, double lambda, double mu,
 }
 
 std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
-                                   const Piece& piece, const Vector& w, const Vector& V) {
+                                   const Piece& piece, const Vector& w, const Vector& V,
+                                   Exactness exactness) {
   const Index n = x.size();
   const double largest = V.lpNorm<Eigen::Infinity>();
   if (!(largest > 0)) return Vector::Zero(n + 1);
   BaseTerms base;
-  return six_point_derivative(
-      [&](double t) -> std::optional<Vector> {
-        if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
-          return std::nullopt;
-        return Vector(base.J.transpose() * w);
-      },
-      0, directional_step / largest);
-}
-
-std::optional<Vector> rough_second_along(const Family& family, const Vector& x, double lambda,
-                                         double mu, const Piece& piece, const Vector& w,
-                                         const Vector& V) {
-  const Index n = x.size();
-  const double largest = V.lpNorm<Eigen::Infinity>();
-  if (!(largest > 0)) return Vector::Zero(n + 1);
+  const auto weighted = [&](double t) -> std::optional<Vector> {
+    if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
+      return std::nullopt;
+    return Vector(base.J.transpose() * w);
+  };
+  if (exactness == Exactness::exact)
+    return six_point_derivative(weighted, 0, directional_step / largest);
   const double t = rough_step / largest;
-  BaseTerms above, below;
-  if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, above) ||
-      !base_terms(family, x - t * V.head(n), lambda - t * V[n], mu, piece, below))
-    return std::nullopt;
-  return Vector((above.J - below.J).transpose() * w / (2 * t));
+  const auto above = weighted(t), below = weighted(-t);
+  if (!above || !below) return std::nullopt;
+  return Vector((*above - *below) / (2 * t));
 }
 
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
-                                              double mu, double step) {
+                                              double mu, double step, Exactness exactness) {
+  if (exactness == Exactness::rough)
+    if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
   const auto wide = grid_derivative(f, mu, wider * step);
   if (wide && wide->doubt <= one_place * std::max(1.0, wide->value.lpNorm<Eigen::Infinity>()))
     return wide->value;
   // Beside the end of the family's domain the formula that reaches less far may have all of its places.
   if (const auto narrow = grid_derivative(f, mu, step)) return narrow->value;
   return six_point_derivative(f, mu, step);
-}
-
-std::optional<Vector> rough_derivative_by_parameter(
-    const std::function<std::optional<Vector>(double)>& f, double mu, double step) {
-  if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
-  return derivative_by_parameter(f, mu, step);
 }
 
 }  // namespace springfold::continuation

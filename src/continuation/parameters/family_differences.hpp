@@ -23,22 +23,18 @@ struct BaseTerms {
 bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
                 BaseTerms& terms);
 
+/// Rough: a few digits, at less than half of the cost.
+enum class Exactness { exact, rough };
+
 /// w^T D^2F [V, .] by (x, lambda), n + 1 entries: differences of J along V. @param V  n + 1 entries
 std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
-                                   const Piece& piece, const Vector& w, const Vector& V);
+                                   const Piece& piece, const Vector& w, const Vector& V,
+                                   Exactness exactness = Exactness::exact);
 
-/// second_along() by two points.
-std::optional<Vector> rough_second_along(const Family& family, const Vector& x, double lambda,
-                                         double mu, const Piece& piece, const Vector& w,
-                                         const Vector& V);
-
-/// Derivative by mu of what members of the family tell, nothing outside of its domain: by the grid of `step`, or of one that is four times as wide where its last two orders show that it is as good:
-/// then neighbouring places share more members of the family.
+/// Derivative by mu of what members of the family tell, nothing outside of its domain: by the grid of `step`, or of one
+/// that is four times as wide where its last two orders show that it is as good, since neighbouring places share more of
+/// its members. Rough: by the four places of the wide grid around mu.
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
-                                              double mu, double step);
-
-/// The same where a few digits are enough: by the four places of the wide grid around mu, or as above.
-std::optional<Vector> rough_derivative_by_parameter(
-    const std::function<std::optional<Vector>(double)>& f, double mu, double step);
+                                              double mu, double step, Exactness exactness);
 
 }  // namespace springfold::continuation
