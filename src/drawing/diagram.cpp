@@ -91,10 +91,11 @@ Place DiagramAxes::place(const DiagramPoint& point) const {
           frame_.bottom - (frame_.bottom - frame_.top) * (point.y - low_) / (high_ - low_)};
 }
 
-void DiagramAxes::paint(Picture& picture) const {
+bool DiagramAxes::paint(Picture& picture) const {
   paint_ticks(picture);
-  paint_curve(picture);
+  const bool is_mixed = paint_curve(picture);
   paint_points(picture);
+  return is_mixed;
 }
 
 void DiagramAxes::paint_ticks(Picture& picture) const {
@@ -156,22 +157,12 @@ std::vector<Path> DiagramAxes::curve() const {
   return parts;
 }
 
-std::vector<SeenLine> DiagramAxes::seen_parts(const std::vector<Path>& parts) const {
+bool DiagramAxes::paint_curve(Picture& picture) const {
+  const std::vector<Path> parts = curve();
   std::vector<RankedLine> lines;
   for (const Path& part : parts)
     lines.push_back({.rank = style_of(part.ink.stroke).rank, .places = part.places});
-  return without_overlaps(lines, frame_.right, frame_.bottom);
-}
-
-bool DiagramAxes::is_mixed() const {
-  const std::vector<SeenLine> seen = seen_parts(curve());
-  return std::any_of(seen.begin(), seen.end(),
-                     [](const SeenLine& line) { return !line.beneath.empty(); });
-}
-
-void DiagramAxes::paint_curve(Picture& picture) const {
-  const std::vector<Path> parts = curve();
-  const std::vector<SeenLine> seen = seen_parts(parts);
+  const std::vector<SeenLine> seen = without_overlaps(lines, frame_.right, frame_.bottom);
   for (const SeenLine& line : seen)
     for (const Stretch& stretch : line.beneath)
       picture.marks.emplace_back(Path{stretch.places, false, {mixed_colour, "", mixed_width, {}}});
@@ -180,6 +171,8 @@ void DiagramAxes::paint_curve(Picture& picture) const {
     for (const Stretch& stretch : seen[i].stretches)
       picture.marks.emplace_back(Path{stretch.places, false, parts[i].ink});
   }
+  return std::any_of(seen.begin(), seen.end(),
+                     [](const SeenLine& line) { return !line.beneath.empty(); });
 }
 
 void DiagramAxes::paint_points(Picture& picture) const {

@@ -13,17 +13,14 @@ class DiagramAxes {
   Place place(const DiagramPoint& point) const;
 
   /// Frame, ticks, names, curve and labels of special points. Dashes that lie on a line are not drawn again.
-  void paint(Picture& picture) const;
-
-  /// Somewhere a line lies on a more stable one: that is drawn on a pale band.
-  bool is_mixed() const;
+  /// @returns whether a line lies on a more stable one somewhere: that is drawn on a pale band
+  bool paint(Picture& picture) const;
 
  private:
   void paint_ticks(Picture& picture) const;
-  void paint_curve(Picture& picture) const;
+  bool paint_curve(Picture& picture) const;
   void paint_points(Picture& picture) const;
   std::vector<Path> curve() const;
-  std::vector<SeenLine> seen_parts(const std::vector<Path>& parts) const;
 
   const Diagram& diagram_;
   Box frame_{};

@@ -81,11 +81,10 @@ Movie animate(const Film& film, const IllustrationOptions& options) {
   add_line(options.title, 14, true, edge, film_width - 2 * edge, y, movie.still);
   add_line(film.heading, 12, false, edge, film_width - 2 * edge, y, movie.still);
   const DiagramAxes axes{film.diagram, diagram_frame()};
-  axes.paint(movie.still);
+  const bool is_mixed = axes.paint(movie.still);
   add_states_of(film.diagram, panels);
   const double bottom = head + notes + film_height;
-  movie.still.height =
-      bottom + add_legend(panels, sheet, options, bottom, axes.is_mixed(), movie.still);
+  movie.still.height = bottom + add_legend(panels, sheet, options, bottom, is_mixed, movie.still);
   for (const Frame& frame : film.frames) {
     const DiagramPoint& point = film.diagram.points[frame.point];
     movie.frames.push_back(marks_of(frame, sheet, axes.place(point), is_known(point)));

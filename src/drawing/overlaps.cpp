@@ -81,7 +81,6 @@ class Drawn {
 struct CutLine {
   Stretch ends{};  ///< one more than pieces
   std::vector<Piece> pieces{};
-  double end = 0;  ///< way from the curve's begin
 };
 
 bool is_finite(const Place& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
@@ -118,7 +117,6 @@ CutLine cut(const RankedLine& line, double width, double height, double along) {
     }
     if (std::isfinite(size)) along += size;
   }
-  all.end = along;
   return all;
 }
 

@@ -134,7 +134,8 @@ std::optional<analysis::Variant> RowScenes::variant_of(const Sample& row) const 
   return cases->at(changes);
 }
 
-statics::System RowScenes::system_of(const Sample& row, double lambda) const {
+statics::System RowScenes::system_of(const Sample& row, double lambda,
+                                     const std::optional<analysis::Variant>& variant) const {
   if (const auto& map = planned_.plan.map; planned_.plan.kind == StudyKind::map && map.situation) {
     std::vector<double> parameters;
     for (std::size_t i = 0; i < map.axes.size(); ++i)
@@ -142,17 +143,16 @@ statics::System RowScenes::system_of(const Sample& row, double lambda) const {
     if (!parameters.empty())
       return statics::prepare(acting(planned_, map.situation(parameters).mechanism));
   }
-  if (const auto variant = variant_of(row))
-    return statics::prepare(acting(planned_, variant->mechanism));
+  if (variant) return statics::prepare(acting(planned_, variant->mechanism));
   if (planned_.plan.control != ControlMode::parameter || !planned_.family ||
       planned_.plan.kind != StudyKind::force_deflection)
     return system_;
   return statics::prepare(acting(planned_, planned_.family->at(lambda).mechanism));
 }
 
-void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture& posture) const {
-  const auto variant = variant_of(row);
-  const analysis::Study& plan = variant ? variant->study : planned_.plan;
+/// @param plan  the study with the loads of this row
+void RowScenes::add_wrenches(const Sample& row, double lambda, const analysis::Study& plan,
+                             drawing::Posture& posture) const {
   const StudyKind kind = planned_.plan.kind;
   const bool traces = kind == StudyKind::force_deflection || analysis::is_of_critical_points(kind);
   Vector w = plan.constant_load;
@@ -183,7 +183,8 @@ void RowScenes::add_wrenches(const Sample& row, double lambda, drawing::Posture&
 std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
   if (!has_columns_) return std::nullopt;
   const double lambda = value(row, lambda_);
-  const statics::System system = system_of(row, lambda);
+  const auto variant = variant_of(row);
+  const statics::System system = system_of(row, lambda, variant);
   drawing::Posture posture{.z = Vector(system.size),
                            .rho = Vector(system.commands.size()),
                            .lambda = std::isfinite(lambda) ? lambda : 0};
@@ -195,7 +196,7 @@ std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
   for (Index i = 0; i < posture.rho.size(); ++i)
     posture.rho[i] = value(row, rho_columns_[static_cast<std::size_t>(i)]);
   if (!posture.rho.allFinite()) return std::nullopt;
-  add_wrenches(row, posture.lambda, posture);
+  add_wrenches(row, posture.lambda, variant ? variant->study : planned_.plan, posture);
   return with_members(drawing::scene_of(system, posture), planned_);
 }
 

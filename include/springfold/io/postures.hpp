@@ -37,8 +37,11 @@ class RowScenes {
   double value(const analysis::Sample& row, std::optional<std::size_t> column) const;
   double shown_value(const analysis::Sample& row, std::optional<std::size_t> column) const;
   std::optional<analysis::Variant> variant_of(const analysis::Sample& row) const;
-  statics::System system_of(const analysis::Sample& row, double lambda) const;
-  void add_wrenches(const analysis::Sample& row, double lambda, drawing::Posture& posture) const;
+  /// @param variant  of the row: see variant_of
+  statics::System system_of(const analysis::Sample& row, double lambda,
+                            const std::optional<analysis::Variant>& variant) const;
+  void add_wrenches(const analysis::Sample& row, double lambda, const analysis::Study& plan,
+                    drawing::Posture& posture) const;
 
   const PlannedRun& planned_;
   const analysis::StudyResult& result_;
