@@ -24,7 +24,7 @@ std::vector<std::string> anchor_names(const MechanismDraft& draft, bool base_all
 
 /// A fixed node: the base, at its place. @returns whether there is one of that name
 bool find_support(const Item& item, const MechanismDraft& draft, bool base_allowed,
-                  AnchorDraft& anchor, Reading& reading) {
+                  AnchorDraft& anchor, NumberTable& numbers, Reading& reading) {
   const auto support =
       std::find_if(draft.supports.begin(), draft.supports.end(),
                    [&item](const SupportDraft& node) { return node.name == item.node->text; });
@@ -35,25 +35,22 @@ bool find_support(const Item& item, const MechanismDraft& draft, bool base_allow
                              ", a fixed node, where a load does nothing, need one that moves");
   anchor.body = 0;
   anchor.at = support->at;
+  // Its place is among the numbers of the mechanism: the same numbers in the table of whoever asks.
+  if (&numbers != &draft.numbers)
+    for (NumberId& id : anchor.at)
+      id = numbers.add(draft.numbers.definition(id), draft.numbers.rule(id));
   return true;
-}
-
-/// A fixed node's place is among the numbers of the mechanism: the same numbers in the table of whoever asks.
-void bring_into(NumberTable& numbers, const MechanismDraft& draft, AnchorDraft& anchor) {
-  if (&numbers == &draft.numbers) return;
-  for (NumberId& id : anchor.at)
-    id = numbers.add(draft.numbers.definition(id), draft.numbers.rule(id));
 }
 
 }  // namespace
 
 void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
-                 AnchorDraft& anchor, Reading& reading) {
+                 AnchorDraft& anchor, NumberTable& numbers, Reading& reading) {
   const std::string& name = item.node->text;
   if (base_allowed && name == "base") return void(anchor.body = 0);
   for (std::size_t b = 0; b < draft.bodies.size(); ++b)
     if (draft.bodies[b].name == name) return void(anchor.body = static_cast<Index>(b + 1));
-  if (find_support(item, draft, base_allowed, anchor, reading)) return;
+  if (find_support(item, draft, base_allowed, anchor, numbers, reading)) return;
   for (std::size_t c = 0; c < draft.chains.size(); ++c)
     for (std::size_t p = 0; p < draft.chains[c].points.size(); ++p) {
       const std::string& point = draft.chains[c].points[p].name;
@@ -93,9 +90,10 @@ std::vector<NumberId> read_at(const TableReader& table, const std::string& name,
 void read_ends(const TableReader& table, MechanismDraft& draft, AnchorDraft& from, AnchorDraft& to,
                Reading& reading) {
   if (table.text("from"))
-    find_anchor({table.find("from"), table.key_of("from")}, draft, true, from, reading);
+    find_anchor({table.find("from"), table.key_of("from")}, draft, true, from, draft.numbers,
+                reading);
   if (table.required_text("to", "the name of a body, or \"chain.point\""))
-    find_anchor({table.find("to"), table.key_of("to")}, draft, true, to, reading);
+    find_anchor({table.find("to"), table.key_of("to")}, draft, true, to, draft.numbers, reading);
   from.at = read_at(table, "from_at", draft, from, draft.numbers, reading);
   to.at = read_at(table, "to_at", draft, to, draft.numbers, reading);
 }
@@ -104,8 +102,7 @@ AnchorDraft read_anchor(const Item& item, const MechanismDraft& draft, NumberTab
                         Reading& reading) {
   AnchorDraft anchor;
   if (item.node->kind == Node::Kind::text) {
-    find_anchor(item, draft, true, anchor, reading);
-    bring_into(numbers, draft, anchor);
+    find_anchor(item, draft, true, anchor, numbers, reading);
     return anchor;
   }
   const std::string need =
@@ -113,8 +110,7 @@ AnchorDraft read_anchor(const Item& item, const MechanismDraft& draft, NumberTab
   if (!is_table(item, need, reading)) return anchor;
   const TableReader table{*item.node, item.key, {"on", "at"}, reading};
   if (table.required_text("on", "\"base\", the name of a body, or \"chain.point\""))
-    find_anchor({table.find("on"), table.key_of("on")}, draft, true, anchor, reading);
-  bring_into(numbers, draft, anchor);
+    find_anchor({table.find("on"), table.key_of("on")}, draft, true, anchor, numbers, reading);
   anchor.at = read_at(table, "at", draft, anchor, numbers, reading);
   return anchor;
 }

@@ -10,8 +10,9 @@ namespace springfold::io {
 
 /// "tool", "leg.knee", the name of a node; with `base_allowed` also "base" and fixed nodes. Reports
 /// others.
+/// @param numbers  those of whoever asks: the place of a fixed node is among them
 void find_anchor(const Item& item, const MechanismDraft& draft, bool base_allowed,
-                 AnchorDraft& anchor, Reading& reading);
+                 AnchorDraft& anchor, NumberTable& numbers, Reading& reading);
 
 /// Does the anchor stay in the plane? The base does if all bodies do.
 bool lives_in_plane(const MechanismDraft& draft, const AnchorDraft& anchor);

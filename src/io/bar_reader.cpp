@@ -21,7 +21,8 @@ void read_bar_ends(const TableReader& table, MechanismDraft& draft, BarDraft& ba
   const std::string ends = "the name of a node, of a body, or \"chain.point\"";
   for (const auto& [name, anchor] : {std::pair{"from", &bar.from}, {"to", &bar.to}})
     if (table.required_text(name, ends))
-      find_anchor({table.find(name), table.key_of(name)}, draft, true, *anchor, reading);
+      find_anchor({table.find(name), table.key_of(name)}, draft, true, *anchor, draft.numbers,
+                  reading);
   bar.from.at = read_at(table, "from_at", draft, bar.from, draft.numbers, reading);
   bar.to.at = read_at(table, "to_at", draft, bar.to, draft.numbers, reading);
 }

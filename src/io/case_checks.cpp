@@ -43,18 +43,15 @@ void check_numbers(const CaseDraft& draft, Problems& problems) {
   std::vector<bool> reported;
   const NumberTable& numbers = draft.mechanism.numbers;
   numbers.check(numbers.values(draft.book, parameters), "", problems, reported);
-  for (const PlotDraft& plot : draft.plots) {
-    std::vector<bool> none;
-    plot.numbers.check(plot.numbers.values(draft.book, parameters), "", problems, none);
-  }
-  for (const MapPlotDraft& plot : draft.map_plots) {
-    std::vector<bool> none;
-    plot.numbers.check(plot.numbers.values(draft.book, parameters), "", problems, none);
-  }
-  for (const TornadoDraft& tornado : draft.tornados) {
-    std::vector<bool> none;
-    tornado.numbers.check(tornado.numbers.values(draft.book, parameters), "", problems, none);
-  }
+  const auto check_all = [&](const auto& figures) {
+    for (const auto& figure : figures) {
+      std::vector<bool> none;
+      figure.numbers.check(figure.numbers.values(draft.book, parameters), "", problems, none);
+    }
+  };
+  check_all(draft.plots);
+  check_all(draft.map_plots);
+  check_all(draft.tornados);
   for (const StudyDraft& study : draft.studies) check_runs(draft, study, reported, problems);
 }
 

@@ -64,7 +64,8 @@ class LoadReader {
   void read_place(Index body) {
     draft_.on.body = body;
     if (table_.text("on"))
-      find_anchor({table_.find("on"), table_.key_of("on")}, mechanism_, false, draft_.on, reading_);
+      find_anchor({table_.find("on"), table_.key_of("on")}, mechanism_, false, draft_.on, numbers_,
+                  reading_);
     else if (body == 0 && !table_.has("on"))
       table_.require("on", "the name of a body, or \"chain.point\": there are several bodies");
     draft_.on.at = read_at(table_, "at", mechanism_, draft_.on, numbers_, reading_);

@@ -84,12 +84,13 @@ std::string transitions_graphml(const StudyResult& result) {
 
 namespace {
 
+bool is_arrow(const Transition& t) { return t.to > 0 && !t.is_alternative; }
+
 /// What the signs of the figure mean, as far as they occur.
 std::string key_of(const TransitionReport& report) {
-  const auto drawn = [](const Transition& t) { return t.to > 0 && !t.is_alternative; };
   const auto any_arrow = [&](auto is_so) {
     return std::any_of(report.transitions.begin(), report.transitions.end(),
-                       [&](const Transition& t) { return drawn(t) && is_so(t); });
+                       [&](const Transition& t) { return is_arrow(t) && is_so(t); });
   };
   std::string key = "a state and the range of the load (lambda) in which it is stable";
   if (std::any_of(report.states.begin(), report.states.end(),
@@ -124,7 +125,7 @@ std::string transitions_dot(const StudyResult& result) {
     text += "  \"" + s.label + "\" [label=\"" + s.label + "\\n" + rounded(s.low, digits) + " .. " +
             rounded(s.high, digits) + "\"" + (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
   for (const Transition& t : report->transitions)
-    if (t.to > 0 && !t.is_alternative)
+    if (is_arrow(t))
       text += "  \"S" + std::to_string(t.from) + "\" -> \"S" + std::to_string(t.to) +
               "\" [label=\"" + rounded(t.lambda, digits) + "\", color=\"" +
               (t.loading > 0 ? "#0072B2" : "#D55E00") + "\"" +
