@@ -226,17 +226,6 @@ std::vector<bool> PathProblem::angles() const {
   return list;
 }
 
-namespace {
-
-/// A stiffness of 0 leaves an angle as free as no spring does.
-bool acts_nowhere(const model::CompiledSpring& law) {
-  for (std::size_t i = 0; i < law.segments.size(); ++i)
-    if (!law.is_free(i)) return false;
-  return true;
-}
-
-}  // namespace
-
 Vector PathProblem::periods() const {
   Vector periods = Vector::Zero(plain_size_);
   const std::vector<bool> is_angle = angles();
@@ -245,8 +234,9 @@ Vector PathProblem::periods() const {
         p >= 0 && is_angle[static_cast<std::size_t>(p)])
       periods[i] = 2 * std::numbers::pi;
   // Joints stand before all poses, at the same place in y and in z.
+  // A stiffness of 0 leaves an angle as free as no spring does, if it stays so.
   for (const statics::CoordinateSpring& spring : system_.springs)
-    if (rule_.family || !acts_nowhere(spring.law)) periods[spring.coordinate] = 0;
+    if (rule_.family || !spring.law.is_free()) periods[spring.coordinate] = 0;
   for (const statics::CoordinateGroup& group : system_.coupled)
     for (const Index i : group.coordinates) periods[i] = 0;
   if (system_.mechanism.bodies[static_cast<std::size_t>(rule_.body - 1)].task_space ==

@@ -46,7 +46,7 @@ void close_loops(const std::vector<QuantityDefinition>& quantities, const StudyR
     const auto back = walk.ends_of(jump.landing.branch, jump.landing.row, -jump.loading);
     for (std::size_t i = 0; i < report.jumps.size() && std::isnan(jump.loop); ++i) {
       const Jump& other = report.jumps[i];
-      if (!leads_to(back, other.from) || other.loading != -jump.loading) continue;
+      if (other.loading != -jump.loading || !leads_to(back, other.from)) continue;
       const bool closes =
           leads_to(walk.ends_of(other.landing.branch, other.landing.row, jump.loading), jump.from);
       if (jump.back == 0 || closes) jump.back = static_cast<int>(i) + 1;

@@ -11,16 +11,34 @@ namespace {
 
 using analysis::EventKind;
 
+/// A link on a preloaded hinge, upright, with its tip; then the study "press". @param study  its keys
+std::string strut(const std::string& height, const std::string& law, const std::string& study) {
+  return "[[body]]\nname = \"tip\"\ntask_space = \"planar\"\npose = [0, " + height +
+         R"(, 0]
+[[chain]]
+name = "strut"
+elements = [{ joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { )" +
+         law + " } }, { rigid = [0, " + height + R"(] }]
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "load"
+)" + study;
+}
+
+/// A body on a guide with a spring.
+std::string guided(const std::string& pose, const std::string& axis, const std::string& initial,
+                   const std::string& law) {
+  return "[[body]]\nname = \"mass\"\ntask_space = \"xy\"\npose = " + pose +
+         "\n[[chain]]\nname = \"guide\"\nelements = [{ joint = \"prismatic\", axis = \"" + axis +
+         R"(", name = "way", role = "preloaded", initial = )" + initial + ", spring = { " + law +
+         " } }]\n";
+}
+
 /// A guided mass with a spring of 1, between two oblique springs of 2 whose feet are 0.12 beside the guide.
 TEST(DrivenCycle, HasTheWorkOfSpringsThatAreShortBesideTheMechanism) {
-  const Ran ran = run(R"toml(
-[[body]]
-name = "mass"
-task_space = "xy"
-pose = [0, -0.8]
-[[chain]]
-name = "guide"
-elements = [{ joint = "prismatic", axis = "y", name = "y", role = "preloaded", initial = -0.4, spring = { law = "linear", stiffness = 1, free = 0 } }]
+  const Ran ran = run(guided("[0, -0.8]", "y", "-0.4", "law = \"linear\", stiffness = 1") +
+                      R"toml(
 [[spring]]
 name = "left"
 from_at = [-0.12, 0]
@@ -55,24 +73,11 @@ cycle = { levels = [0.3, 0.8, 1.1] }
 
 /// A strut whose hinge softens at 0.4 rad to both sides: it snaps from corners, to either side and back.
 TEST(LoopsOfJumps, AreTheSameToBothSides) {
-  const Ran ran = run(R"toml(
-[[body]]
-name = "tip"
-task_space = "planar"
-pose = [0, 1.3, 0]
-[[chain]]
-name = "strut"
-elements = [
-  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [-0.4, 0.4], stiffnesses = [0.24, 0.8, 0.24] } },
-  { rigid = [0, 1.3] },
-]
-[[study]]
-name = "press"
-kind = "snap_through"
-control = "load"
-direction = [0, -1, 0]
-until = { lambda = [-0.12, 0.92], strut.hinge = [-3, 3] }
-)toml");
+  const Ran ran = run(strut("1.3",
+                            "law = \"piecewise_linear\", breakpoints = [-0.4, 0.4], "
+                            "stiffnesses = [0.24, 0.8, 0.24]",
+                            "direction = [0, -1, 0]\n"
+                            "until = { lambda = [-0.12, 0.92], strut.hinge = [-3, 3] }\n"));
   const auto& jumps = ran.of("press").snap->jumps;
   ASSERT_GE(jumps.size(), 2u);
   int loops = 0;
@@ -87,15 +92,8 @@ until = { lambda = [-0.12, 0.92], strut.hinge = [-3, 3] }
 /// Contact with the power 1.5 (Hertz) that carries alone, driven out: its stiffness ends as a root does.
 TEST(PowerContact, IsDrivenOutOfTouchWhateverItsPower) {
   for (const char* power : {"1.1", "1.5", "1.9"}) {
-    const Ran ran = run(R"toml(
-[[body]]
-name = "ball"
-task_space = "xy"
-pose = [1, 0]
-[[chain]]
-name = "guide"
-elements = [{ joint = "prismatic", axis = "x", name = "x", role = "preloaded", initial = 1, spring = { law = "power", force = 1, from = 0.5, exponent = )toml" +
-                        std::string{power} + R"toml( } }]
+    const std::string law = "law = \"power\", force = 1, from = 0.5, exponent = ";
+    const Ran ran = run(guided("[1, 0]", "x", "1", law + power) + R"toml(
 [[study]]
 name = "out"
 control = "mixed"
@@ -112,24 +110,9 @@ until = { lambda = [0, 1] }
 }
 
 TEST(RefusedJumps, MakeARunIncomplete) {
-  const Ran ran = run(R"toml(
-[[body]]
-name = "tip"
-task_space = "planar"
-pose = [0, 1, 0]
-[[chain]]
-name = "strut"
-elements = [
-  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "linear", stiffness = 1 } },
-  { rigid = [0, 1] },
-]
-[[study]]
-name = "press"
-kind = "snap_through"
-control = "load"
-until = { lambda = [0, 0.5] }
-loads = [{ force = [0, -1], follows = true, scale = "lambda" }]
-)toml");
+  const Ran ran = run(strut("1", "law = \"linear\", stiffness = 1",
+                            "until = { lambda = [0, 0.5] }\n"
+                            "loads = [{ force = [0, -1], follows = true, scale = \"lambda\" }]\n"));
   EXPECT_FALSE(ran.of("press").snap->refusals.empty());
   EXPECT_FALSE(complete(ran.of("press")));
 }

@@ -82,6 +82,13 @@ struct CompiledSpring {
     return is_straight(i) && segments[i].stiffness == 0 && segments[i].torque == 0;
   }
 
+  /// No torque anywhere.
+  bool is_free() const {
+    for (std::size_t i = 0; i < segments.size(); ++i)
+      if (!is_free(i)) return false;
+    return true;
+  }
+
   /// Do the segments on both sides of breakpoint i differ there?
   bool changes_at(std::size_t i) const {
     return is_straight(i) != is_straight(i + 1) ||
