@@ -10,7 +10,9 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -50,6 +52,12 @@ struct Board {
   std::int64_t began = 0;  ///< of `current`, in the clock's ticks
   std::uint64_t accepted = 0, found = 0;
   std::array<std::uint64_t, 256> codes{};
+};
+
+/// A batch of executions that is over.
+struct Finished {
+  std::uint64_t first = 0, last = 0;
+  Board board{};
 };
 
 fs::path record_of(const Settings& s) {
@@ -115,18 +123,21 @@ class Worker {
 
   void begin(std::uint64_t first, std::uint64_t last) {
     *board_ = Board{.done = first};
+    first_ = first;
     last_ = last;
     fork_child();
   }
 
-  /// Looks after the process. @returns true when the batch is finished
-  bool look() {
-    if (process_ == 0) return true;
+  bool rests() const { return process_ == 0; }
+
+  /// Looks after the process. @returns the batch, once, when it is finished
+  std::optional<Finished> look() {
+    if (process_ == 0) return std::nullopt;
     int status = 0;
     if (::waitpid(process_, &status, WNOHANG) == 0) {
       const Clock::duration age(Clock::now().time_since_epoch().count() - board_->began);
       const auto limit = std::chrono::seconds(settings_.mode == Mode::uncapped ? 300 : 60);
-      if (board_->began == 0 || age < limit) return false;
+      if (board_->began == 0 || age < limit) return std::nullopt;
       ::kill(process_, SIGKILL);
       ::waitpid(process_, &status, 0);
       found("no end");
@@ -139,12 +150,10 @@ class Worker {
       found("the process ended with status " + std::to_string(status) + "\n" + text_of_file(log()));
     }
     process_ = 0;
-    if (board_->done >= last_) return true;
+    if (board_->done >= last_) return Finished{first_, last_, *board_};
     fork_child();
-    return false;
+    return std::nullopt;
   }
-
-  const Board& board() const { return *board_; }
 
  private:
   fs::path log() const { return folder_ / "log.txt"; }
@@ -196,7 +205,7 @@ class Worker {
   const Corpus& corpus_;
   fs::path folder_;
   Board* board_ = nullptr;
-  std::uint64_t last_ = 0;
+  std::uint64_t first_ = 0, last_ = 0;  ///< of its batch
   pid_t process_ = 0;
 };
 
@@ -229,24 +238,28 @@ int run_all(const Settings& settings, std::ostream& out) {
     workers.push_back(std::make_unique<Worker>(settings, corpus, j));
   const auto begin = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  while (record.next < settings.count && seconds() < settings.seconds) {
-    const std::uint64_t left = settings.count - record.next;
-    const auto jobs = static_cast<std::uint64_t>(settings.jobs);
-    const std::uint64_t each = std::min(batch_of(settings.mode), (left + jobs - 1) / jobs);
-    std::uint64_t first = record.next;
+  // What is finished before something that comes earlier waits for it: the record has no gaps.
+  std::map<std::uint64_t, Finished> waiting;
+  std::uint64_t next = record.next;
+  while (true) {
+    bool all_rest = true;
     for (auto& worker : workers) {
-      const std::uint64_t last = std::min(first + each, settings.count);
-      worker->begin(first, last);
-      first = last;
+      if (const auto finished = worker->look()) waiting.insert({finished->first, *finished});
+      if (worker->rests() && next < settings.count && seconds() < settings.seconds) {
+        const std::uint64_t last = std::min(next + batch_of(settings.mode), settings.count);
+        worker->begin(next, last);
+        next = last;
+      }
+      all_rest = all_rest && worker->rests();
     }
-    for (bool all_done = false; !all_done;) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      all_done = true;
-      for (auto& worker : workers) all_done = worker->look() && all_done;
+    while (!waiting.empty() && waiting.begin()->first == record.next) {
+      add(waiting.begin()->second.board, record);
+      record.next = waiting.begin()->second.last;
+      waiting.erase(waiting.begin());
+      write_record(settings, record);
     }
-    for (const auto& worker : workers) add(worker->board(), record);
-    record.next = first;
-    write_record(settings, record);
+    if (all_rest) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   print(settings, record, seconds(), out);
   return record.found > 0 ? 1 : 0;

@@ -27,14 +27,6 @@ std::optional<std::size_t> number_of(const CaseFamily& cases, const std::string&
   return static_cast<std::size_t>(found - cases.names.begin());
 }
 
-/// lambda in the units of the first member.
-void rescale(PathRule& rule, double factor) {
-  rule.t_rate *= factor;
-  rule.rho_rate *= factor;
-  rule.W_rate *= factor;
-  rule.load_rate *= factor;
-}
-
 }  // namespace
 
 continuation::CurvePoint Member::start() const {
@@ -116,13 +108,8 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* 
       settle_units(variant.mechanism, member->study, path, member->first, setup);
       reach_range(variant.mechanism, member->study, path, member->first, setup);
     }
-  } else {
-    if (setup.lambda_scale != near->setup.lambda_scale) {
-      if (along) return nullptr;
-      rescale(setup.rule, near->setup.lambda_scale / setup.lambda_scale);
-      setup.lambda_scale = near->setup.lambda_scale;
-    }
-    if (!solve_near(*member, *near)) return nullptr;
+  } else if (!solve_near(*member, *near)) {
+    return nullptr;
   }
   if (near == nullptr && !member->report.found) return member;
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(member->study.body - 1)];

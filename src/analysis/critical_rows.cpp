@@ -129,6 +129,12 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   const auto options = critical_options(study);
   continuation::FurtherPoints further{.spacing = study.trace.spacing, .most = most_rows(curves)};
   followed.growing = follow_critical(family, start, true, events, options, observe, further);
+  if (followed.growing.stop ==
+      continuation::StopReason::closed) {  // the other way round is the same curve
+    followed.falling.stop = followed.growing.stop;
+    followed.falling.stop_detail = followed.growing.stop_detail;
+    return followed;
+  }
   further.most -= static_cast<double>(followed.growing.points.size());
   followed.falling = follow_critical(family, start, false, events, options, observe, further);
   return followed;

@@ -213,7 +213,9 @@ Setup set_up_in(const Scales& scales, const model::Mechanism& mechanism, const S
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
              const Setup* like, statics::System* spare) {
   const Scales own = like != nullptr ? like->scales : scales_for(mechanism, study.constant_load);
-  return set_up_in(own, mechanism, study, family, {own.force, {}}, like, spare);
+  Units units{own.force, {}};
+  if (like != nullptr) units.lambda = like->lambda_scale;
+  return set_up_in(own, mechanism, study, family, units, like, spare);
 }
 
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,

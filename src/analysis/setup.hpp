@@ -26,8 +26,8 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
                                                 const Study& study);
 
 /// @param family needed for control mode `parameter` only, otherwise nullptr
-/// @param like  the set-up for another value of a parameter, whose scales and redundant closures are kept; nullptr: from
-///              the mechanism
+/// @param like  the set-up for another value of a parameter, whose scales, unit of lambda and redundant closures are
+///              kept; nullptr: from the mechanism
 /// @param spare  a system for another value that is not needed any more; its contents are used
 Setup set_up(const model::Mechanism& mechanism, const Study& study, const ParameterFamily* family,
              const Setup* like = nullptr, statics::System* spare = nullptr);

@@ -7,12 +7,10 @@
 
 namespace springfold::analysis {
 
-using Kind = QuantityDefinition::Kind;
-
 StableWalk::StableWalk(const std::vector<QuantityDefinition>& quantities, const StudyResult& result)
     : result_{result},
-      index_{column_of(Kind::index, quantities)},
-      lambda_{column_of(Kind::lambda, quantities)} {}
+      index_{column_of(QuantityDefinition::Kind::index, quantities)},
+      lambda_{column_of(QuantityDefinition::Kind::lambda, quantities)} {}
 
 std::vector<const Event*> StableWalk::ends_of(int branch, std::size_t row, int direction) const {
   if (branch < 1) return {};

@@ -90,11 +90,11 @@ Sheet sheet_for(const std::vector<Panel>& panels, const IllustrationOptions& opt
   if (options.is_perspective && !(sheet.view.eye > 0)) sheet.view.eye = usual_eye;
   place_eye(panels, sheet);
   measure(panels, sheet);
-  const double margin = sheet.arrow + 16;
+  const double border = sheet.arrow + 16;
   const Seen seen = seen_of(panels, sheet);
   const double wide = seen.right - seen.left, tall = seen.high - seen.low;
   const double across =
-      std::max(wide / (room.width - 2 * margin), tall / (room.height - 2 * margin));
+      std::max(wide / (room.width - 2 * border), tall / (room.height - 2 * border));
   sheet.scale = across > 0 ? 1 / across : 1;
   if (sheet.eye > 0)
     sheet.shift = {0.5 * (seen.left + seen.right), 0.5 * (seen.low + seen.high)};

@@ -117,17 +117,22 @@ double RowScenes::shown_value(const Sample& row, std::optional<std::size_t> colu
   return column ? shown_in(sizes_, *column, value(row, column)) : nothing;
 }
 
-/// Rows of designs and of curves over a further parameter belong to other values of it.
+/// Rows of designs and of curves over a further parameter belong to other values of it, and of the parameter along the
+/// path where that is lambda.
 std::optional<analysis::Variant> RowScenes::variant_of(const Sample& row) const {
   const auto& cases = planned_.plan.critical.cases;
   if (!cases) return std::nullopt;
   std::vector<std::string> names{planned_.plan.critical.parameter};
   if (planned_.plan.kind == StudyKind::design) names.clear();
   for (const auto& parameter : planned_.plan.design.parameters) names.push_back(parameter.name);
+  const bool along = planned_.plan.control == ControlMode::parameter &&
+                     analysis::is_of_critical_points(planned_.plan.kind);
   std::vector<std::pair<std::size_t, double>> changes;
   for (std::size_t i = 0; i < cases->names.size(); ++i)
     if (std::find(names.begin(), names.end(), cases->names[i]) != names.end())
       changes.emplace_back(i, value(row, column_of(result_, cases->names[i])));
+    else if (along && cases->names[i] == planned_.plan.parameter)
+      changes.emplace_back(i, value(row, lambda_));
   const bool known = std::all_of(changes.begin(), changes.end(),
                                  [](const auto& change) { return std::isfinite(change.second); });
   if (changes.empty() || !known) return std::nullopt;
@@ -150,13 +155,14 @@ statics::System RowScenes::system_of(const Sample& row, double lambda,
   return statics::prepare(acting(planned_, planned_.family->at(lambda).mechanism));
 }
 
-/// @param plan  the study with the loads of this row
-void RowScenes::add_wrenches(const Sample& row, double lambda, const analysis::Study& plan,
+void RowScenes::add_wrenches(const Sample& row, double lambda,
+                             const std::optional<analysis::Variant>& variant,
                              drawing::Posture& posture) const {
+  const analysis::Study& plan = variant ? variant->study : planned_.plan;
   const StudyKind kind = planned_.plan.kind;
   const bool traces = kind == StudyKind::force_deflection || analysis::is_of_critical_points(kind);
   Vector w = plan.constant_load;
-  if (traces && plan.control == ControlMode::parameter && planned_.family)
+  if (traces && !variant && plan.control == ControlMode::parameter && planned_.family)
     w = planned_.family->at(lambda).constant_load;
   if (traces && plan.control == ControlMode::load && plan.direction.size() > 0)
     w = (w.size() > 0 ? w : Vector::Zero(plan.direction.size())) + lambda * plan.direction;
@@ -196,7 +202,7 @@ std::optional<drawing::Scene> RowScenes::scene_of(const Sample& row) const {
   for (Index i = 0; i < posture.rho.size(); ++i)
     posture.rho[i] = value(row, rho_columns_[static_cast<std::size_t>(i)]);
   if (!posture.rho.allFinite()) return std::nullopt;
-  add_wrenches(row, posture.lambda, variant ? variant->study : planned_.plan, posture);
+  add_wrenches(row, posture.lambda, variant, posture);
   return with_members(drawing::scene_of(system, posture), planned_);
 }
 

@@ -70,9 +70,9 @@ double StageNewton::solve(Vector& z, const Inputs& inputs, int& iterations) {
     for (Index i = 0; i < dz.size(); ++i)
       if (!system_.is_wrench[static_cast<std::size_t>(i)]) moved = std::max(moved, std::abs(dz[i]));
     bool better = false;
-    for (double share = std::min(1.0, longest / moved); !better && share > 1e-3; share /= 2) {
-      trial = z - share * dz;
-      better = residual(trial, inputs, r) && r.norm() < (1 - 0.25 * share) * size;
+    for (double part = std::min(1.0, longest / moved); !better && part > 1e-3; part /= 2) {
+      trial = z - part * dz;
+      better = residual(trial, inputs, r) && r.norm() < (1 - 0.25 * part) * size;
     }
     if (!better) break;
     z = trial;

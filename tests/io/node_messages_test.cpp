@@ -196,10 +196,10 @@ TEST_F(NodeMessages, BarsWithALawAreSpringsOfADistanceFromTheirFreeLength) {
   const auto& cable = std::get<model::OneSidedSpring>(mechanism.shape_springs[0].law);
   EXPECT_EQ(cable.from, std::sqrt(2.0));
   EXPECT_EQ(cable.side, model::OneSidedSpring::Side::above);
-  const auto& strut = std::get<model::OneSidedSpring>(mechanism.shape_springs[1].law);
-  EXPECT_EQ(strut.from, 1.5);
-  EXPECT_EQ(strut.stiffness, 6 / 1.5);
-  EXPECT_EQ(strut.side, model::OneSidedSpring::Side::below);
+  const auto& pusher = std::get<model::OneSidedSpring>(mechanism.shape_springs[1].law);
+  EXPECT_EQ(pusher.from, 1.5);
+  EXPECT_EQ(pusher.stiffness, 6 / 1.5);
+  EXPECT_EQ(pusher.side, model::OneSidedSpring::Side::below);
   EXPECT_THAT(read.bars, ElementsAre("pin-top", "right"));
 }
 

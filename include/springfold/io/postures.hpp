@@ -40,7 +40,8 @@ class RowScenes {
   /// @param variant  of the row: see variant_of
   statics::System system_of(const analysis::Sample& row, double lambda,
                             const std::optional<analysis::Variant>& variant) const;
-  void add_wrenches(const analysis::Sample& row, double lambda, const analysis::Study& plan,
+  void add_wrenches(const analysis::Sample& row, double lambda,
+                    const std::optional<analysis::Variant>& variant,
                     drawing::Posture& posture) const;
 
   const PlannedRun& planned_;

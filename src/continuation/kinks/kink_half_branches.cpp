@@ -229,15 +229,15 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
 }
 
 void sort_by_place(StepEvents& found) {
-  std::vector<std::size_t> order(found.hits.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::vector<std::size_t> places(found.hits.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
     return found.hits[a].point.s < found.hits[b].point.s;
   });
   StepEvents sorted = found;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    sorted.hits[i] = found.hits[order[i]];
-    sorted.stops[i] = found.stops[order[i]];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    sorted.hits[i] = found.hits[places[i]];
+    sorted.stops[i] = found.stops[places[i]];
   }
   found = std::move(sorted);
 }

@@ -168,4 +168,36 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
   return watches;
 }
 
+std::string_view to_string(Degeneracy kind) {
+  switch (kind) {
+    case Degeneracy::cusp:
+      return "cusp";
+    case Degeneracy::isola_centre:
+      return "isola centre";
+    case Degeneracy::crossing:
+      return "crossing of branches";
+    case Degeneracy::hilltop:
+      return "hilltop";
+    case Degeneracy::branch_points_merge:
+      return "a pair of branch points is born";
+    case Degeneracy::corank_two:
+      return "another mode vanishes at the same load";
+    case Degeneracy::fold_meets_activation:
+      return "fold meets activation";
+    case Degeneracy::corner_loses_reversal:
+      return "corner loses its reversal";
+    case Degeneracy::touches_surface:
+      return "the path touches the activation";
+    case Degeneracy::two_switches:
+      return "two activations at once";
+    case Degeneracy::turn:
+      return "the parameter turns back";
+    case Degeneracy::extremum:
+      return "extremum of lambda";
+    case Degeneracy::user:
+      return "marked value";
+  }
+  return "";
+}
+
 }  // namespace springfold::continuation

@@ -7,6 +7,7 @@
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/parameters/augmented.hpp"
 #include "continuation/parameters/degeneracy.hpp"
+#include "continuation/parameters/return_to_start.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "springfold/continuation/between.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -103,6 +104,7 @@ class Follower {
     while (true) {
       const auto ray = way_out(*system, at, mu, along, growing);
       if (!ray) return std::move(curve_);
+      if (!along) first_ = {.x = at, .lambda = mu, .tangent = ray->tangent};
       const bool renew = leg(*system, at, mu, *ray);
       if (!renew) break;
       const CurvePoint end = last_;
@@ -168,8 +170,11 @@ class Follower {
       events.push_back({std::to_string(i), watches[i].value, watches[i].action});
     const Index n = system.n();
     bool renew = false, lost = false;
+    ReturnToStart back{
+        system, options_, first_, length_, {.x = X, .lambda = mu, .tangent = ray.tangent}};
     const auto observe = [&](const CurvePoint& point) {
       ++accepted_;
+      if (back.with(point)) return false;
       if (observer_) {
         CriticalPoint now = critical_point(point, n);
         now.s += length_;
@@ -183,6 +188,7 @@ class Follower {
       return !renew;
     };
     Curve curve = trace(system, X, mu, ray, events, options_, observe);
+    if (back.found()) close(*back.found(), curve);
     for (CurvePoint& point : curve.points) point.s += length_;
     for (Hit& hit : curve.hits) hit.point.s += length_;
     add(curve, further_points(system, curve), watches, n);
@@ -195,6 +201,14 @@ class Follower {
     }
     last_ = curve.points.back();
     return renew && curve.stop == StopReason::observer;
+  }
+
+  /// The curve ends at its start, which its last step passes.
+  static void close(const CurvePoint& start, Curve& curve) {
+    curve.points.back() = start;
+    std::erase_if(curve.hits, [&](const Hit& hit) { return hit.point.s > start.s; });
+    curve.stop = StopReason::closed;
+    curve.stop_detail = std::string{to_string(StopReason::closed)};
   }
 
   std::vector<CurvePoint> further_points(const Augmented& system, const Curve& curve) {
@@ -274,7 +288,7 @@ class Follower {
   const std::function<bool(const CriticalPoint&)>& observer_;
   const FurtherPoints& further_;
   CriticalCurve curve_{};
-  CurvePoint last_{};
+  CurvePoint first_{}, last_{};
   double length_ = 0;
   int accepted_ = 1;
 };
@@ -315,38 +329,6 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
                        .dx = system->state(rate),
                        .dlambda = system->lambda(rate),
                        .dmu = 1};
-}
-
-std::string_view to_string(Degeneracy kind) {
-  switch (kind) {
-    case Degeneracy::cusp:
-      return "cusp";
-    case Degeneracy::isola_centre:
-      return "isola centre";
-    case Degeneracy::crossing:
-      return "crossing of branches";
-    case Degeneracy::hilltop:
-      return "hilltop";
-    case Degeneracy::branch_points_merge:
-      return "a pair of branch points is born";
-    case Degeneracy::corank_two:
-      return "another mode vanishes at the same load";
-    case Degeneracy::fold_meets_activation:
-      return "fold meets activation";
-    case Degeneracy::corner_loses_reversal:
-      return "corner loses its reversal";
-    case Degeneracy::touches_surface:
-      return "the path touches the activation";
-    case Degeneracy::two_switches:
-      return "two activations at once";
-    case Degeneracy::turn:
-      return "the parameter turns back";
-    case Degeneracy::extremum:
-      return "extremum of lambda";
-    case Degeneracy::user:
-      return "marked value";
-  }
-  return "";
 }
 
 }  // namespace springfold::continuation
