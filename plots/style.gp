@@ -48,7 +48,7 @@ terminal_of(format) = \
 output_of(format) = figure_name.'.'.(format eq 'tikz' ? 'tex' : format)
 
 # 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 8 stability not known, 7 beneath a line on
-# which a less stable one lies, 3 grid, 4 line from a label to its point, 5 axes through zero
+# which a less stable one lies, 3 grid, 4 line from a label to its point, 5 axes through zero, 9 end of that line
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
 set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4, 5)
 set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14, 6)
@@ -61,6 +61,9 @@ set style line 5 linecolor rgb '#999999' linewidth 1.2 dashtype solid
 # SVG draws marks larger than the other formats do, diamonds most.
 mark_scale = figure_format eq 'svg' ? 0.58 : 1.0
 diamond_scale = figure_format eq 'svg' ? 0.41 : 1.0
+
+# The end of the line from a curve's label, on the curve.
+set style line 9 linecolor rgb ink pointtype 7 pointsize 0.7 * mark_scale
 
 # Degeneracies of critical curves, and where their load is stationary or jumps.
 set style line 25 linecolor rgb ink pointtype 13 pointsize 2.0 * diamond_scale

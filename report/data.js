@@ -23,7 +23,7 @@
  *            parameters: Object<string, number>, varied: string[], start: string, doubts: string[],
  *            axes: string[], map: WrittenMap | null, quantities: Quantity[],
  *            branches: WrittenBranch[], mechanisms: Parts[]}} Run
- * @typedef {{version: string, title: string, case: string, hash: string, runs: Run[]}} Page
+ * @typedef {{version: string, title: string, case: string, hash: string, units: Object<string, string>, runs: Run[]}} Page
  * @typedef {{values: Float64Array, points: Float64Array, springs: Float64Array, loads: Float64Array}} Numbers
  */
 

@@ -211,7 +211,7 @@ class ReportPage {
     }
     for (const name of Object.keys(run.parameters)) {
       const line = append(parameters, "tr");
-      append(line, "td", name);
+      append(line, "td", this.withUnit(name));
       append(line, "td", String(run.parameters[name]));
     }
     for (const file of new Set([...run.branches.map(b => b.file), "events.csv", "summary.json"])) {
@@ -221,12 +221,20 @@ class ReportPage {
     }
   }
 
+  /**
+   * A parameter with the unit that the case gives it.
+   * @param {string} name @returns {string} */
+  withUnit(name) {
+    const unit = this.page.units[name];
+    return unit ? `${name} [${unit}]` : name;
+  }
+
   /** @param {HTMLElement} table @param {Run[]} runs */
   fillEvents(table, runs) {
     const names = ["lambda", "deflection", "force", "index", "index_force", "K_eig1"].filter(n => runs.some(r => columnOf(r, n) >= 0));
     const varied = runs.length > 1 ? this.run.varied : [];
     const head = append(append(table, "thead"), "tr"), body = append(table, "tbody");
-    for (const text of ["point", ...(runs.length > 1 ? ["run"] : []), ...varied, "branch", ...names.map(n => this.run.quantities.find(q => q.name === n)?.title ?? n), "what"]) append(head, "th", text);
+    for (const text of ["point", ...(runs.length > 1 ? ["run"] : []), ...varied.map(n => this.withUnit(n)), "branch", ...names.map(n => this.run.quantities.find(q => q.name === n)?.title ?? n), "what"]) append(head, "th", text);
     for (const run of runs)
       run.branches.forEach((branch, k) => branch.events.forEach(event => {
         const line = append(body, "tr"), number = this.page.runs.indexOf(run);

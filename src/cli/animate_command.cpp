@@ -19,6 +19,7 @@ io::FilmWish wish_of(const Arguments& arguments) {
   return {.from = arguments.film_from,
           .to = arguments.film_to,
           .mode = arguments.film_mode,
+          .branch = arguments.film_branch,
           .jump = arguments.film_jump,
           .frames = arguments.frames};
 }

@@ -129,13 +129,20 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
                         ->type_name("LABEL")
                         ->excludes(from)
                         ->excludes(to);
+  const auto branch =
+      animate
+          .add_option("--branch", arguments.film_branch,
+                      "Number of the branch, from 1 (the first that has the labels)")
+          ->type_name("N")
+          ->check(CLI::PositiveNumber);
   animate
       .add_option("--jump", arguments.film_jump,
                   "The jump of this label to its landing instead of along the curve")
       ->type_name("LABEL")
       ->excludes(from)
       ->excludes(to)
-      ->excludes(mode);
+      ->excludes(mode)
+      ->excludes(branch);
   constexpr int fewest = 2, most = 100;  // more make large files that look the same
   animate.add_option("--frames", arguments.frames, "At most as many pictures (60)")
       ->type_name("N")

@@ -33,6 +33,7 @@ struct Arguments {
   std::string film_from{}, film_to{};  ///< animate: --from, --to
   std::string film_mode{};             ///< animate: --mode
   std::string film_jump{};             ///< animate: --jump
+  int film_branch = 0;                 ///< animate: --branch; 0: as the labels say
   int frames = 60;                     ///< animate: --frames
   bool prints_json = false;
   std::filesystem::path results{};                  ///< plot: folder of a run

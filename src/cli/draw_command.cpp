@@ -85,7 +85,7 @@ Wanted at_points(const Arguments& arguments, const io::Case& the_case, const Pla
   if (arguments.draw_all.empty())
     rows.push_back(io::row_at(result, label));
   else
-    rows = io::special_rows(result);
+    rows = io::special_postures(result);
   Wanted wanted;
   for (const io::FoundRow& row : rows) {
     if (row.row == nullptr) continue;

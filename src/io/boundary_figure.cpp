@@ -208,7 +208,8 @@ void add_boundary(const Case& the_case, const PlotSpec& spec,
   figure.tells_stability = false;
   const auto title = [&](const std::string& given, const std::string& quantity, double factor) {
     if (!given.empty()) return FigureText{given, spec.markup};
-    return FigureText{(factor == 1 ? "" : factor_text(factor)) + plane_name(quantity)};
+    return FigureText{(factor == 1 ? "" : factor_text(factor)) +
+                      parameter_title(plane_name(quantity), the_case.units)};
   };
   figure.x_title = title(spec.x_label, spec.x, spec.x_factor);
   figure.y_title = title(spec.y_label, spec.y, spec.y_factor);

@@ -91,8 +91,10 @@ class Builder {
     if (study.history.study) planned.history.earlier = earlier_of(i, run, parameters);
     for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
       planned.parameters[draft_->parameters[p].name] = parameters.values[p];
-    if (study.control == analysis::ControlMode::parameter && study.parameter)
+    if (study.control == analysis::ControlMode::parameter && study.parameter) {
       planned.family = family_of(draft_, i, run, parameters);
+      planned.driven_parameter = draft_->parameters[*study.parameter].name;
+    }
     return planned;
   }
 

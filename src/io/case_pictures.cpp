@@ -11,6 +11,7 @@
 #include "springfold/io/postures.hpp"
 #include "springfold/io/shown_text.hpp"
 #include "text.hpp"
+#include "undated.hpp"
 #include "work_folder.hpp"
 
 namespace springfold::io {
@@ -51,7 +52,7 @@ void add_panels(const PictureSpec& spec, const PostureSpec& posture, const Plann
   const std::size_t before = panels.size();
   const bool is_all = posture.label == "all";
   for (const FoundRow& row :
-       is_all ? special_rows(result) : std::vector{row_at(result, posture.label)}) {
+       is_all ? special_postures(result) : std::vector{row_at(result, posture.label)}) {
     if (row.row == nullptr) continue;
     if (auto panel = scenes.panel_of(*row.row, panel_title(spec, planned, row.title), units))
       panels.push_back(std::move(*panel));
@@ -95,8 +96,10 @@ std::vector<std::string> draw_files(const PictureSpec& spec, const std::string& 
       fail(format, *problem);
     else if (fs::file_size(work / file, error) == 0 || error)
       fail(format, "rsvg-convert wrote nothing");
-    else
+    else {
+      remove_date(work / file);
       files.push_back(file);
+    }
   }
   return files;
 }

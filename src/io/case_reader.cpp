@@ -108,6 +108,22 @@ Definition read_parameter(const NodeEntry& entry, Reading& reading) {
   return read_definition(*value, value_key, "a number", reading.book, reading.problems);
 }
 
+/// Who changes the value of an included parameter need not say its unit again.
+std::map<std::string, std::string> parameter_units(const std::vector<Document>& documents) {
+  std::map<std::string, std::string> units;
+  for (const Document& document : documents) {
+    const Node* node = document.root.find("parameters");
+    if (!node || node->kind != Node::Kind::table) continue;
+    for (const NodeEntry& entry : node->entries) {
+      const bool is_table = entry.value.kind == Node::Kind::table;
+      const Node* unit = is_table ? entry.value.find("unit") : nullptr;
+      if (unit && unit->kind == Node::Kind::text && !unit->text.empty())
+        units[entry.key] = unit->text;
+    }
+  }
+  return units;
+}
+
 void read_parameters(const std::vector<NodeEntry>& entries,
                      const std::map<std::string, std::string>& overrides, CaseDraft& draft,
                      Reading& reading) {
@@ -162,6 +178,7 @@ CaseDraft read_case(const std::vector<Document>& documents,
     draft.title = root.text("title").value_or(draft.title);
   }
   draft.units = read_units(documents, reading);
+  draft.units.parameters = parameter_units(documents);
   reading.units = draft.units;
   read_parameters(entries, overrides, draft, reading);
   reading.parameters = &draft.parameters;

@@ -22,13 +22,14 @@ using analysis::EventKind;
 using analysis::StudyResult;
 
 FigureText axis_title(const FigureText& given, const std::string& quantity, double factor,
-                      const StudyResult& result, const UnitLabels& units) {
+                      const StudyResult& result, const PlannedRun* planned,
+                      const UnitLabels& units) {
   if (!given.text.empty()) return given;
   const auto column = column_of(result, quantity);
-  const std::string name = shown_name(result, quantity);
+  const std::string name = column_title(result, quantity, planned);
   const std::string title = factor == 1 ? name : factor_text(factor) + name;
   if (!column) return {title};
-  const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
+  const std::string unit = column_unit(result, *column, planned, units);
   return {unit.empty() ? title : title + " [" + unit + "]"};
 }
 
@@ -38,6 +39,7 @@ bool is_marked(EventKind kind) { return kind != EventKind::end_of_range; }
 struct Axes {
   const PlotSpec& spec;
   const UnitLabels& units;
+  const PlannedRun* planned = nullptr;
   std::string y{};        ///< the quantity that is plotted: spec.y or one of spec.more_y
   std::string along{};    ///< rows lie on smooth curves over this quantity; empty: on none
   int hue = 0;            ///< of several quantities: the number of this one
@@ -190,10 +192,11 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
   const UnitLabels& units = axes.units;
   if (figure.x_title.text.empty()) {
     const FigureText x{spec.x_label, spec.markup};
-    figure.x_title = axis_title(x, spec.x, spec.x_factor, result, units);
-    figure.y_title = ordinate_title(spec, result, units);
+    figure.x_title = axis_title(x, spec.x, spec.x_factor, result, axes.planned, units);
+    figure.y_title = ordinate_title(spec, result, axes.planned, units);
     if (spec.polar) {  // both axes show the distance
-      const FigureText distance = axis_title({}, spec.y, spec.y_factor, result, units);
+      const FigureText distance =
+          axis_title({}, spec.y, spec.y_factor, result, axes.planned, units);
       if (spec.x_label.empty()) figure.x_title.text = distance.text + ", along " + spec.x + " = 0";
       if (spec.y_label.empty())
         figure.y_title.text = distance.text + ", along " + spec.x + " = 90°";
@@ -221,7 +224,7 @@ void add_run(Figure& figure, const Axes& axes, const StudyResult& result, const 
 void add_quantities(Figure& figure, const Case& the_case, const PlotSpec& spec,
                     const StudyResult& result, const FigureText& label) {
   const PlannedRun* planned = plan_of(the_case, result);
-  Axes axes{.spec = spec, .units = the_case.units, .y = spec.y};
+  Axes axes{.spec = spec, .units = the_case.units, .planned = planned, .y = spec.y};
   axes.has_start = planned == nullptr || planned->plan.kind != analysis::StudyKind::critical_load;
   // On a logarithmic axis rounding is seen for what it is.
   if (!spec.look.x_log && !spec.look.y_log) axes.sizes = quantity_sizes(result);
@@ -311,10 +314,11 @@ bool look_alike(const FigureCurve& a, const FigureCurve& b) {
 std::string factor_text(double factor) { return shortest(factor) + " · "; }
 
 FigureText ordinate_title(const PlotSpec& spec, const StudyResult& result,
-                          const UnitLabels& units) {
-  FigureText title = axis_title({spec.y_label, spec.markup}, spec.y, spec.y_factor, result, units);
+                          const PlannedRun* planned, const UnitLabels& units) {
+  FigureText title =
+      axis_title({spec.y_label, spec.markup}, spec.y, spec.y_factor, result, planned, units);
   for (const std::string& more : spec.y_label.empty() ? spec.more_y : std::vector<std::string>{})
-    title.text += ", " + axis_title({}, more, spec.y_factor, result, units).text;
+    title.text += ", " + axis_title({}, more, spec.y_factor, result, planned, units).text;
   return title;
 }
 
@@ -350,7 +354,7 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
           std::any_of(spec.curves.begin(), spec.curves.end(), [&](const PlotCurves& curves) {
             return !shown_runs(the_case, spec.markup, curves, results).empty();
           });
-    if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, figure);
+    if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, the_case.units, figure);
     if (spec.shade) shade_held_loads(runs, spec, results, figure);
     say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))

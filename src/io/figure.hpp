@@ -120,8 +120,9 @@ bool look_alike(const FigureCurve& a, const FigureCurve& b);
 std::string factor_text(double factor);
 
 /// What stands along the y axis: the text that the case gives, or quantities and units.
+/// @param planned  of the result; may be null
 FigureText ordinate_title(const PlotSpec& spec, const analysis::StudyResult& result,
-                          const UnitLabels& units);
+                          const PlannedRun* planned, const UnitLabels& units);
 
 /// The curves of one run of a figure.
 struct RunCurves {
@@ -138,8 +139,9 @@ void shade_held_loads(const std::vector<RunCurves>& runs, const PlotSpec& spec,
 /// Colour of a value between the smallest (0) and the largest (1), "#RRGGBB".
 std::string sweep_colour(double part);
 
-/// Gives the runs of one study that varies one number, three runs or more, colours by its value. Where
-/// they are many, numbers of runs stand for their labels, and a colour bar says the values.
-void colour_by_value(const std::vector<RunCurves>& runs, Figure& figure);
+/// Gives the runs of one study, three or more, colours by the value that it varies; of several values by the first that
+/// differs in all runs, or where none does by the runs' numbers. Where they are many, numbers of runs stand for their
+/// labels, and a colour bar says the values.
+void colour_by_value(const std::vector<RunCurves>& runs, const UnitLabels& units, Figure& figure);
 
 }  // namespace springfold::io

@@ -141,6 +141,8 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, b
     if (label.has_leader)
       gnuplot << "set arrow from first anchor_x, first anchor_y rto "
               << from_anchor(label.leader_to) << " nohead linestyle 4 back\n";
+    if (label.has_leader && label.is_curve_label)
+      gnuplot << "set label '' at first anchor_x, first anchor_y point linestyle 9 front\n";
     const FigureText text = text_for(label.text, is_tex);
     gnuplot << "set label " << gnuplot_string(text.text)
             << " at first anchor_x, first anchor_y offset " << from_anchor(label.at) << " center "

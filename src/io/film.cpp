@@ -119,33 +119,6 @@ std::vector<std::size_t> slots_between(const StudyResult& result, const Branch& 
   return order;
 }
 
-FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
-                const FilmWish& wish) {
-  const Branch& branch = result.branches.front();
-  const auto from = row_of(branch, wish.from, 0);
-  const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
-  if (!from || !to)
-    return {.problem = "there is no point \"" + (from ? wish.to : wish.from) +
-                       "\" on the first branch of " + result.study +
-                       "; there are: " + labels_on(branch)};
-  if (*from == *to) return {.problem = result.study + ": the way is a single posture"};
-  Film film{.heading = heading_of(result)};
-  std::vector<std::optional<std::size_t>> frame_of(branch.samples.size());
-  for (const std::size_t row : slots_between(result, branch, *from, *to, wish.frames)) {
-    if (!frame_of[row]) {
-      auto panel = scenes.panel_of(branch.samples[row], branch.samples[row].event, units);
-      if (!panel) continue;
-      frame_of[row] = film.frames.size();
-      film.frames.push_back({std::move(*panel), row});
-    }
-    film.order.push_back(*frame_of[row]);
-  }
-  if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
-  const double size = drawing::size_of(film.frames.front().panel.scene);
-  film.diagram = diagram_of(result, branch, size, units);
-  return {.film = std::move(film)};
-}
-
 /// A way in which the mechanism buckles: rates of the columns.
 struct Mode {
   std::string name{};  ///< "LP1", "BP1"; of several at one point "BP1.2" is the second
@@ -167,9 +140,69 @@ std::vector<Mode> modes_on(const Branch& branch) {
   return modes;
 }
 
-FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitLabels& units,
-                 const FilmWish& wish) {
-  const Branch& branch = result.branches.front();
+/// Has it the points that are asked for?
+bool has_wish(const Branch& branch, const FilmWish& wish) {
+  if (branch.samples.empty()) return false;
+  if (wish.mode.empty()) return row_of(branch, wish.from, 0) && row_of(branch, wish.to, 0);
+  const std::vector<Mode> modes = modes_on(branch);
+  return std::any_of(modes.begin(), modes.end(),
+                     [&wish](const Mode& mode) { return mode.name == wish.mode; });
+}
+
+/// The branch of the film; nullptr if there is none of this number. Without a number the first that has the points, or
+/// branch 1 where none has.
+const Branch* branch_of(const StudyResult& result, const FilmWish& wish) {
+  const auto& branches = result.branches;
+  if (wish.branch > 0)
+    return static_cast<std::size_t>(wish.branch) <= branches.size()
+               ? &branches[static_cast<std::size_t>(wish.branch) - 1]
+               : nullptr;
+  const auto found = std::find_if(branches.begin(), branches.end(),
+                                  [&wish](const Branch& b) { return has_wish(b, wish); });
+  return found == branches.end() ? &branches.front() : &*found;
+}
+
+std::string number_of(const StudyResult& result, const Branch& branch) {
+  return "branch " + std::to_string(&branch - result.branches.data() + 1);
+}
+
+std::string name_of(const StudyResult& result, const Branch& branch) {
+  return number_of(result, branch) + " of " + result.study;
+}
+
+/// With the number of the branch where there are several.
+std::string heading_with(const StudyResult& result, const Branch& branch) {
+  return heading_of(result) +
+         (result.branches.size() > 1 ? ", " + number_of(result, branch) : "");
+}
+
+FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const Branch& branch,
+                const UnitLabels& units, const FilmWish& wish) {
+  const auto from = row_of(branch, wish.from, 0);
+  const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
+  if (!from || !to)
+    return {.problem = "there is no point \"" + (from ? wish.to : wish.from) + "\" on " +
+                       name_of(result, branch) + "; there are: " + labels_on(branch)};
+  if (*from == *to) return {.problem = result.study + ": the way is a single posture"};
+  Film film{.heading = heading_with(result, branch)};
+  std::vector<std::optional<std::size_t>> frame_of(branch.samples.size());
+  for (const std::size_t row : slots_between(result, branch, *from, *to, wish.frames)) {
+    if (!frame_of[row]) {
+      auto panel = scenes.panel_of(branch.samples[row], branch.samples[row].event, units);
+      if (!panel) continue;
+      frame_of[row] = film.frames.size();
+      film.frames.push_back({std::move(*panel), row});
+    }
+    film.order.push_back(*frame_of[row]);
+  }
+  if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
+  const double size = drawing::size_of(film.frames.front().panel.scene);
+  film.diagram = diagram_of(result, branch, size, units);
+  return {.film = std::move(film)};
+}
+
+FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const Branch& branch,
+                 const UnitLabels& units, const FilmWish& wish) {
   const std::vector<Mode> modes = modes_on(branch);
   const auto found =
       std::find_if(modes.begin(), modes.end(), [&](const Mode& m) { return m.name == wish.mode; });
@@ -177,7 +210,7 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitL
     std::string list;
     for (const Mode& m : modes) list += (list.empty() ? "" : ", ") + m.name;
     return {.problem = "there is no limit point or branch point \"" + wish.mode +
-                       "\" with a mode on the first branch of " + result.study +
+                       "\" with a mode on " + name_of(result, branch) +
                        "; there are: " + (list.empty() ? "none" : list)};
   }
   const analysis::Sample& row = branch.samples[found->row];
@@ -189,7 +222,8 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const UnitL
   constexpr double part = 0.07;  // of the mechanism's size: large enough to be seen
   const double size = drawing::size_of(panel->scene), amplitude = part * size / largest;
   const int count = std::min(wish.frames, 24);  // of half a period
-  Film film{.heading = heading_of(result), .diagram = diagram_of(result, branch, size, units)};
+  Film film{.heading = heading_with(result, branch),
+            .diagram = diagram_of(result, branch, size, units)};
   for (int i = 0; i < count; ++i) {
     const double phase = std::numbers::pi * (static_cast<double>(i) / (count - 1) - 0.5);
     drawing::Frame frame{*panel, found->row};
@@ -252,17 +286,22 @@ FilmOutcome film_of(const PlannedRun& planned, const StudyResult& result, const 
                        ": a study of this kind has no branch of postures; "
                        "try springfold draw"};
   if (!wish.jump.empty()) return jump(scenes, result, units, wish);
-  return wish.mode.empty() ? way(scenes, result, units, wish) : mode(scenes, result, units, wish);
+  const Branch* branch = branch_of(result, wish);
+  if (branch == nullptr || branch->samples.empty())
+    return {.problem = "there is no branch " + std::to_string(wish.branch) + " of " + result.study +
+                       "; there are " + std::to_string(result.branches.size())};
+  return wish.mode.empty() ? way(scenes, result, *branch, units, wish)
+                           : mode(scenes, result, *branch, units, wish);
 }
 
 PlannedRun with_rows_for(const FilmWish& wish, PlannedRun planned, const StudyResult& result) {
-  if (!wish.jump.empty() || result.branches.empty() || result.branches.front().samples.size() < 2)
-    return planned;
-  const Branch& branch = result.branches.front();
-  const auto from = row_of(branch, wish.from, 0);
-  const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
+  const Branch* branch =
+      wish.jump.empty() && !result.branches.empty() ? branch_of(result, wish) : nullptr;
+  if (branch == nullptr || branch->samples.size() < 2) return planned;
+  const auto from = row_of(*branch, wish.from, 0);
+  const auto to = row_of(*branch, wish.to, branch->samples.size() - 1);
   if (!from || !to || *from == *to) return planned;
-  const double way = std::abs(length_at(result, branch, *to) - length_at(result, branch, *from));
+  const double way = std::abs(length_at(result, *branch, *to) - length_at(result, *branch, *from));
   double& spacing = planned.plan.trace.spacing;
   const double wanted = way / wish.frames;
   spacing = spacing > 0 ? std::min(spacing, wanted) : wanted;

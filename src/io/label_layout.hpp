@@ -14,11 +14,13 @@ struct PlacedLabel {
   FigureText text{};
   PlotPoint at{};
   bool is_curve_label = false;
-  bool has_leader = false;  ///< too far from its point to be understood without a line
+  /// Too far from its point to be understood without a line; that of a curve ends in a dot on it.
+  bool has_leader = false;
   PlotPoint leader_from{}, leader_to{};
 };
 
-/// Labels of all marks, then of all curves. In crowded figures they may lie on curves; those that have no place but on
+/// Labels of all marks, then of all curves; curves that lie on each other share one. No text is nearer to another curve
+/// than to its own, unless a line joins them. In crowded figures they may lie on curves; those that have no place but on
 /// another label are left out.
 std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas);
 

@@ -140,11 +140,10 @@ std::vector<MapPlotSpec> specs_of(const Case& the_case) {
 }
 
 FigureText title_of(const FigureText& given, const std::string& name, double factor,
-                    const StudyResult& result, const UnitLabels& units) {
+                    const StudyResult& result, const PlannedRun* planned, const UnitLabels& units) {
   if (!given.text.empty()) return given;
   const auto column = column_of(result, name);
-  const std::string unit =
-      column ? unit_label(result.quantities[*column].unit, result.lambda_unit, units) : "";
+  const std::string unit = column ? column_unit(result, *column, planned, units) : "";
   return {(factor == 1 ? name : shortest(factor) + " · " + name) +
           (unit.empty() ? "" : " [" + unit + "]")};
 }
@@ -242,9 +241,12 @@ std::vector<MapFigure> map_figures_of(const Case& the_case, const std::vector<St
       for (double& y : panel.field.ys) y *= spec.y_factor;
       figure.panels.push_back(std::move(panel));
       const UnitLabels& units = the_case.units;
-      figure.x_title = title_of(given(spec.x_label), axes[0].name, spec.x_factor, *result, units);
-      figure.y_title = title_of(given(spec.y_label), axes[1].name, spec.y_factor, *result, units);
-      figure.value_title = title_of(given(spec.label), spec.quantity, spec.factor, *result, units);
+      const auto title = [&](const std::string& text, const std::string& name, double factor) {
+        return title_of(given(text), name, factor, *result, planned, units);
+      };
+      figure.x_title = title(spec.x_label, axes[0].name, spec.x_factor);
+      figure.y_title = title(spec.y_label, axes[1].name, spec.y_factor);
+      figure.value_title = title(spec.label, spec.quantity, spec.factor);
     }
     const bool has_values =
         std::any_of(figure.panels.begin(), figure.panels.end(), [](const MapPanel& panel) {

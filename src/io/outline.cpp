@@ -94,15 +94,6 @@ std::string state_text(Stability stability, bool is_load) {
   return {};
 }
 
-/// At a limit point at which stability is lost the control cannot go on: the mechanism jumps.
-bool snaps_at(const Branch& branch, std::size_t row, bool is_load, const Stretch& behind) {
-  const Event* event = event_at(branch, row);
-  const bool turns = event != nullptr && (event->kind == EventKind::limit_point ||
-                                          event->kind == EventKind::corner_limit_point);
-  return turns && (is_load ? behind.stability != Stability::stable
-                           : behind.stability == Stability::unstable);
-}
-
 /// "stable up to LP1 at 0.027 N, snaps there; unstable up to LP2 at 0.01 N; stable again to the end".
 /// @param most  stretches that are told
 std::string way_text(const Case& the_case, const StudyResult& result, const Branch& branch,
@@ -120,7 +111,9 @@ std::string way_text(const Case& the_case, const StudyResult& result, const Bran
     was_stable = was_stable || is_stable;
     const bool is_last = i + 1 == stretches.size();
     text += is_last ? " to the end" : " up to " + point_text(the_case, result, branch, stretch.to);
-    if (!is_last && is_stable && snaps_at(branch, stretch.to, is_load, stretches[i + 1]))
+    const Event* event = event_at(branch, stretch.to);
+    if (!is_last && event != nullptr &&
+        loses_hold(event->kind, stretch.stability, stretches[i + 1].stability, is_load))
       text += ", where it snaps";
   }
   return text;
@@ -175,27 +168,19 @@ std::vector<std::string> in_lines(const std::vector<std::string>& sentences) {
   return lines;
 }
 
-/// Of a branch and its mirror one may reach the upper, the other the lower limit of a coordinate.
-std::string without_side(std::string reason) {
-  for (const std::string_view side : {"upper limit", "lower limit"})
-    if (const std::size_t at = reason.find(side); at != std::string::npos)
-      reason.replace(at, side.size(), "limit");
-  return reason;
-}
-
-/// Special points of a branch with their values, and its ends, for comparison.
+/// Do special points and ends have the same values? Those at which a mirror image ends are named otherwise: by the
+/// mirrored joint, or by the opposite limit.
 bool agree(const StudyResult& result, const Branch& a, const Branch& b) {
-  // What is said of one is said of the other: they begin and end alike.
+  // What is said of one is said of the other: they begin alike.
   if (a.origin != b.origin || a.origin_branch != b.origin_branch || a.start != b.start)
     return false;
-  if (a.backward.reason != b.backward.reason ||
-      without_side(a.forward.reason) != without_side(b.forward.reason))
+  if (a.backward.complete != b.backward.complete || a.forward.complete != b.forward.complete)
     return false;
   if (a.events.size() != b.events.size()) return false;
   // Both were computed, each with errors of its own: far above those, far below what is printed.
   constexpr double near = 1e-6;
   const auto same = [&](std::size_t i, std::size_t k) {
-    for (const char* name : {"lambda", "deflection", "force", "index"}) {
+    for (const char* name : {"lambda", "deflection", "force", "energy", "index"}) {
       const double u = value_at(result, a, i, name), v = value_at(result, b, k, name);
       if (std::isnan(u) != std::isnan(v)) return false;
       if (std::abs(u - v) > near * std::max({1.0, std::abs(u), std::abs(v)})) return false;

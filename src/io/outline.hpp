@@ -15,8 +15,8 @@ namespace springfold::io {
 /// alike, and how many jumps; of other kinds what was found. Empty where nothing was found.
 std::vector<std::string> outline_of(const Case& the_case, const analysis::StudyResult& result);
 
-/// Branches whose special points agree in lambda, deflection and force, such as mirror images: lists of
-/// numbers from 1, in order; each branch is in one list.
+/// Branches whose special points and ends agree in lambda, deflection, force and energy, such as mirror images,
+/// whatever ends them: lists of numbers from 1, in order; each branch is in one list.
 std::vector<std::vector<std::size_t>> alike_branches(const analysis::StudyResult& result);
 
 /// "1", "2 and 3", "4, 5 and 6".

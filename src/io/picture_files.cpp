@@ -10,6 +10,7 @@
 
 #include "atomic_file.hpp"
 #include "gnuplot_process.hpp"
+#include "undated.hpp"
 
 namespace springfold::io {
 namespace {
@@ -49,7 +50,10 @@ std::string write_picture(const drawing::Picture& picture, const fs::path& file)
   write_file(svg, drawing::svg_text(picture));
   if (is_svg) return {};
   const auto converter = find_executable("rsvg-convert");
-  if (converter && convert(*converter, svg, path)) return {};
+  if (converter && convert(*converter, svg, path)) {
+    remove_date(path);
+    return {};
+  }
   return std::string{path.extension() == ".pdf" ? "no PDF file" : "no PNG file"} +
          ": it needs the program rsvg-convert (Debian: librsvg2-bin)" +
          std::string(converter ? ", which failed" : "") + "; the picture is in " + svg.string();

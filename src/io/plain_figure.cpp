@@ -153,6 +153,8 @@ void add_labels(const Figure& figure, const Canvas& canvas, Picture& picture) {
     if (label.has_leader)
       picture.marks.emplace_back(
           Path{{flipped(label.leader_from), flipped(label.leader_to)}, false, {grey, "", 1, {}}});
+    if (label.has_leader && label.is_curve_label)
+      picture.marks.emplace_back(Disc{flipped(label.leader_from), 2.4, {"", ink, 0, {}}, ""});
     const Place at = flipped(label.at);
     const double size = label.is_curve_label ? canvas.text_height : 0.93 * canvas.text_height;
     picture.marks.emplace_back(Words{.at = {at.x, at.y + 0.35 * size},

@@ -325,4 +325,18 @@ std::vector<FoundRow> special_rows(const StudyResult& result) {
   return rows;
 }
 
+std::vector<FoundRow> special_postures(const StudyResult& result) {
+  std::vector<FoundRow> postures;
+  for (FoundRow& found : special_rows(result)) {
+    const auto same =
+        std::find_if(postures.begin(), postures.end(),
+                     [&found](const FoundRow& other) { return other.row == found.row; });
+    if (same == postures.end())
+      postures.push_back(std::move(found));
+    else
+      same->title += ", " + found.title;
+  }
+  return postures;
+}
+
 }  // namespace springfold::io

@@ -7,6 +7,7 @@
 #include "manifest.hpp"
 #include "sha256.hpp"
 #include "springfold/io/plots.hpp"
+#include "undated.hpp"
 #include "work_folder.hpp"
 
 namespace springfold::io {
@@ -50,6 +51,7 @@ std::string redraw(const fs::path& folder, const std::string& script, const fs::
   const std::vector<std::string> pictures = pictures_in(work.path());
   std::vector<ListedFile> list;
   for (const std::string& name : pictures) {
+    remove_date(work.path() / name);
     const std::string bytes = read_file(work.path() / name);
     list.push_back({"plots/" + name, sha256(bytes), bytes.size()});
   }

@@ -271,8 +271,8 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
     const analysis::Quantity& q = result.quantities[i];
     json["quantities"].push_back(
         {{"name", q.name},
-         {"title", shown_name(result, q.name)},
-         {"unit", shown_in_line(unit_label(q.unit, result.lambda_unit, the_case.units))},
+         {"title", column_title(result, q.name, &planned)},
+         {"unit", shown_in_line(column_unit(result, i, &planned, the_case.units))},
          {"rounding", shown_below(sizes[i])}});
   }
   const PageLists page = page_lists_of(planned, result, files, equilibria, the_case.units);
@@ -312,7 +312,10 @@ std::string report_data(const Case& the_case, const std::vector<StudyResult>& re
                {"title", shown_in_line(the_case.title)},
                {"case", shown_in_line(the_case.file.filename().string())},
                {"hash", the_case.hash},
+               {"units", Json::object()},
                {"runs", Json::array()}};
+  for (const auto& [name, unit] : the_case.units.parameters)
+    json["units"][name] = shown_in_line(unit);
   const auto files = branch_files(results);
   const auto equilibria = equilibria_files(results);
   for (std::size_t i = 0; i < results.size(); ++i)

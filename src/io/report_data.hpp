@@ -7,6 +7,7 @@
 
 #include "springfold/analysis/result.hpp"
 #include "springfold/io/case_file.hpp"
+#include "stability_parts.hpp"
 
 namespace springfold::io {
 
@@ -16,7 +17,8 @@ std::string base64_of(const std::vector<double>& numbers);
 /// JSON that may stand in an HTML script element: it has no "<".
 std::string report_data(const Case& the_case, const std::vector<analysis::StudyResult>& results);
 
-/// What a kind of special point means for the mechanism, in a sentence.
-std::string explanation_of(analysis::EventKind kind);
+/// What a special point means for the mechanism, in a sentence or two.
+/// @param is_load  the study puts on a load, otherwise it drives the mechanism
+std::string explanation_of(analysis::EventKind kind, const Passage& passage, bool is_load);
 
 }  // namespace springfold::io

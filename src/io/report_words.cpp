@@ -1,21 +1,57 @@
 // What special points mean, in the words of the HTML page.
+#include <string>
+
 #include "report_data.hpp"
 
 namespace springfold::io {
+namespace {
 
-std::string explanation_of(analysis::EventKind kind) {
-  using analysis::EventKind;
+using analysis::EventKind;
+
+/// What a turn of the load, or of what drives the mechanism, does to it.
+std::string turn_words(EventKind kind, const Passage& passage, bool is_load) {
+  if (!passage.before || !passage.behind) return "";
+  const Stability a = *passage.before, b = *passage.behind;
+  if (a == Stability::unknown || b == Stability::unknown)
+    return " Whether the mechanism snaps beyond it is not known.";
+  if (loses_hold(kind, a, b, is_load) || loses_hold(kind, b, a, is_load))
+    return " Beyond it the mechanism snaps.";
+  if (a == b && a == Stability::stable) return " The mechanism is stable on both sides.";
+  if (!stands(a, is_load) && !stands(b, is_load))
+    return " The mechanism is unstable on both sides: it does not come here by itself.";
+  if (a != b && (a == Stability::stable || b == Stability::stable))
+    return " Under dead load the mechanism would snap; as it is driven it goes on.";
+  return " As it is driven the mechanism goes on; under dead load it is unstable on both sides.";
+}
+
+std::string change_words(const Passage& passage, bool is_load) {
+  if (!passage.before || !passage.behind) return "The stability changes here.";
+  const Stability a = *passage.before, b = *passage.behind;
+  if (!is_load && stands(a, is_load) && stands(b, is_load))
+    return "The stability under dead load changes here; as it is driven the mechanism goes on.";
+  const bool changes_driven = is_load && a != b && !stands(a, is_load) && !stands(b, is_load);
+  if (changes_driven)
+    return "The mechanism is unstable under the load on both sides; whether it would stand if its "
+           "way were driven changes here.";
+  if (stands(a, is_load) || stands(b, is_load)) return "The stability changes here.";
+  return "The number of unstable modes changes here; the mechanism is unstable on both sides.";
+}
+
+}  // namespace
+
+std::string explanation_of(EventKind kind, const Passage& passage, bool is_load) {
   switch (kind) {
     case EventKind::limit_point:
-      return "The load, or what drives the mechanism, has an extremum here: beyond it the "
-             "mechanism snaps. "
-             "The motion along the branch is the mode in which it buckles.";
+      return "The load, or what drives the mechanism, has an extremum here." +
+             turn_words(kind, passage, is_load) +
+             " The motion along the branch is the mode in which it buckles.";
     case EventKind::branch_point:
       return "Branches cross here: the mechanism may leave the one that it follows.";
     case EventKind::switching:
       return "A one-sided spring begins or ceases to act here: the stiffness jumps.";
     case EventKind::corner_limit_point:
-      return "A spring switches here and the driven quantity turns back at once.";
+      return "A spring switches here and the driven quantity turns back at once." +
+             turn_words(kind, passage, is_load);
     case EventKind::branching_kink:
       return "A spring switches here and there is more than one way on.";
     case EventKind::kinematic_singularity:
@@ -29,7 +65,7 @@ std::string explanation_of(analysis::EventKind kind) {
     case EventKind::end_of_range:
       return "The branch ends here: a limit of the study, or where tracing stopped.";
     case EventKind::stability_change:
-      return "The stability under dead load changes here; as it is driven the mechanism goes on.";
+      return change_words(passage, is_load);
     case EventKind::unresolved:
       return "Something happens here that could not be resolved.";
     case EventKind::cusp:

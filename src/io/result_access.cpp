@@ -128,6 +128,41 @@ std::string unit_label(Unit unit, Unit lambda_unit, const UnitLabels& labels) {
   return unit_text(unit == Unit::lambda ? lambda_unit : unit, labels);
 }
 
+std::string parameter_in(const PlannedRun* planned, const std::string& quantity) {
+  if (planned == nullptr) return {};
+  const analysis::Study& plan = planned->plan;
+  if (quantity == "lambda") return planned->driven_parameter;
+  if (analysis::is_of_critical_points(plan.kind) && quantity == plan.critical.parameter)
+    return quantity;
+  const auto& axes = plan.map.axes;
+  const bool is_axis = plan.kind == analysis::StudyKind::map &&
+                       std::any_of(axes.begin(), axes.end(), [&](const analysis::MapAxis& axis) {
+                         return !axis.pose && axis.name == quantity;
+                       });
+  return is_axis ? quantity : std::string{};
+}
+
+std::string column_unit(const analysis::StudyResult& result, std::size_t column,
+                        const PlannedRun* planned, const UnitLabels& labels) {
+  const analysis::Quantity& quantity = result.quantities[column];
+  const std::string parameter = parameter_in(planned, quantity.name);
+  if (parameter.empty()) return unit_label(quantity.unit, result.lambda_unit, labels);
+  const auto unit = labels.parameters.find(parameter);
+  return unit == labels.parameters.end() ? std::string{} : unit->second;
+}
+
+std::string column_title(const analysis::StudyResult& result, const std::string& quantity,
+                         const PlannedRun* planned) {
+  const std::string parameter = parameter_in(planned, quantity);
+  return shown_name(result, quantity) +
+         (parameter.empty() || parameter == quantity ? "" : " (" + parameter + ")");
+}
+
+std::string parameter_title(const std::string& name, const UnitLabels& labels) {
+  const auto unit = labels.parameters.find(name);
+  return unit == labels.parameters.end() ? name : name + " [" + unit->second + "]";
+}
+
 std::string heading_of(const analysis::StudyResult& result) {
   std::string heading = shown(result.study) + ", run " + std::to_string(result.run);
   if (!result.label.empty()) heading += " (" + shown(result.label) + ")";

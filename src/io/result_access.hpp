@@ -75,6 +75,21 @@ bool all_complete(const Case& the_case, const std::vector<analysis::StudyResult>
 /// "N/m" in the labels of the case; empty for a pure number.
 std::string unit_label(analysis::Unit unit, analysis::Unit lambda_unit, const UnitLabels& labels);
 
+/// The parameter whose values the column holds: a curve or a map over it, or lambda that is one; empty: none.
+/// @param planned  may be null
+std::string parameter_in(const PlannedRun* planned, const std::string& quantity);
+
+/// As unit_label(), and of a parameter the unit that the case gives it. @param planned  may be null
+std::string column_unit(const analysis::StudyResult& result, std::size_t column,
+                        const PlannedRun* planned, const UnitLabels& labels);
+
+/// As shown_name(), and of a lambda that is a parameter "lambda (Kv)". @param planned  may be null
+std::string column_title(const analysis::StudyResult& result, const std::string& quantity,
+                         const PlannedRun* planned);
+
+/// "Kv [N/m]"; without a unit "Kv".
+std::string parameter_title(const std::string& name, const UnitLabels& labels);
+
 /// "push, run 2 (Kv = 0.01)".
 std::string heading_of(const analysis::StudyResult& result);
 

@@ -100,6 +100,24 @@ std::vector<Stability> stability_of_steps(const analysis::StudyResult& result,
   return steps;
 }
 
+Passage passage_at(const std::vector<Stability>& steps, const analysis::Branch& branch,
+                   const analysis::Event& event) {
+  const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
+  Passage passage;
+  if (event.row > 0 && event.row <= steps.size()) passage.before = steps[event.row - 1];
+  if (last < steps.size()) passage.behind = steps[last];
+  return passage;
+}
+
+bool stands(Stability stability, bool is_load) {
+  return stability == Stability::stable || (!is_load && stability == Stability::driven);
+}
+
+bool loses_hold(EventKind kind, Stability from, Stability to, bool is_load) {
+  const bool turns = kind == EventKind::limit_point || kind == EventKind::corner_limit_point;
+  return turns && stands(from, is_load) && to != Stability::unknown && !stands(to, is_load);
+}
+
 bool is_finite(const PlotPoint& at) { return std::isfinite(at.first) && std::isfinite(at.second); }
 
 std::vector<CurvePart> parts_of(const std::vector<PlotPoint>& points,

@@ -1,6 +1,7 @@
 // A curve cut into parts of one stability.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "figure.hpp"
@@ -11,6 +12,21 @@ namespace springfold::io {
 /// decide; at a limit or branch point itself an eigenvalue is zero and they mean little.
 std::vector<Stability> stability_of_steps(const analysis::StudyResult& result,
                                           const analysis::Branch& branch);
+
+/// How the mechanism stands on both sides of a special point; nothing beyond an end of the branch.
+struct Passage {
+  std::optional<Stability> before{}, behind{};  ///< in the order of rows
+};
+/// @param steps  of the branch: stability_of_steps
+Passage passage_at(const std::vector<Stability>& steps, const analysis::Branch& branch,
+                   const analysis::Event& event);
+
+/// Does it stand as the study holds it? @param is_load  under a dead load, otherwise driven
+bool stands(Stability stability, bool is_load);
+
+/// Does the control lose the mechanism where it turns back between two such stretches? Then it jumps.
+/// @param is_load  as in stands()
+bool loses_hold(analysis::EventKind kind, Stability from, Stability to, bool is_load);
 
 /// Neither NaN nor infinite: can be drawn.
 bool is_finite(const PlotPoint& at);

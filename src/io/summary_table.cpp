@@ -172,6 +172,21 @@ std::string arcs_text(const analysis::VerifiedArcs& arcs) {
                     counted(static_cast<int>(arcs.sampled.size()), "part"));
 }
 
+/// Mirror images end at the mirrored joint, or at the opposite limit.
+std::string other_ends(const StudyResult& result, const std::vector<std::size_t>& numbers) {
+  const Branch& first = result.branches[numbers.front() - 1];
+  std::string text;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const Branch& other = result.branches[numbers[i] - 1];
+    const std::string of_branch = "of branch " + std::to_string(numbers[i]) + ": ";
+    if (first.origin.empty() && other.backward.reason != first.backward.reason)
+      text += summary_line("", of_branch + "first row: " + other.backward.reason);
+    if (other.forward.reason != first.forward.reason)
+      text += summary_line("", of_branch + other.forward.reason);
+  }
+  return text;
+}
+
 /// One branch, and the numbers of others of which the same is said.
 std::string branch_lines(const StudyResult& result, const std::vector<std::size_t>& numbers,
                          const std::vector<double>& sizes) {
@@ -191,12 +206,7 @@ std::string branch_lines(const StudyResult& result, const std::vector<std::size_
   text += point_lines(result, branch, sizes);
   if (branch.origin.empty()) text += stop_line("first row", branch.backward);
   text += stop_line("last row", branch.forward);
-  for (std::size_t i = 1; i < numbers.size(); ++i)  // its mirror ends at the opposite limit
-    if (const auto& other = result.branches[numbers[i] - 1];
-        other.forward.reason != branch.forward.reason)
-      text +=
-          summary_line("", "of branch " + std::to_string(numbers[i]) + ": " + other.forward.reason);
-  return text;
+  return text + other_ends(result, numbers);
 }
 
 /// "stable" columns of all equilibria that a search found, the lowest potential first.

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "figure.hpp"
+#include "result_access.hpp"
 
 namespace springfold::io {
 namespace {
@@ -19,20 +20,51 @@ constexpr std::array<std::array<double, 3>, 8> stops{{{68, 1, 84},
                                                       {53, 183, 121},
                                                       {122, 199, 63}}};
 
-/// The one parameter that differs between runs of one study; empty if there is none, or several do.
-std::string varied_parameter(const std::vector<RunCurves>& runs) {
-  std::string found;
+/// The values of a parameter in the runs.
+std::vector<double> values_of(const std::vector<RunCurves>& runs, const std::string& name) {
+  std::vector<double> values;
+  for (const RunCurves& run : runs) values.push_back(run.planned->parameters.at(name));
+  return values;
+}
+
+/// Parameters that differ between runs of one study.
+std::vector<std::string> differing_parameters(const std::vector<RunCurves>& runs) {
   for (const RunCurves& run : runs)
     if (run.planned == nullptr || run.planned->study != runs.front().planned->study) return {};
+  std::vector<std::string> names;
   for (const std::string& name : runs.front().planned->varied) {
-    const double first = runs.front().planned->parameters.at(name);
-    const bool differs = std::any_of(runs.begin(), runs.end(), [&](const RunCurves& run) {
-      return run.planned->parameters.at(name) != first;
-    });
-    if (differs && !found.empty()) return {};
-    if (differs) found = name;
+    const auto values = values_of(runs, name);
+    if (std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); }))
+      names.push_back(name);
   }
-  return found;
+  return names;
+}
+
+bool all_differ(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return std::adjacent_find(values.begin(), values.end()) == values.end();
+}
+
+/// What the colours of runs say.
+struct ColourScale {
+  std::string title{};
+  std::vector<double> values{};  ///< one per run
+};
+
+/// The one parameter that differs, or of several the first that tells all runs apart. Where none does, as on a grid,
+/// the numbers of the runs. No values where nothing differs.
+ColourScale colour_scale(const std::vector<RunCurves>& runs, const UnitLabels& units) {
+  const std::vector<std::string> names = differing_parameters(runs);
+  std::string list;
+  for (const std::string& name : names) {
+    const std::vector<double> values = values_of(runs, name);
+    if (names.size() == 1 || all_differ(values)) return {parameter_title(name, units), values};
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  ColourScale scale{.title = "number of the run over " + list};
+  for (const RunCurves& run : runs)
+    if (!names.empty()) scale.values.push_back(run.planned->run);
+  return scale;
 }
 
 /// Numbers of runs stand for labels, as many as can be read.
@@ -62,22 +94,16 @@ std::string sweep_colour(double part) {
   return colour;
 }
 
-void colour_by_value(const std::vector<RunCurves>& runs, Figure& figure) {
+void colour_by_value(const std::vector<RunCurves>& runs, const UnitLabels& units, Figure& figure) {
   constexpr std::size_t fewest_coloured = 3, most_labels = 6;
   if (runs.size() < fewest_coloured || runs.front().planned == nullptr) return;
-  const std::string name = varied_parameter(runs);
-  if (name.empty()) return;
-  ColourBar bar{name, runs.front().planned->parameters.at(name), 0};
-  bar.high = bar.low;
-  for (const RunCurves& run : runs) {
-    const double value = run.planned->parameters.at(name);
-    bar.low = std::min(bar.low, value), bar.high = std::max(bar.high, value);
-  }
-  for (const RunCurves& run : runs) {
-    const double part = (run.planned->parameters.at(name) - bar.low) / (bar.high - bar.low);
-    for (std::size_t c = run.first; c < run.first + run.count; ++c)
-      figure.curves[c].colour = sweep_colour(part);
-  }
+  const auto [title, values] = colour_scale(runs, units);
+  if (values.empty()) return;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const ColourBar bar{title, *low, *high};
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t c = runs[i].first; c < runs[i].first + runs[i].count; ++c)
+      figure.curves[c].colour = sweep_colour((values[i] - bar.low) / (bar.high - bar.low));
   if (runs.size() <= most_labels) return;
   number_runs(runs, figure);
   figure.bar = bar;

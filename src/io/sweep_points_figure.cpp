@@ -112,14 +112,16 @@ void add_sweep_points(const Case& the_case, const PlotSpec& spec,
   quantities.insert(quantities.end(), spec.more_y.begin(), spec.more_y.end());
   figure.x_title = {spec.x_label, spec.markup};
   if (spec.x_label.empty())
-    figure.x_title = {(spec.x_factor == 1 ? "" : factor_text(spec.x_factor)) + parameter_of(spec)};
+    figure.x_title = {(spec.x_factor == 1 ? "" : factor_text(spec.x_factor)) +
+                      parameter_title(parameter_of(spec), the_case.units)};
   for (const SweepPoints& sweep : sweep_points_of(the_case, results))
     for (const PlotCurves& curves : spec.curves) {
       if (curves.study != sweep.study) continue;
       const auto& names = sweep.parameters;
       if (std::find(names.begin(), names.end(), parameter_of(spec)) == names.end()) continue;
       if (figure.y_title.text.empty())
-        figure.y_title = ordinate_title(spec, *sweep.runs.front().result, the_case.units);
+        figure.y_title = ordinate_title(spec, *sweep.runs.front().result,
+                                        sweep.runs.front().planned, the_case.units);
       const std::string of_study = spec.curves.size() > 1 ? sweep.study + ": " : "";
       const auto runs = runs_of(sweep, curves, parameter_of(spec));
       const bool is_joined = sweep.parameters.size() == 1;

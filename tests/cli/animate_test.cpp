@@ -113,7 +113,7 @@ TEST_F(Animate, GoesFromPointToPointAlsoBackwards) {
 
 TEST_F(Animate, NamesTheLabelsThereAreForOneThatIsNot) {
   EXPECT_EQ(run({"--to", "LP7"}), wrong_usage);
-  EXPECT_THAT(err, HasSubstr("there is no point \"LP7\" on the first branch of push; there are: "
+  EXPECT_THAT(err, HasSubstr("there is no point \"LP7\" on branch 1 of push; there are: "
                              "start, EP1, EP2, end"));
   EXPECT_EQ(run({"--mode", "EP1"}), wrong_usage);
   EXPECT_THAT(err, HasSubstr("no limit point or branch point \"EP1\" with a mode on the first "

@@ -74,7 +74,28 @@ TEST(AlikeBranches, MayEndAtOppositeLimitsWhichIsSaid) {
   const std::string table = summary_table(sample::two_runs(), {result});
   EXPECT_THAT(table, HasSubstr("last row      hinge reaches its upper limit\n"));
   EXPECT_THAT(table, HasSubstr("of branch 2: hinge reaches its lower limit\n"));
-  result.branches[1].forward.reason = "elbow reaches its upper limit";
+}
+
+TEST(AlikeBranches, MayEndAtMirroredJointsWhichIsSaid) {
+  auto result = sample::two_results()[0];
+  result.branches.push_back(result.branches[0]);
+  result.branches[0].forward.reason = "left.knee reaches its upper limit";
+  result.branches[1].forward.reason = "right.knee reaches its upper limit";
+  EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1, 2)));
+  const std::string table = summary_table(sample::two_runs(), {result});
+  EXPECT_THAT(table, HasSubstr("last row      left.knee reaches its upper limit\n"));
+  EXPECT_THAT(table, HasSubstr("of branch 2: right.knee reaches its upper limit\n"));
+}
+
+TEST(AlikeBranches, DoNotEndAtOtherEnergies) {
+  auto result = sample::two_results()[0];
+  result.branches.push_back(result.branches[0]);
+  const auto energy =
+      std::find_if(result.quantities.begin(), result.quantities.end(),
+                   [](const auto& quantity) { return quantity.name == "energy"; });
+  ASSERT_NE(energy, result.quantities.end());
+  const auto column = static_cast<std::size_t>(energy - result.quantities.begin());
+  result.branches[1].samples.back().values[column] += 0.1;
   EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
 }
 

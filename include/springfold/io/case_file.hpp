@@ -30,6 +30,7 @@ class CaseError : public std::runtime_error {
 struct UnitLabels {
   std::string length = "m";
   std::string force = "N";
+  std::map<std::string, std::string> parameters{};  ///< of those parameters that have one
 };
 
 /// Where a part of the case stands: "start.pose", "until.lambda", "chain.leg_x", "body.tool" and
@@ -94,6 +95,7 @@ struct PlannedRun {
   std::optional<analysis::ParameterFamily> family{};  ///< control mode parameter
   analysis::History history{};                        ///< the studies before it: start.from
   std::map<std::string, double> parameters{};         ///< all named parameters as used
+  std::string driven_parameter{};  ///< control mode parameter: whose value lambda is
   std::vector<PartPlace>
       places{};  ///< of the study's keys, bodies and chains; "": the study itself
   /// What is looked up for its row of the sweep's table; `expected` and `tolerance` mean nothing.

@@ -14,6 +14,7 @@ struct FilmWish {
       to{};  ///< labels of special points, "start", "end"; empty: the ends of the branch
   std::string
       mode{};  ///< label of a limit point or branch point ("BP1.2": its second one): a mode instead of a way
+  int branch = 0;  ///< number from 1; 0: the first that has these labels
   std::string jump{};  ///< label of a jump: the overdamped motion from it to its landing instead
   int frames = 60;     ///< at most as many, 2 or more
 };
@@ -25,7 +26,7 @@ struct FilmOutcome {
   bool has_start = true;  ///< false: the study has no first equilibrium
 };
 
-/// Of the result's first branch. A way has its frames at even arc length: each is the row that is nearest,
+/// Of one branch of the result. A way has its frames at even arc length: each is the row that is nearest,
 /// and special points are among them. Nothing is put between rows. A mode is the motion along the branch at
 /// a limit point, or along a null vector at a branch point, to and fro and enlarged, linear in the places of all points. A jump has the moments that the result
 /// has, and its energy over the length of way beside it.

@@ -82,4 +82,7 @@ std::string why_no_posture(const PlannedRun& planned, const analysis::StudyResul
 /// The start, then all special points of all branches, each once; of a study of kind equilibria these.
 std::vector<FoundRow> special_rows(const analysis::StudyResult& result);
 
+/// The same postures, each once: "start, EP1" where the start is an end.
+std::vector<FoundRow> special_postures(const analysis::StudyResult& result);
+
 }  // namespace springfold::io
