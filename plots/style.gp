@@ -63,7 +63,7 @@ mark_scale = figure_format eq 'svg' ? 0.58 : 1.0
 diamond_scale = figure_format eq 'svg' ? 0.41 : 1.0
 
 # The end of the line from a curve's label, on the curve.
-set style line 9 linecolor rgb ink pointtype 7 pointsize 0.7 * mark_scale
+set style line 9 linecolor rgb ink pointtype 7 pointsize 0.9 * mark_scale
 
 # Degeneracies of critical curves, and where their load is stationary or jumps.
 set style line 25 linecolor rgb ink pointtype 13 pointsize 2.0 * diamond_scale

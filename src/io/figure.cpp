@@ -255,17 +255,22 @@ void say_hidden(const Figure& figure, std::vector<std::string>& problems) {
         "left out");
 }
 
-/// Runs of the study that the figure shows, with their labels. Texts that the program made are no markup.
-std::vector<std::pair<const StudyResult*, FigureText>> shown_runs(
-    const Case& the_case, bool markup, const PlotCurves& curves,
-    const std::vector<StudyResult>& results) {
-  std::vector<std::pair<const StudyResult*, FigureText>> shown;
+/// A run that a figure shows.
+struct ShownRun {
+  const StudyResult* result = nullptr;
+  FigureText label{};     ///< of the program: no markup
+  bool is_named = false;  ///< the figure gives the label
+};
+
+std::vector<ShownRun> shown_runs(const Case& the_case, bool markup, const PlotCurves& curves,
+                                 const std::vector<StudyResult>& results) {
+  std::vector<ShownRun> shown;
   const auto add = [&](const StudyResult& result, std::size_t position) {
     if (position < curves.labels.size())
-      return void(shown.emplace_back(&result, FigureText{curves.labels[position], markup}));
+      return void(shown.push_back({&result, FigureText{curves.labels[position], markup}, true}));
     const PlannedRun* planned = plan_of(the_case, result);
     const bool is_given = planned != nullptr && planned->has_given_label;
-    shown.emplace_back(&result, FigureText{result.label, markup && is_given});
+    shown.push_back({&result, FigureText{result.label, markup && is_given}});
   };
   for (std::size_t i = 0; i < curves.runs.size(); ++i)
     if (const auto* result = result_of(results, curves.study, curves.runs[i])) add(*result, i);
@@ -337,12 +342,13 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     else if (is_over_parameter(spec))
       add_sweep_points(the_case, spec, results, figure);
     for (const auto& curves : is_over_parameter(spec) ? std::vector<PlotCurves>{} : spec.curves) {
-      for (const auto& [result, label] : shown_runs(the_case, spec.markup, curves, results)) {
+      for (const auto& [result, label, is_named] : shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
         if (!has_columns(spec, *result, problems)) continue;
         const std::size_t first = figure.curves.size();
         add_quantities(figure, the_case, spec, *result, label);
-        runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first});
+        runs.push_back(
+            {plan_of(the_case, *result), first, figure.curves.size() - first, is_named});
       }
     }
     if (!runs.empty() && std::all_of(runs.begin(), runs.end(), [](const RunCurves& run) {
@@ -354,7 +360,7 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
           std::any_of(spec.curves.begin(), spec.curves.end(), [&](const PlotCurves& curves) {
             return !shown_runs(the_case, spec.markup, curves, results).empty();
           });
-    if (spec.curves.size() == 1 && spec.more_y.empty()) colour_by_value(runs, the_case.units, figure);
+    if (spec.more_y.empty()) colour_by_value(runs, the_case.units, figure);
     if (spec.shade) shade_held_loads(runs, spec, results, figure);
     say_hidden(figure, problems);
     if (fit_axes(figure, spec.polar))

@@ -128,6 +128,7 @@ FigureText ordinate_title(const PlotSpec& spec, const analysis::StudyResult& res
 struct RunCurves {
   const PlannedRun* planned = nullptr;
   std::size_t first = 0, count = 0;
+  bool is_named = false;  ///< by a label of the figure itself
 };
 
 /// Shades what lies below the first critical load, from lambda at the start on: loads that the path from the start
@@ -140,8 +141,8 @@ void shade_held_loads(const std::vector<RunCurves>& runs, const PlotSpec& spec,
 std::string sweep_colour(double part);
 
 /// Gives the runs of one study, three or more, colours by the value that it varies; of several values by the first that
-/// differs in all runs, or where none does by the runs' numbers. Where they are many, numbers of runs stand for their
-/// labels, and a colour bar says the values.
+/// differs in all runs, or where none does by the runs' numbers. Where they are many, numbers of runs stand for labels
+/// that the figure does not give itself, and a colour bar says the values.
 void colour_by_value(const std::vector<RunCurves>& runs, const UnitLabels& units, Figure& figure);
 
 }  // namespace springfold::io

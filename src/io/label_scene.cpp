@@ -67,6 +67,7 @@ double badness(const LabelScene& scene, const LabelBox& box) {
 /// Keeps the better one; the earlier one when both are as good.
 void consider(LabelCandidate& best, const LabelScene& scene, const LabelBox& box,
               const PlotPoint& anchor, double extra, const ExtraBadness& more) {
+  if (extra >= best.badness) return;  // whatever is hidden
   double value = badness(scene, box) + extra;
   if (more && value < best.badness) value += more(box, anchor);
   if (value < best.badness) best = {box, anchor, value};

@@ -72,7 +72,8 @@ void number_runs(const std::vector<RunCurves>& runs, Figure& figure) {
   constexpr std::size_t most_numbers = 12;
   const std::size_t every = (runs.size() + most_numbers - 1) / most_numbers;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t c = runs[i].first; c < runs[i].first + runs[i].count; ++c) {
+    for (std::size_t c = runs[i].first; c < runs[i].first + runs[i].count && !runs[i].is_named;
+         ++c) {
       const bool is_numbered = c == runs[i].first && (i % every == 0 || i + 1 == runs.size());
       figure.curves[c].label = {is_numbered ? std::to_string(runs[i].planned->run) : ""};
     }
