@@ -61,10 +61,17 @@ std::string picture_problem(const std::string& name) {
   return is_known ? "" : "need a name that ends in .svg, .png or .pdf";
 }
 
+/// Numbers of runs and branches.
+std::string from_one_on(const std::string& text) {
+  const bool is_number = !text.empty() && text.size() < 10 &&
+                         text.find_first_not_of("0123456789") == std::string::npos;
+  return is_number && std::stoi(text) > 0 ? "" : "need a whole number from 1 on";
+}
+
 void add_run_and_colours(CLI::App& command, Arguments& arguments) {
   command.add_option("--run", arguments.run_number, "Run of the study, along its vary list")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(from_one_on);
   command.add_option("--colour", arguments.colour, "What colours stand for")
       ->check(CLI::IsMember({"stability", "force", "energy", "none"}));
   command.add_option("--view", arguments.view, "Plane that is looked at, or perspective")
@@ -134,7 +141,7 @@ void add_animation(CLI::App& animate, Arguments& arguments) {
           .add_option("--branch", arguments.film_branch,
                       "Number of the branch, from 1 (the first that has the labels)")
           ->type_name("N")
-          ->check(CLI::PositiveNumber);
+          ->check(from_one_on);
   animate
       .add_option("--jump", arguments.film_jump,
                   "The jump of this label to its landing instead of along the curve")

@@ -9,9 +9,11 @@ namespace {
 
 constexpr double leader_needed = 26;  // longest gap between point and text without a line [pixel]
 constexpr double on_each_other = 3;   // lines as near as that are seen as one [pixel]
-constexpr double apart_on_lines = 9;           // a dot on a line belongs to no other that is farther [pixel]
+constexpr double apart_on_lines = 9;  // a dot on a line belongs to no other that is farther [pixel]
 // Against hidden points and longer ways: a text that is taken for another curve's is worse than one that hides lines.
 constexpr double misled = 500;
+constexpr double blurred =
+    8;  // points of curves are so far apart, and cells so large, in all [pixel]
 constexpr double clearly_nearer = 1.5;  // so many times nearer to its own curve
 
 /// Is each point of a near b?
@@ -114,7 +116,7 @@ double ambiguity_of(const Neighbourhood& near, const LabelBox& box, const PlotPo
   const double to_others = near.to_others.at(box);
   if (!needs_leader(box, anchor)) {
     const double to_own = near.to_own.at(box);
-    return clearly_nearer * to_own + on_each_other <= to_others ? 0 : misled + to_own - to_others;
+    return clearly_nearer * to_own + blurred <= to_others ? 0 : misled + to_own - to_others;
   }
   constexpr double crossed = 15;  // a curve by the line
   const double beside = near.to_others.at(anchor);

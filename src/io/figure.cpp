@@ -342,13 +342,13 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     else if (is_over_parameter(spec))
       add_sweep_points(the_case, spec, results, figure);
     for (const auto& curves : is_over_parameter(spec) ? std::vector<PlotCurves>{} : spec.curves) {
-      for (const auto& [result, label, is_named] : shown_runs(the_case, spec.markup, curves, results)) {
+      for (const auto& [result, label, is_named] :
+           shown_runs(the_case, spec.markup, curves, results)) {
         is_wanted = true;
         if (!has_columns(spec, *result, problems)) continue;
         const std::size_t first = figure.curves.size();
         add_quantities(figure, the_case, spec, *result, label);
-        runs.push_back(
-            {plan_of(the_case, *result), first, figure.curves.size() - first, is_named});
+        runs.push_back({plan_of(the_case, *result), first, figure.curves.size() - first, is_named});
       }
     }
     if (!runs.empty() && std::all_of(runs.begin(), runs.end(), [](const RunCurves& run) {

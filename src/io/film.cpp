@@ -172,8 +172,7 @@ std::string name_of(const StudyResult& result, const Branch& branch) {
 
 /// With the number of the branch where there are several.
 std::string heading_with(const StudyResult& result, const Branch& branch) {
-  return heading_of(result) +
-         (result.branches.size() > 1 ? ", " + number_of(result, branch) : "");
+  return heading_of(result) + (result.branches.size() > 1 ? ", " + number_of(result, branch) : "");
 }
 
 FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const Branch& branch,

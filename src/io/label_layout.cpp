@@ -49,7 +49,8 @@ PlacedLabel placed(const FigureText& text, const LabelCandidate& best) {
   return label;
 }
 
-LabelCandidate place_of_mark(const LabelScene& scene, const LabelBox& box, const PlotPoint& anchor) {
+LabelCandidate place_of_mark(const LabelScene& scene, const LabelBox& box,
+                             const PlotPoint& anchor) {
   LabelCandidate best;
   for (const double gap : {12.0, 18.0, 26.0, 40.0, 60.0, 85.0, 115.0})
     try_around(best, scene, box, anchor, gap, 0.4 * gap);

@@ -112,12 +112,13 @@ LabelBox box_of(const FigureText& label, const Canvas& canvas) {
 
 double gap_between(const LabelBox& box, const std::vector<PlotPoint>& points) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& point : points) nearest = std::min(nearest, pixels_between(box.nearest(point), point));
+  for (const auto& point : points)
+    nearest = std::min(nearest, pixels_between(box.nearest(point), point));
   return nearest;
 }
 
-void try_around(LabelCandidate& best, const LabelScene& scene, LabelBox box, const PlotPoint& anchor,
-                double gap, double extra, const ExtraBadness& more) {
+void try_around(LabelCandidate& best, const LabelScene& scene, LabelBox box,
+                const PlotPoint& anchor, double gap, double extra, const ExtraBadness& more) {
   // Above and to the right first: where readers look first.
   constexpr std::array<double, 12> eighths = {1, 2, 0, 7, 3, 6, 4, 5, 0.5, 1.5, 2.5, 6.5};
   for (std::size_t i = 0; i < eighths.size(); ++i) {

@@ -66,7 +66,7 @@ using ExtraBadness = std::function<double(const LabelBox& box, const PlotPoint& 
 
 /// Tries places around the anchor, `gap` pixels between it and the text, and keeps the better one; the earlier one
 /// when both are as good.
-void try_around(LabelCandidate& best, const LabelScene& scene, LabelBox box, const PlotPoint& anchor,
-                double gap, double extra, const ExtraBadness& more = {});
+void try_around(LabelCandidate& best, const LabelScene& scene, LabelBox box,
+                const PlotPoint& anchor, double gap, double extra, const ExtraBadness& more = {});
 
 }  // namespace springfold::io

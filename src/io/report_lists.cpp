@@ -43,10 +43,9 @@ void add_branches(const PlannedRun& planned, const StudyResult& result,
     const bool is_load = planned.plan.control == analysis::ControlMode::load;
     const std::vector<Stability> steps = stability_of_steps(result, branch);
     for (const analysis::Event& event : branch.events)
-      list.points.push_back(
-          {event.label, analysis::code_of(event.kind), event.detail,
-           explanation_of(event.kind, passage_at(steps, branch, event), is_load), event.row,
-           &event});
+      list.points.push_back({event.label, analysis::code_of(event.kind), event.detail,
+                             explanation_of(event.kind, passage_at(steps, branch, event), is_load),
+                             event.row, &event});
     page.lists.push_back(std::move(list));
   }
 }

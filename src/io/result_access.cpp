@@ -6,6 +6,7 @@
 #include <set>
 
 #include "nothing.hpp"
+#include "springfold/continuation/options.hpp"
 #include "springfold/io/shown_text.hpp"
 
 namespace springfold::io {
@@ -188,8 +189,7 @@ double column_value(const analysis::StudyResult& result, const analysis::SnapSta
 }
 
 double shown_below(double scale) {
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  return rounding * scale;
+  return continuation::NewtonOptions{}.residual_tolerance * scale;
 }
 
 double shown_against(double value, double scale) {
@@ -199,6 +199,7 @@ double shown_against(double value, double scale) {
 Matrix shown_matrix(Matrix matrix) {
   // Rounding of the largest entry; no more of it, as rows may have other units.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double of_coupled = 64 * std::numeric_limits<double>::epsilon();
   const Matrix whole = matrix;
   double largest = 0;
   for (const double entry : whole.reshaped())
@@ -206,7 +207,7 @@ Matrix shown_matrix(Matrix matrix) {
   for (Eigen::Index r = 0; r < whole.rows(); ++r)
     for (Eigen::Index c = 0; c < whole.cols(); ++c) {
       const double coupled = r == c ? 0 : std::sqrt(std::abs(whole(r, r) * whole(c, c)));
-      if (std::abs(whole(r, c)) <= std::max(shown_below(coupled), rounding * largest))
+      if (std::abs(whole(r, c)) <= std::max(of_coupled * coupled, rounding * largest))
         matrix(r, c) = 0;
     }
   return matrix;

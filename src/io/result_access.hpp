@@ -32,7 +32,7 @@ inline const std::string saddle_prefix = "saddle.";
 double column_value(const analysis::StudyResult& result, const analysis::SnapState& state,
                     std::string_view name);
 
-/// What is no larger is rounding beside the scale.
+/// What is no larger is rounding beside the scale: rows are solved to such a residual, and no better.
 double shown_below(double scale);
 
 /// The number for people: 0 where it is nothing but rounding beside the scale.

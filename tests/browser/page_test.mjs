@@ -247,6 +247,39 @@ async function allRuns(name) {
   expect(browser.complaints.length === 0, `without complaints ${browser.complaints.join("; ")}`);
 }
 
+/** On a telephone nothing lies beyond the edge but tables, which are moved in their own frames. */
+async function narrow() {
+  for (const name of ["toggle", "figure", "dome", "truss", "follower", "platform"]) {
+    await tab.tell("Emulation.setDeviceMetricsOverride", {width: 360, height: 740, deviceScaleFactor: 1, mobile: true});
+    await tab.load(join(folder, name, "report.html"));
+    await tab.settle();
+    const wide = await value("Math.max(document.documentElement.scrollWidth, window.innerWidth)");
+    expect(wide <= 360, `the page of ${name} is ${wide} px wide on a screen of 360`);
+    const beyond = await value(`[...document.querySelectorAll("form *, main, figure, #diagram, #mechanism, h1, p")]
+      .filter(e => e.getBoundingClientRect().right > 360.5).map(e => e.id || e.tagName).join()`);
+    expect(beyond === "", `nothing of it lies beyond the edge ${beyond}`);
+    if (screenshots) writeFileSync(join(screenshots, `narrow-${name}.png`), Buffer.from(await tab.picture("body"), "base64"));
+  }
+  await tab.tell("Emulation.clearDeviceMetricsOverride");
+}
+
+/** What is said of limit points is so: between stable and unstable stretches the mechanism snaps, and nowhere else. */
+async function sentences() {
+  for (const name of ["toggle", "figure", "dome", "truss"]) {
+    await tab.load(join(folder, name, "report.html"));
+    const told = await value(`[...new Set(JSON.parse(document.getElementById("data").textContent).runs.flatMap(r => r.branches)
+      .flatMap(b => b.events).filter(e => e.code === "LP" || e.code === "CL").map(e => e.sentence))].join("\\n")`);
+    console.log(told.replace(/^/gm, `       ${name}: `));
+  }
+  await tab.load(join(folder, "toggle", "report.html"));
+  const wrong = await value(`JSON.parse(document.getElementById("data").textContent).runs.flatMap(r => r.branches.filter(b => b.form === "curve")
+    .flatMap(b => { const branch = b; return b.events.filter(e => e.code === "LP").filter(e => {
+      const width = r.quantities.length, all = numbersOf(branch.values), of = r.quantities.findIndex(q => q.name === "index");
+      const at = row => all[row * width + of];
+      return (at(e.row - 1) === 0) !== (at(e.row + 1) === 0) !== e.sentence.includes("Beyond it the mechanism snaps"); }); })).length`);
+  expect(wrong === 0, "of the toggle's limit points it is said that the mechanism snaps where stability ends, and nowhere else");
+}
+
 /** Script time per frame while the mouse drags and the wheel zooms, measured by the browser itself [ms]. */
 async function longCurve() {
   const place = join(folder, "long");
@@ -276,7 +309,7 @@ async function longCurve() {
 }
 
 try {
-  for (const part of [curve, hover, dashes, overlaps, map, inSpace, modes, () => allRuns("platform"), longCurve]) await part();
+  for (const part of [curve, hover, dashes, overlaps, map, inSpace, modes, narrow, sentences, () => allRuns("platform"), longCurve]) await part();
   expect(browser.complaints.length === 0, `no errors on the console ${browser.complaints.join("; ")}`);
 } catch (error) {
   console.error(error, browser.complaints);

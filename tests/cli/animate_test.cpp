@@ -116,11 +116,15 @@ TEST_F(Animate, NamesTheLabelsThereAreForOneThatIsNot) {
   EXPECT_THAT(err, HasSubstr("there is no point \"LP7\" on branch 1 of push; there are: "
                              "start, EP1, EP2, end"));
   EXPECT_EQ(run({"--mode", "EP1"}), wrong_usage);
-  EXPECT_THAT(err, HasSubstr("no limit point or branch point \"EP1\" with a mode on the first "
-                             "branch of push; there are: none"));
+  EXPECT_THAT(err, HasSubstr("no limit point or branch point \"EP1\" with a mode on branch 1 "
+                             "of push; there are: none"));
   EXPECT_EQ(run({"--study", "pull"}), wrong_usage);
   EXPECT_EQ(run({"--run", "2"}), wrong_usage);
   EXPECT_THAT(err, HasSubstr("there is no run 2"));
+  EXPECT_EQ(run({"--branch", "2"}), wrong_usage);
+  EXPECT_THAT(err, HasSubstr("there is no branch 2 of push; there are 1"));
+  EXPECT_EQ(run({"--branch", "0"}), wrong_usage);
+  EXPECT_THAT(err, HasSubstr("need a whole number from 1 on"));
   EXPECT_EQ(run({"--study", "rest"}), wrong_usage);
   EXPECT_THAT(err, HasSubstr("single posture"));
   EXPECT_EQ(run({"--mode", "LP1", "--from", "EP1"}), wrong_usage);
@@ -194,6 +198,38 @@ TEST_F(OrthoglideFilm, TheModeOfTheLimitPointSwingsAboutItsPostureAlongTheDiagon
   const auto way = last.points[tool] - first.points[tool];
   EXPECT_GT(way.norm(), 0.01 * drawing::size_of(first));
   EXPECT_NEAR(way.x(), way.y(), 1e-6 * way.norm());  // the mechanism is symmetric about it
+}
+
+/// The column of three links: its straight branch, and three pairs that leave it.
+class ColumnFilm : public testing::Test {
+ protected:
+  /// Is each frame the posture of its row of this branch?
+  void expect_rows_of(std::size_t number, const io::FilmWish& wish) {
+    const auto outcome = io::film_of(planned, result, the_case.units, wish);
+    ASSERT_EQ(outcome.problem, "");
+    const analysis::Branch& branch = result.branches.at(number - 1);
+    EXPECT_THAT(outcome.film.diagram.points, SizeIs(branch.samples.size()));
+    const io::RowScenes scenes{planned, result};
+    for (const drawing::Frame& frame : outcome.film.frames) {
+      const auto at = scenes.scene_of(branch.samples.at(frame.point));
+      ASSERT_TRUE(at);
+      EXPECT_EQ(largest_difference(frame.panel.scene, *at), 0);
+    }
+  }
+  io::Case the_case =
+      io::load_case(std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "cases/link-column/case.toml");
+  const io::PlannedRun& planned = the_case.runs.front();
+  analysis::StudyResult result = analysis::run_study(planned.mechanism, planned.plan, nullptr, {});
+};
+
+TEST_F(ColumnFilm, GoesAlongTheBranchThatIsNamed) {
+  for (std::size_t number = 1; number <= result.branches.size(); ++number)
+    expect_rows_of(number, {.branch = static_cast<int>(number)});
+}
+
+TEST_F(ColumnFilm, GoesAlongTheBranchThatHasTheLabel) {
+  const analysis::Branch& third = result.branches.at(2);
+  expect_rows_of(3, {.to = third.events.back().label});
 }
 
 TEST(SymmetricFilm, ADeflectionThatIsZeroButForRoundingIsNoAxis) {

@@ -90,12 +90,12 @@ TEST(AlikeBranches, MayEndAtMirroredJointsWhichIsSaid) {
 TEST(AlikeBranches, DoNotEndAtOtherEnergies) {
   auto result = sample::two_results()[0];
   result.branches.push_back(result.branches[0]);
-  const auto energy =
-      std::find_if(result.quantities.begin(), result.quantities.end(),
-                   [](const auto& quantity) { return quantity.name == "energy"; });
+  const auto energy = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                   [](const auto& quantity) { return quantity.name == "energy"; });
   ASSERT_NE(energy, result.quantities.end());
   const auto column = static_cast<std::size_t>(energy - result.quantities.begin());
-  result.branches[1].samples.back().values[column] += 0.1;
+  result.branches[0].samples.back().values[column] = 0.2;
+  result.branches[1].samples.back().values[column] = 0.3;
   EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
 }
 

@@ -12,6 +12,7 @@
 #include "io/sample_results.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/sha256.hpp"
+#include "io/undated.hpp"
 #include "springfold/io/results.hpp"
 
 namespace springfold::io {
@@ -96,6 +97,36 @@ TEST_F(RealGnuplot, GivesTheSameBytesTwice) {
     EXPECT_FALSE(bytes.empty());
     EXPECT_EQ(sha256(bytes), sha256(text_in(other.path() / "out" / "plots" / name))) << name;
   }
+}
+
+TEST(UndatedPdf, HasBlanksForItsDatesAndTheSameLength) {
+  const std::string dated =
+      "1 0 obj\n<< /Producer (cairo)\n   /CreationDate (D:20261125154530Z)\n"
+      "   /ModDate (20261125154530+00'00) >>\n";
+  const std::string undated = undated_pdf(dated);
+  EXPECT_EQ(undated.size(), dated.size());
+  EXPECT_THAT(undated, testing::Not(HasSubstr("2026")));
+  EXPECT_THAT(undated, HasSubstr("/Producer (cairo)"));
+  EXPECT_EQ(undated_pdf("(/CreationDate (of a case))"), "(/CreationDate (of a case))");
+}
+
+TEST(UndatedTex, LacksTheLineWithTheDateAlone) {
+  const std::string before = "\\begin{tikzpicture}\n%% generated with GNUPLOT 5.4p4\n";
+  const std::string behind = "\\path (0,0);\n%% gnuplot variables\n";
+  EXPECT_EQ(undated_tex(before + "%% Wed Nov 25 15:45:30 2026\n" + behind), before + behind);
+  EXPECT_EQ(undated_tex(before + behind), before + behind);
+}
+
+TEST_F(RealGnuplot, WritesNoDateIntoPdfAndLatexFiles) {
+  Case the_case = sample::two_runs();
+  the_case.plots = {{.name = "a", .curves = {{.study = "push from Q2"}}}};
+  the_case.plots[0].look.formats = {"pdf", "tikz"};
+  const auto outcome = draw_plots(scratch.path() / "out", the_case, sample::two_results(), {});
+  EXPECT_THAT(outcome.warnings, IsEmpty());
+  const fs::path plots = scratch.path() / "out" / "plots";
+  EXPECT_THAT(text_in(plots / "a.pdf"), testing::Not(HasSubstr("/CreationDate (")));
+  const std::regex date{"\n%% [A-Z][a-z]{2} [A-Z][a-z]{2} "};
+  EXPECT_FALSE(std::regex_search(text_in(plots / "a.tex"), date));
 }
 
 TEST_F(RealGnuplot, HasItsPicturesInTheManifestSoThatTheNextRunRemovesThem) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "io/case_files.hpp"
 #include "io/report_data.hpp"
@@ -38,6 +39,27 @@ TEST(Base64, IsThatOfRfc4648) {
   EXPECT_EQ(base64_of({}), "");
   EXPECT_EQ(base64_of({1.0}), "AAAAAAAA8D8=");  // bytes 00 00 00 00 00 00 f0 3f
   EXPECT_EQ(base64_of({0.0, 0.0, 0.0}), std::string(32, 'A'));
+}
+
+TEST(Explanation, OfALimitPointSaysWhetherTheMechanismSnapsThere) {
+  using analysis::EventKind;
+  const auto said = [](std::optional<Stability> before, std::optional<Stability> behind,
+                       bool is_load) {
+    return explanation_of(EventKind::limit_point, {before, behind}, is_load);
+  };
+  const auto stable = Stability::stable, driven = Stability::driven, lost = Stability::unstable;
+  const auto snaps = HasSubstr("Beyond it the mechanism snaps.");
+  EXPECT_THAT(said(stable, lost, true), snaps);
+  EXPECT_THAT(said(lost, stable, true), snaps) << "followed the other way";
+  EXPECT_THAT(said(stable, driven, true), snaps) << "a load does not drive";
+  EXPECT_THAT(said(driven, lost, false), snaps) << "the way turns back";
+  EXPECT_THAT(said(stable, driven, false), HasSubstr("as it is driven it goes on"));
+  EXPECT_THAT(said(lost, lost, true), HasSubstr("unstable on both sides"));
+  EXPECT_THAT(said(lost, driven, true), HasSubstr("unstable on both sides"));
+  EXPECT_THAT(said(Stability::unknown, Stability::unknown, true), HasSubstr("is not known"));
+  for (const bool is_load : {false, true})
+    EXPECT_THAT(said(lost, lost, is_load), Not(HasSubstr("snaps")));
+  EXPECT_THAT(said(std::nullopt, lost, true), Not(HasSubstr("snaps"))) << "an end of the branch";
 }
 
 TEST_F(Report, NeedsNothingFromElsewhere) {

@@ -149,6 +149,8 @@ TEST_F(SweepPointsTest, AreDrawnInTheOrderOfTheParameter) {
   }
   EXPECT_EQ(drawn.x_title.text, "10 · Kv");
   EXPECT_EQ(drawn.y_title.text, "2 · force [N]");
+  the_case.units.parameters["Kv"] = "N*m/rad";
+  EXPECT_EQ(figure({.x = "parameter.Kv"}).x_title.text, "Kv [N*m/rad]");
 }
 
 TEST_F(SweepPointsTest, AreNotJoinedAcrossARunWithoutThem) {

@@ -14,7 +14,7 @@ struct FilmWish {
       to{};  ///< labels of special points, "start", "end"; empty: the ends of the branch
   std::string
       mode{};  ///< label of a limit point or branch point ("BP1.2": its second one): a mode instead of a way
-  int branch = 0;  ///< number from 1; 0: the first that has these labels
+  int branch = 0;      ///< number from 1; 0: the first that has these labels
   std::string jump{};  ///< label of a jump: the overdamped motion from it to its landing instead
   int frames = 60;     ///< at most as many, 2 or more
 };
