@@ -47,12 +47,15 @@ terminal_of(format) = \
     sprintf('tikz size %gin,%gin standalone', figure_width / 96.0, figure_height / 96.0)
 output_of(format) = figure_name.'.'.(format eq 'tikz' ? 'tex' : format)
 
+# SVG draws dashes twice as long as the other formats do: longer than a line of the key, which would look solid.
+dash_scale = figure_format eq 'svg' ? 0.5 : 1.0
+
 # 1 stable, 2 unstable as held in the study, 6 unstable under dead load, 8 stability not known, 7 beneath a line on
 # which a less stable one lies, 3 grid, 4 line from a label to its point, 5 axes through zero, 9 end of that line
 set style line 1 linecolor rgb stable_color linewidth 3.2 dashtype solid
-set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4, 5)
-set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14, 6)
-set style line 8 linecolor rgb ink linewidth 3.2 dashtype (14, 4, 3, 4)
+set style line 2 linecolor rgb unstable_color linewidth 3.2 dashtype (4 * dash_scale, 5 * dash_scale)
+set style line 6 linecolor rgb driven_color linewidth 3.2 dashtype (14 * dash_scale, 6 * dash_scale)
+set style line 8 linecolor rgb ink linewidth 3.2 dashtype (14 * dash_scale, 4 * dash_scale, 3 * dash_scale, 4 * dash_scale)
 set style line 7 linecolor rgb mixed_color linewidth 11 dashtype solid
 set style line 3 linecolor rgb pale linewidth 0.8 dashtype solid
 set style line 4 linecolor rgb '#777777' linewidth 1.0 dashtype solid
