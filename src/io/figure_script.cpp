@@ -241,7 +241,7 @@ void send_bar(Gnuplot& gnuplot, const Figure& figure, bool is_tex) {
 
 /// Ticks of a logarithmic axis that has hardly a power of ten; otherwise gnuplot's own are good.
 std::string ticks_of(bool is_log, const PlotRange& range) {
-  constexpr double few = 20;  // times the least value: two powers of ten may be missed
+  constexpr double few = 100;  // times the least value: two powers of ten may be missed
   constexpr std::size_t most = 6;
   return is_log && range.second < few * range.first ? joined_words(round_ticks(range, true, most))
                                                     : "";

@@ -45,6 +45,23 @@ std::vector<double> decades(const PlotRange& range, std::size_t most) {
   return values;
 }
 
+/// 1, 2 and 5 times powers of ten: of ranges that are wide and have hardly a power of ten. None where they are too many.
+std::vector<double> thirds_of_decades(const PlotRange& range, std::size_t most) {
+  constexpr double wide =
+      10;  // times the least value: even steps would leave half of the axis empty
+  std::vector<double> values;
+  if (range.second < wide * range.first) return values;
+  const double last = std::floor(std::log10(range.second) + tick_rounding);
+  for (double n = std::floor(std::log10(range.first)); n <= last; ++n)
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double value = factor * std::pow(10, n);
+      const double room = tick_rounding * value;
+      if (value >= range.first - room && value <= range.second + room) values.push_back(value);
+    }
+  if (values.size() > most) values.clear();
+  return values;
+}
+
 std::string tick_text(double value) {
   const std::string text = rounded(value, tick_digits);
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -56,6 +73,7 @@ std::string tick_text(double value) {
 std::vector<std::string> round_ticks(const PlotRange& range, bool is_log, std::size_t most) {
   std::vector<double> values;
   if (is_log) values = decades(range, most);
+  if (is_log && values.size() < 2) values = thirds_of_decades(range, most);
   if (values.size() < 2) values = even_ticks(range, most);
   std::vector<std::string> texts;
   texts.reserve(values.size());

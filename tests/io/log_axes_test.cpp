@@ -139,6 +139,12 @@ TEST(RoundTicks, AreRoundAndFewAndInTheRange) {
   EXPECT_THAT(round_ticks({2, 8}, true, 4), ElementsAre("2", "4", "6", "8"));
 }
 
+TEST(RoundTicks, OfWideRangesWithOnePowerOfTenAreInEqualPartsOfTheAxis) {
+  EXPECT_THAT(round_ticks({0.002, 0.09}, true, 6),
+              ElementsAre("0.002", "0.005", "0.01", "0.02", "0.05"));
+  EXPECT_THAT(round_ticks({0.11, 9.5}, true, 6), ElementsAre("0.2", "0.5", "1", "2", "5"));
+}
+
 TEST(RoundTicks, TellNarrowRangesApart) {
   EXPECT_THAT(round_ticks({1.0001, 1.0004}, false, 4),
               ElementsAre("1.0001", "1.0002", "1.0003", "1.0004"));
