@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "branch_rows.hpp"
@@ -55,6 +56,7 @@ class Barriers {
         first_{found.barriers.size()} {}
 
   void find(StateBook& book) {
+    found_.energy_counts_turns |= book.has_turns();
     for (std::size_t s = 0; s < book.states().size(); ++s) look_at(book, s);
     find_lowest_ways(found_, first_);
     find_unjoined(book);
@@ -108,6 +110,8 @@ class Barriers {
     int first = number_of(book, a), second = leads_away ? 0 : number_of(book, b);
     if (first == 0) std::swap(first, second), std::swap(a, b);
     if (first == 0) return;
+    // A state and itself a turn farther: the lower side first.
+    if (first == second && book.states()[a].energy < book.states()[b].energy) std::swap(a, b);
     const double height = unit_ * book.states()[s].energy;
     add({.lambda = t_.lambda_scale * frozen_.lambda(),
          .first = first,
@@ -156,17 +160,27 @@ class Barriers {
 
 }  // namespace
 
-void search_all(StateBook& book, const SnapSettings& settings) {
+void search_all(StateBook& book, const SnapSettings& settings,
+                const std::function<bool(const RestState&)>& is_within,
+                std::vector<std::string>& open) {
   /// Ten bistable units have 1,024 minima and 5,120 saddles between neighbours; more is a continuum of states.
   constexpr int most_states = 20'000;
   const StateSearch options{.starts = settings.transitions->starts,
                             .seed = settings.seed,
                             .modes = std::numeric_limits<int>::max(),
                             .drives = std::numeric_limits<int>::max(),
-                            .maximum = most_states};
+                            .maximum = most_states,
+                            .is_within = is_within};
   book.search(options);
   join_by_strings(book);
   book.climb_from_minima(options);  // from those that only strings met
+  if (std::ssize(book.states()) >= most_states)
+    open.push_back("the search ended at " + std::to_string(most_states) +
+                   " states of rest: there are more");
+  if (book.met_bounds())
+    open.push_back(
+        "states of rest go on beyond 1,000 sizes of the mechanism or 50 turns, where "
+        "the search ended: limits in until give it a range");
 }
 
 void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,
@@ -175,6 +189,29 @@ void find_barriers(const Stretches& stretches, const Tracing& tracing, const Sca
   Barriers(stretches, tracing, scales, frozen, result, found).find(book);
 }
 
+namespace {
+
+/// Of every state beside one of the barriers the lowest one.
+void find_escapes(const std::vector<Barrier*>& barriers, TransitionReport& report) {
+  std::vector<std::optional<Escape>> lowest(report.states.size() + 1);
+  const auto see = [&](double lambda, int state, int to, double energy) {
+    auto& known = lowest[static_cast<std::size_t>(state)];
+    if (state > 0 && (!known || energy < known->energy)) known = {lambda, state, to, energy};
+  };
+  for (const Barrier* b : barriers) {
+    see(b->lambda, b->first, b->second, b->from_first);
+    see(b->lambda, b->second, b->first, b->from_second);
+  }
+  for (const auto& escape : lowest)
+    if (escape) report.escapes.push_back(*escape);
+  std::stable_sort(report.escapes.begin(), report.escapes.end(),
+                   [](const Escape& a, const Escape& b) {
+                     return a.lambda != b.lambda ? a.lambda < b.lambda : a.state < b.state;
+                   });
+}
+
+}  // namespace
+
 void find_lowest_ways(TransitionReport& report, std::size_t from) {
   std::vector<Barrier*> list;
   for (std::size_t i = from; i < report.barriers.size(); ++i) list.push_back(&report.barriers[i]);
@@ -182,18 +219,11 @@ void find_lowest_ways(TransitionReport& report, std::size_t from) {
     return a->saddle.energy < b->saddle.energy;
   });
   Joined joined(report.states.size());
-  std::vector<bool> has_escape(report.states.size() + 1, false), has_way(list.size(), false);
+  find_escapes(list, report);
+  if (report.energy_counts_turns) return;  // of saddles some turns apart neither is the lower one
+  std::vector<bool> has_way(list.size(), false);
   for (std::size_t done = 0; done < list.size(); ++done) {
     const Barrier& now = *list[done];
-    for (const bool of_first : {true, false}) {
-      const int state = of_first ? now.first : now.second;
-      if (state == 0 || has_escape[static_cast<std::size_t>(state)]) continue;
-      has_escape[static_cast<std::size_t>(state)] = true;
-      report.escapes.push_back({.lambda = now.lambda,
-                                .state = state,
-                                .to = of_first ? now.second : now.first,
-                                .energy = of_first ? now.from_first : now.from_second});
-    }
     if (joined.are(now.first, now.second)) continue;
     joined.join(now.first, now.second);
     for (std::size_t i = done; i < list.size(); ++i) {
@@ -204,9 +234,6 @@ void find_lowest_ways(TransitionReport& report, std::size_t from) {
       b.lowest_from_second = b.from_second - (b.saddle.energy - now.saddle.energy);
     }
   }
-  std::sort(report.escapes.begin(), report.escapes.end(), [](const Escape& a, const Escape& b) {
-    return a.lambda != b.lambda ? a.lambda < b.lambda : a.state < b.state;
-  });
 }
 
 }  // namespace springfold::analysis

@@ -7,7 +7,11 @@ namespace springfold::analysis {
 
 /// All states of rest of one lambda that can be found: uphill from all minima, from random states, and along strings
 /// between minima that nothing else joins. What was searched around before is not searched around again.
-void search_all(StateBook& book, const SnapSettings& settings);
+/// @param is_within  the study's range, beyond which nothing is searched around
+/// @param open       why the search was ended, in words, where it was
+void search_all(StateBook& book, const SnapSettings& settings,
+                const std::function<bool(const RestState&)>& is_within,
+                std::vector<std::string>& open);
 
 /// All saddles of a search with one unstable mode, with the stretches whose states are beside them; for each pair of
 /// states the lowest one, and the lowest way over several of them. Doubts go to the result.

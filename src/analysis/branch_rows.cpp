@@ -8,6 +8,7 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
+#include "neutral_motions.hpp"
 #include "null_modes.hpp"
 #include "row_indices.hpp"
 #include "switch_words.hpp"
@@ -228,6 +229,8 @@ Stop explained(Stop stop, const Entry& end, const Entry& other, const Curve& cur
   else if (const auto legs = stretched_chains(problem, end.point, other.point))
     stop = legs->is_end_of_reach ? Stop{"end of the reach: " + legs->text, true}
                                  : Stop{stop.reason + "; " + legs->text, false};
+  else if (const auto names = neutral_motion(problem, end.point))
+    stop.reason += "; nothing resists a motion of " + *names + " there";
   return stop;
 }
 

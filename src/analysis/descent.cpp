@@ -33,15 +33,6 @@ double reach_of(const Landscape& landscape, const Vector& x) {
   return std::max(longest_step, longest_part * size);
 }
 
-bool is_away(const Landscape& landscape, const Vector& x, const Vector& from) {
-  for (const Index i : landscape.moving()) {
-    const double limit =
-        landscape.periods()[i] > 0 ? 2 * std::numbers::pi * turns_away : lengths_away;
-    if (!(std::abs(x[i] - from[i]) <= limit)) return true;
-  }
-  return false;
-}
-
 struct Modes {
   Vector curvatures{};
   Matrix directions{};  ///< k x k, along the motions
@@ -262,6 +253,15 @@ std::optional<RestState> judged(const Landscape& landscape, const Vector& x,
 }
 
 }  // namespace
+
+bool is_away(const Landscape& landscape, const Vector& x, const Vector& from) {
+  for (const Index i : landscape.moving()) {
+    const double limit =
+        landscape.periods()[i] > 0 ? 2 * std::numbers::pi * turns_away : lengths_away;
+    if (!(std::abs(x[i] - from[i]) <= limit)) return true;
+  }
+  return false;
+}
 
 std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) {
   const auto at = landscape.ground(x);

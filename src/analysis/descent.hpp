@@ -31,6 +31,9 @@ struct Descent {
   RestState state{};  ///< of End::rest
 };
 
+/// A coordinate has left all bounds, as seen from a first state: 1,000 sizes of the mechanism, 50 turns.
+bool is_away(const Landscape& landscape, const Vector& x, const Vector& from);
+
 /// Goes down from x, so that the energy falls along the whole way and nowhere between two steps lies
 /// above that of x: start and end belong to one connected part of {Pi <= Pi(x)}. With the modes v_i
 /// and curvatures k_i of the Hessian along the motions a step is -(v_i . slope)/|k_i| along each, of

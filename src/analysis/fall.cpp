@@ -128,6 +128,15 @@ Fall fall(StateBook& book, const Departure& departure, double energy) {
     }
   }
   if (!first.minima.empty()) result.landing = first.minima.front();
+  // A state and the same one turned, of other energy: from each to the next it goes on so without end.
+  std::vector<std::size_t> kept;
+  for (const std::size_t m : result.minima) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](std::size_t other) { return book.are_turns(m, other); });
+    result.may_run_away |= known;
+    if (!known) kept.push_back(m);
+  }
+  result.minima = std::move(kept);
   if (result.minima.size() == 1 && !result.may_run_away && !result.is_lost)
     result.verdict = SnapVerdict::unambiguous;
   else if (!result.minima.empty())

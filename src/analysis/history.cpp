@@ -34,6 +34,33 @@ const std::vector<double>* values_at(const StudyResult& result, const std::strin
   return nullptr;
 }
 
+/// The points that a study may start at, in words.
+std::string points_of(const StudyResult& result) {
+  constexpr std::size_t most = 30;
+  std::vector<std::string> labels;
+  const auto add = [&](const std::string& label) {
+    if (!label.empty() && std::find(labels.begin(), labels.end(), label) == labels.end())
+      labels.push_back(label);
+  };
+  if (result.equilibria)
+    for (const Equilibrium& found : result.equilibria->list) {
+      if (found.is_start) add("start");
+      add(found.label);
+    }
+  if (!result.branches.empty()) add("start"), add("end");
+  for (const Branch& branch : result.branches)
+    for (const Event& event : branch.events) add(event.label);
+  if (result.snap)
+    for (const Jump& jump : result.snap->jumps)
+      if (!jump.landing.values.empty()) add(jump.label);
+  if (labels.empty()) return "it has none at all";
+  std::string text = "it has ";
+  for (std::size_t i = 0; i < std::min(most, labels.size()); ++i)
+    text += (i > 0 ? ", " : "") + labels[i];
+  return text + (labels.size() > most ? " and " + std::to_string(labels.size() - most) + " more"
+                                      : std::string{});
+}
+
 /// Why the result has no such point, in words; empty: it has.
 std::string trouble(const StudyResult& result, const std::string& at) {
   const std::string study = "study \"" + result.study + "\", from which it starts, ";
@@ -41,7 +68,8 @@ std::string trouble(const StudyResult& result, const std::string& at) {
     return study + "has no start point: " + result.start.message;
   if (at == "end" && !result.branches.empty() && !result.branches.front().forward.complete)
     return study + "stopped early: " + result.branches.front().forward.reason;
-  if (values_at(result, at) == nullptr) return study + "has no point \"" + at + "\"";
+  if (values_at(result, at) == nullptr)
+    return study + "has no point \"" + at + "\"; " + points_of(result);
   return "";
 }
 

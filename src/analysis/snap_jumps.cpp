@@ -124,8 +124,9 @@ class Jumper {
     if (reached == *down.landing || flow.state.index > 0) return;
     if (down.verdict == SnapVerdict::unambiguous)
       doubt(event, "the overdamped motion comes to rest somewhere else than the way down");
-    if (std::find(down.minima.begin(), down.minima.end(), reached) == down.minima.end())
-      down.minima.push_back(reached);
+    // The same state some turns farther stands in its place.
+    std::erase_if(down.minima, [&](std::size_t m) { return book.are_turns(m, reached); });
+    down.minima.push_back(reached);
     down.landing = reached;
   }
 

@@ -15,24 +15,77 @@ namespace {
 /// First distance from a saddle, along an unstable mode; halved until the energy is lower there.
 constexpr double kick = 0.02;
 constexpr int most_halvings = 20;
+/// Energies of one state that was solved for twice, relative to it or to one unit of a problem without dimensions.
+constexpr double same_energy = 1e-8;
+
+bool are_same(double a, double b) {
+  return std::abs(a - b) <= same_energy * std::max({1.0, std::abs(a), std::abs(b)});
+}
+
+/// Loads do work in a whole turn of a coordinate, as much in every state: turned states have other energies and the
+/// same surroundings. (A spring that counts turns has other forces after one: such states are different.)
+bool turns_take_work(const Landscape& landscape, const Vector& x) {
+  constexpr double beside = 0.01;  // a second state, anywhere
+  Vector other = x;
+  for (const Index i : landscape.moving()) other[i] += beside;
+  const auto work = [&](const Vector& from, Index i) {
+    Vector turned = from;
+    turned[i] += landscape.periods()[i];
+    return landscape.energy(turned) - landscape.energy(from);
+  };
+  bool takes_work = false;
+  for (const Index i : landscape.moving()) {
+    if (!(landscape.periods()[i] > 0) || are_same(work(x, i), 0)) continue;
+    if (!are_same(work(x, i), work(other, i))) return false;
+    takes_work = true;
+  }
+  return takes_work;
+}
 
 }  // namespace
 
 std::size_t StateBook::add(const RestState& state) {
-  // States of different energy are different: the costly comparison is left to the few others.
-  constexpr double same_energy = 1e-8;
-  for (std::size_t i = 0; i < states_.size(); ++i)
-    if (std::abs(states_[i].energy - state.energy) <=
-            same_energy * std::max(1.0, std::abs(state.energy)) &&
-        states_[i].index == state.index && landscape_.same(states_[i].x, state.x))
-      return i;
+  if (!turns_take_work_) turns_take_work_ = turns_take_work(landscape_, state.x);
+  std::size_t first = states_.size();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    // States of different energy are different, but for turns: the costly comparison is left to the few others.
+    const bool alike = are_same(states_[i].energy, state.energy);
+    if (!(alike || (*turns_take_work_ && first == states_.size())) ||
+        states_[i].index != state.index || !landscape_.same(states_[i].x, state.x))
+      continue;
+    if (alike) return i;
+    first = first_of_turns_[i];
+  }
   states_.push_back(state);
   climbed_.push_back(false);
   ways_.emplace_back();
+  first_of_turns_.push_back(first);
   return states_.size() - 1;
 }
 
-WaysDown StateBook::ways_down(const Vector& x, int depth) {
+bool StateBook::has_turns() const {
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (first_of_turns_[i] != i) return true;
+  return false;
+}
+
+/// The same as one that the way down came past, but for whole turns and the energy that these release: so it goes on
+/// for ever.
+bool StateBook::is_turned(const std::vector<RestState>& met, const RestState& state) const {
+  /// States without stiffness are known to the root of what residuals are solved to.
+  constexpr double near = 1e-4;
+  if (met.empty() || !turns_take_work(landscape_, state.x)) return false;
+  return std::any_of(met.begin(), met.end(), [&](const RestState& before) {
+    if (!(before.energy > state.energy) || are_same(before.energy, state.energy)) return false;
+    return std::all_of(landscape_.moving().begin(), landscape_.moving().end(), [&](Index i) {
+      const double d = before.x[i] - state.x[i], period = landscape_.periods()[i];
+      return std::abs(period > 0 ? std::remainder(d, period) : d) < near;
+    });
+  });
+}
+
+WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vector& x) {
+  constexpr std::size_t most_met = 4;
   WaysDown ways;
   const Descent down = descend(landscape_, x);
   if (down.end == Descent::End::runs_away)
@@ -41,14 +94,19 @@ WaysDown StateBook::ways_down(const Vector& x, int depth) {
     ways.lost = true;
   else if (down.state.index == 0 && down.state.is_clear)
     ways.minima.push_back(add(down.state));
-  else if (depth > 0)
-    leave(down.state, ways, depth - 1);
-  else
+  else if (is_turned(met, down.state))
+    ways.away = true;
+  else if (met.size() < most_met) {
+    std::vector<RestState> further = met;
+    further.push_back(down.state);
+    leave(further, ways);
+  } else
     ways.lost = true;
   return ways;
 }
 
-void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
+void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
+  const RestState& state = met.back();
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
   // Where springs rest the modes of one piece may lead into another one, where the energy rises: energies decide.
@@ -65,7 +123,7 @@ void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
       }
       if (!x) continue;
       is_left = true;
-      const WaysDown further = ways_down(*x, depth);
+      const WaysDown further = ways_down_past(met, *x);
       ways.away |= further.away;
       ways.lost |= further.lost;
       for (const std::size_t m : further.minima)
@@ -79,7 +137,7 @@ void StateBook::leave(const RestState& state, WaysDown& ways, int depth) {
 const WaysDown& StateBook::ways_from(std::size_t saddle) {
   if (!ways_[saddle]) {
     WaysDown ways;
-    leave(RestState{states_[saddle]}, ways, 3);
+    leave({states_[saddle]}, ways);
     ways_[saddle] = std::move(ways);
   }
   return *ways_[saddle];
@@ -90,8 +148,21 @@ void StateBook::climb_from_minima(const StateSearch& options) {
     if (states_[i].index == 0) climb_from(i, options);
 }
 
-bool StateBook::climb_from(std::size_t minimum, const StateSearch& options) {
+bool StateBook::may_climb(std::size_t minimum, const StateSearch& options) {
+  /// Departures to two sides may end a turn apart; each wants its own neighbours.
+  constexpr int most_turns = 4;
   if (climbed_[minimum] || !(states_[minimum].energy < options.bound)) return false;
+  int turns = 0;
+  for (std::size_t i = 0; i < states_.size(); ++i) turns += climbed_[i] && are_turns(i, minimum);
+  if (turns >= most_turns || (options.is_within && !options.is_within(states_[minimum])))
+    return false;
+  const bool away = is_away(landscape_, states_[minimum].x, states_.front().x);
+  met_bounds_ |= away;
+  return !away;
+}
+
+bool StateBook::climb_from(std::size_t minimum, const StateSearch& options) {
+  if (!may_climb(minimum, options)) return false;
   climbed_[minimum] = true;
   const RestState from = states_[minimum];
   const auto at = landscape_.ground_on(from.x, from.piece);

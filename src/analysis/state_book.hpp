@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "descent.hpp"
@@ -17,6 +18,8 @@ struct StateSearch {
   int maximum = 2000;  ///< the search ends when it has found as many states
   /// Minima as high as this are not left uphill: what is beside them lies higher still.
   double bound = std::numeric_limits<double>::infinity();
+  /// Minima beyond the range that is asked for are not left uphill; empty: there is no range.
+  std::function<bool(const RestState&)> is_within{};
 };
 
 /// Where the ways down from a state lead.
@@ -34,8 +37,18 @@ class StateBook {
   const Landscape& landscape() const { return landscape_; }
   /// @returns its number, that of the same state if it is known
   std::size_t add(const RestState& state);
+  /// The first state of the book that is the same but for whole turns, of the same energy or not: itself, if loads do no
+  /// work in a whole turn. What is around one of them is around all.
+  std::size_t first_of_turns(std::size_t state) const { return first_of_turns_[state]; }
+  bool are_turns(std::size_t a, std::size_t b) const {
+    return first_of_turns_[a] == first_of_turns_[b];
+  }
+  /// States are there whose energies differ by whole turns.
+  bool has_turns() const;
+  /// A minimum was left alone because it lies beyond all bounds.
+  bool met_bounds() const { return met_bounds_; }
   /// The minima below a state that is not at rest; saddles that are met head on are left both ways.
-  WaysDown ways_down(const Vector& x, int depth = 3);
+  WaysDown ways_down(const Vector& x) { return ways_down_past({}, x); }
   /// The minima beside a saddle, both ways along its unstable modes.
   const WaysDown& ways_from(std::size_t saddle);
   /// Looks for saddles and the minima behind them uphill from one minimum.
@@ -58,12 +71,22 @@ class StateBook {
   /// Around all known states, twice as wide, and at least a size of the mechanism or a turn.
   Box box_of_states() const;
   void search_box(const StateSearch& options);
-  void leave(const RestState& state, WaysDown& ways, int depth);
+  /// @param met  states of rest that the way down has come past, which are no minima
+  WaysDown ways_down_past(const std::vector<RestState>& met, const Vector& x);
+  /// @param met  the state that is left is the last one
+  void leave(const std::vector<RestState>& met, WaysDown& ways);
+  bool is_turned(const std::vector<RestState>& met, const RestState& state) const;
+  /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it by
+  /// whole turns.
+  bool may_climb(std::size_t minimum, const StateSearch& options);
 
   const Landscape& landscape_;
   std::vector<RestState> states_{};
   std::vector<std::optional<WaysDown>> ways_{};  ///< per state
   std::vector<bool> climbed_{};                  ///< minima from which uphill ways have been taken
+  std::vector<std::size_t> first_of_turns_{};    ///< per state
+  std::optional<bool> turns_take_work_{};        ///< found out with the first state
+  bool met_bounds_ = false;
 };
 
 /// A state of rest whose motions all have positive stiffness.

@@ -42,13 +42,21 @@ void Stretches::follow(const continuation::DiagramStart& from) {
     result_.doubts.push_back("a stable state was found from which no single branch leads on");
 }
 
-void Stretches::follow_new(const Frozen& frozen, const RestState& state) {
-  if (number_of(frozen, state.x) > 0) return;
+CurvePoint Stretches::point_of(const Frozen& frozen, const RestState& state) const {
   CurvePoint point;
   point.x = t_.problem.reduce(frozen.unknowns(state.x));
   point.lambda = frozen.lambda();
   point.piece = state.piece;
-  if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return;
+  return point;
+}
+
+bool Stretches::is_within(const Frozen& frozen, const RestState& state) const {
+  return !limit_passed(t_.study, t_.evaluator, t_.quantities, point_of(frozen, state));
+}
+
+void Stretches::follow_new(const Frozen& frozen, const RestState& state) {
+  if (number_of(frozen, state.x) > 0 || !is_within(frozen, state)) return;
+  const CurvePoint point = point_of(frozen, state);
   follow({point.x, point.lambda, point.piece});
 }
 

@@ -33,6 +33,8 @@ class Stretches {
   void follow(const continuation::DiagramStart& from);
   /// The same, if the state lies on no stretch that is known and within the study's limits.
   void follow_new(const Frozen& frozen, const RestState& state);
+  /// A state of this lambda obeys the study's limits.
+  bool is_within(const Frozen& frozen, const RestState& state) const;
   /// Writes all stretches as the result's branches.
   void write_branches();
 
@@ -62,6 +64,7 @@ class Stretches {
     std::size_t row = 0;
     double part = 0;
   };
+  continuation::CurvePoint point_of(const Frozen& frozen, const RestState& state) const;
   Track track_of(const StableStretch& stretch) const;
   static std::optional<Place> place_on(const Track& track, double lambda);
   /// The stretch's state at this lambda, not polished.

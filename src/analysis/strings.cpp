@@ -128,7 +128,7 @@ class JoinedMinima {
   explicit JoinedMinima(StateBook& book) {
     for (std::size_t s = 0; s < book.states().size(); ++s)
       if (is_pass(book.states()[s])) book.ways_from(s);  // may add minima
-    for (std::size_t s = 0; s < book.states().size(); ++s) group_.push_back(s);
+    for (std::size_t s = 0; s < book.states().size(); ++s) group_.push_back(book.first_of_turns(s));
     for (std::size_t s = 0; s < book.states().size(); ++s)
       if (is_pass(book.states()[s]))
         for (const WaysDown& ways = book.ways_from(s); const std::size_t m : ways.minima)
@@ -149,10 +149,11 @@ class JoinedMinima {
   std::vector<std::size_t> group_{};
 };
 
+/// Of those that are the same but for whole turns the first.
 std::vector<std::size_t> minima_of(const StateBook& book) {
   std::vector<std::size_t> list;
   for (std::size_t s = 0; s < book.states().size(); ++s)
-    if (is_minimum(book.states()[s])) list.push_back(s);
+    if (is_minimum(book.states()[s]) && book.first_of_turns(s) == s) list.push_back(s);
   return list;
 }
 

@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "barriers.hpp"
+#include "limits.hpp"
+#include "springfold/core/number_text.hpp"
 #include "stretches.hpp"
 
 namespace springfold::analysis {
@@ -35,6 +37,12 @@ class Explorer {
     }
     stretches_.follow({start.x, start.lambda, start.piece});
     stretches_.write_branches();
+    if (limit_passed(t_.study, t_.evaluator, t_.quantities, start)) {
+      report_.transitions.reset();
+      report_.refusals.push_back(
+          "the start lies outside of the study's range: no state is followed from there");
+      return;
+    }
     follow_jumps();
     for (const double lambda : searched()) search(lambda / t_.lambda_scale);
     found.limit_reached = stretches_.is_full();
@@ -80,9 +88,14 @@ class Explorer {
   /// Until all states of this lambda to which jumps lead are among those that the search began with or found.
   void search(double lambda) {
     Searched& at = searched_at(lambda);
+    const auto is_within = [&](const RestState& state) {
+      return stretches_.is_within(at.frozen, state);
+    };
     std::size_t known = 0;
+    std::vector<std::string> open;
     do {
-      search_all(at.book, settings_);
+      open.clear();
+      search_all(at.book, settings_, is_within, open);
       for (const RestState& state : at.book.states())
         if (is_minimum(state) && goes_on()) stretches_.follow_new(at.frozen, state);
       take_known(at);
@@ -90,6 +103,8 @@ class Explorer {
       follow_jumps();
       take_known(at);
     } while (at.book.states().size() > known && goes_on());
+    for (const std::string& why : open)
+      result_.doubts.push_back("at lambda = " + rounded(t_.lambda_scale * lambda) + ": " + why);
   }
 
   /// One lambda with all that was found there.

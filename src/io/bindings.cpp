@@ -146,6 +146,16 @@ const Binding* Bindings::find(std::string_view name) const {
   return found == list.rend() ? nullptr : &*found;
 }
 
+bool mentions(std::string_view text, std::string_view name) {
+  while (!text.empty()) {
+    const std::size_t length =
+        is_letter(text.front()) ? word_length(text) : std::max<std::size_t>(number_length(text), 1);
+    if (text.substr(0, length) == name) return true;
+    text.remove_prefix(length);
+  }
+  return false;
+}
+
 std::string with_bindings(const std::string& formula, const Bindings& bindings) {
   const std::string_view text{formula};
   std::string result;

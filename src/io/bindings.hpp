@@ -25,6 +25,9 @@ struct Bindings {
 /// The formula with every bound name replaced by "(text)". Numbers ("2e3") and functions stay.
 std::string with_bindings(const std::string& formula, const Bindings& bindings);
 
+/// The name stands in the text as a word of its own, in braces or not.
+bool mentions(std::string_view text, std::string_view name);
+
 /// The text with `{name}` replaced by what it stands for and `{i + 1}` by its value: whole numbers,
 /// bound names, + - * % and parentheses; a % b lies in 0 .. b - 1. Unbalanced braces, unknown names
 /// and other arithmetic are problems.

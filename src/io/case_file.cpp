@@ -83,7 +83,7 @@ Case load_case(const fs::path& file, const std::map<std::string, std::string>& o
   SourceReader sources{problems, stop_requested};
   std::vector<Document> documents = sources.read_case(file);
   throw_if_any(problems);
-  expand_repetitions(documents, problems);
+  const std::vector<std::string> hints = expand_repetitions(documents, problems);
   throw_if_any(problems);
   const std::vector<Document> expected =
       read_expected_file(file, documents.back().root, sources, problems);
@@ -112,6 +112,7 @@ Case load_case(const fs::path& file, const std::map<std::string, std::string>& o
   result.file = file;
   result.overrides = overrides;
   result.hash = fingerprint(sources, overrides);
+  result.hints.insert(result.hints.begin(), hints.begin(), hints.end());
   return result;
 }
 

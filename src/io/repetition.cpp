@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bindings.hpp"
+#include "case_hints.hpp"
 #include "formula.hpp"
 #include "index_range.hpp"
 #include "pattern.hpp"
@@ -39,11 +40,13 @@ class Expander {
   Expander(std::vector<Document>& documents, Problems& problems)
       : documents_{documents}, problems_{problems} {}
 
-  void run() {
+  /// @returns hints
+  std::vector<std::string> run() {
     for (const Document& document : documents_) {
       collect_names(document.root);
       collect_templates(document.root);
     }
+    for (const auto& [name, table] : templates_) check_defaults(name, *table);
     for (Document& document : documents_) {
       for (const std::string& part : parts_of_mechanism())
         if (Node* list = document.root.find(part)) expand_list(*list, part, {}, 0);
@@ -53,6 +56,7 @@ class Expander {
         if (Node* loads = studies->items[n].find("loads"))
           expand_list(*loads, "study[" + std::to_string(n + 1) + "].loads", {}, 0);
     }
+    return unused_templates();
   }
 
  private:
@@ -76,6 +80,45 @@ class Expander {
       else
         templates_[entry.key] = &entry.value;
     }
+  }
+
+  /// Every name that a template has a default for stands in it.
+  void check_defaults(const std::string& name, const Node& table) {
+    const Node* defaults = table.find("with");
+    if (!defaults || defaults->kind != Node::Kind::table) return;
+    for (const NodeEntry& entry : defaults->entries)
+      if (!stands_in(table, entry.key, 0))
+        problems_.add(entry.place, "template." + name + ".with." + entry.key,
+                      "stands nowhere in the template, need a formula or braces that name it");
+  }
+
+  /// In what the table says, or in templates that it uses.
+  bool stands_in(const Node& node, const std::string& name, std::size_t depth) const {
+    if (node.kind == Node::Kind::text && mentions(node.text, name)) return true;
+    if (std::any_of(node.items.begin(), node.items.end(),
+                    [&](const Node& item) { return stands_in(item, name, depth); }))
+      return true;
+    const Node* defaults = depth == 0 ? node.find("with") : nullptr;
+    if (std::any_of(node.entries.begin(), node.entries.end(), [&](const NodeEntry& entry) {
+          return &entry.value != defaults && stands_in(entry.value, name, depth + 1);
+        }))
+      return true;
+    const Node* use = node.find("use");
+    const auto found = use ? templates_.find(use->text) : templates_.end();
+    return found != templates_.end() && depth < most_levels &&
+           stands_in(*found->second, name, depth + 1);
+  }
+
+  /// Of the case file itself: files that it includes may hold more than it needs.
+  std::vector<std::string> unused_templates() const {
+    std::vector<std::string> hints;
+    const Node* own = documents_.back().root.find("template");
+    if (own == nullptr) return hints;
+    for (const NodeEntry& entry : own->entries)
+      if (used_.count(entry.key) == 0)
+        hints.push_back(place_text(entry.place, "template." + entry.key) +
+                        ": nothing uses it, so its keys were not read");
+    return hints;
   }
 
   /// Copies of all tables of a list, in order. Groups of elements are laid out one after the other.
@@ -183,12 +226,14 @@ class Expander {
                         suggestion(use->text, known));
       return false;
     }
+    used_.insert(found->first);
     Bindings bindings = outer ? *outer : Bindings{};
     Bindings own;
     const Node& from = *found->second;
     const Node* defaults = from.find("with");
-    if (defaults && !bind(*defaults, "template." + use->text + ".with", {}, {}, own)) return false;
-    if (with && !bind(*with, key + ".with", outer, defaults, own)) return false;
+    if (defaults && !bind(*defaults, "template." + use->text + ".with", {}, nullptr, own))
+      return false;
+    if (with && !bind(*with, key + ".with", outer, &from, own)) return false;
     for (Binding& binding : own.list) bindings.list.push_back(std::move(binding));
     const auto inner = std::make_shared<const Bindings>(std::move(bindings));
     remove_key(table, "use");
@@ -216,9 +261,10 @@ class Expander {
     return false;
   }
 
-  /// @param defaults  the template's own `with`: other names would bind nothing, where it has one
-  bool bind(const Node& with, const std::string& key, const Shared& outer, const Node* defaults,
+  /// @param from  the template that names are given to: those that do not stand in it would bind nothing
+  bool bind(const Node& with, const std::string& key, const Shared& outer, const Node* from,
             Bindings& own) {
+    const Node* defaults = from ? from->find("with") : nullptr;
     if (with.kind != Node::Kind::table) {
       problems_.add(with.place, key,
                     "got " + described(with) + ", need a table such as { angle = \"30*deg\" }");
@@ -239,6 +285,9 @@ class Expander {
       else if (defaults && !defaults->find(entry.key))
         problems_.add(entry.place, entry_key,
                       "no such name in the template" + suggestion(entry.key, keys_of(*defaults)));
+      else if (from && !defaults && !stands_in(*from, entry.key, 0))
+        problems_.add(entry.place, entry_key,
+                      "stands nowhere in the template, need a name that it uses");
       else {
         own.list.push_back(binding_of(entry, outer));
         continue;
@@ -292,6 +341,7 @@ class Expander {
   Problems& problems_;
   std::set<std::string> parameters_{};
   std::map<std::string, const Node*> templates_{};
+  std::set<std::string> used_{};  ///< names of templates
   std::size_t values_ = 0;
   bool is_full_ = false;  ///< there are too many values: nothing more is copied
 };
@@ -303,8 +353,8 @@ const std::vector<std::string>& parts_of_mechanism() {
   return parts;
 }
 
-void expand_repetitions(std::vector<Document>& documents, Problems& problems) {
-  Expander{documents, problems}.run();
+std::vector<std::string> expand_repetitions(std::vector<Document>& documents, Problems& problems) {
+  return Expander{documents, problems}.run();
 }
 
 }  // namespace springfold::io

@@ -16,6 +16,7 @@ const std::vector<std::string>& parts_of_mechanism();
 /// says, in the lists of the mechanism, in `elements` and in `loads` of studies. Texts in copies have
 /// their braces filled; formulas there may name indices and parameters of templates. Places stay
 /// those of the text that was repeated. What cannot be expanded is a problem and stays as it is.
-void expand_repetitions(std::vector<Document>& documents, Problems& problems);
+/// @returns hints: templates of the case file itself that nothing uses
+std::vector<std::string> expand_repetitions(std::vector<Document>& documents, Problems& problems);
 
 }  // namespace springfold::io

@@ -9,6 +9,7 @@
 #include "point_summary.hpp"
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
@@ -103,9 +104,10 @@ std::string origin_text(const StudyResult& result, const Branch& branch) {
   return "";
 }
 
-/// Branch points and other junctions at which branches were not followed.
+/// Branch points and other junctions at which branches were not followed. A graph of states follows what takes over there.
 std::string left_out(const StudyResult& result) {
   std::string labels;
+  if (result.snap && result.snap->transitions) return "";
   for (const auto& junction : result.junctions) {
     const auto count = std::count(junction.ways.begin(), junction.ways.end(), 0);
     const std::string label = junction.label.empty() ? "a point out of range" : junction.label;

@@ -88,10 +88,23 @@ double state_value(const StudyResult& result, const TransitionReport& report, in
   return column_value(result, state.found, quantity);
 }
 
+/// Of a saddle between both.
+double direct_barrier(const TransitionReport& report, int from, int to, const Barrier** highest) {
+  for (const Barrier& b : report.barriers) {
+    if (b.lambda != report.barriers.front().lambda) continue;
+    const bool forward = b.first == from && b.second == to;
+    if (!forward && !(b.first == to && b.second == from)) continue;
+    *highest = &b;
+    return forward ? b.from_first : b.from_second;
+  }
+  return nothing;
+}
+
 /// The lowest way over saddles from one state to another: its highest saddle above the first state.
 double barrier_between(const TransitionReport& report, int from, int to, const Barrier** highest) {
   if (report.barriers.empty()) return nothing;
   const double lambda = report.barriers.front().lambda;
+  if (report.energy_counts_turns) return direct_barrier(report, from, to, highest);
   std::vector<const Barrier*> list;
   for (const Barrier& b : report.barriers)
     if (b.lambda == lambda && b.second > 0) list.push_back(&b);

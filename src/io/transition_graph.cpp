@@ -1,6 +1,7 @@
 // The transition graph as GraphML and in Graphviz' language. All texts in it are our own labels and numbers:
 // nothing of the case is written.
 #include <algorithm>
+#include <cmath>
 
 #include "springfold/analysis/snap.hpp"
 #include "text.hpp"
@@ -84,7 +85,26 @@ std::string transitions_graphml(const StudyResult& result) {
 
 namespace {
 
+constexpr int digits = 4;
+
 bool is_arrow(const Transition& t) { return t.to > 0 && !t.is_alternative; }
+
+/// Barriers of the first lambda at which they were looked for: a figure has room for one.
+std::vector<const Barrier*> shown_barriers(const TransitionReport& report) {
+  std::vector<const Barrier*> list;
+  for (const Barrier& b : report.barriers)
+    if (b.lambda == report.barriers.front().lambda) list.push_back(&b);
+  return list;
+}
+
+/// Of a state where the barriers are; empty where no barrier tells it.
+std::string energy_of(const std::vector<const Barrier*>& barriers, int state) {
+  for (const Barrier* b : barriers) {
+    if (b->first == state) return rounded(b->saddle.energy - b->from_first, digits);
+    if (b->second == state) return rounded(b->saddle.energy - b->from_second, digits);
+  }
+  return "";
+}
 
 /// What the signs of the figure mean, as far as they occur.
 std::string key_of(const TransitionReport& report) {
@@ -93,17 +113,50 @@ std::string key_of(const TransitionReport& report) {
                        [&](const Transition& t) { return is_arrow(t) && is_so(t); });
   };
   std::string key = "a state and the range of the load (lambda) in which it is stable";
+  const std::string at =
+      report.barriers.empty() ? "" : rounded(report.barriers.front().lambda, digits);
+  if (!at.empty()) key += ", and its energy E at lambda = " + at;
   if (std::any_of(report.states.begin(), report.states.end(),
                   [](const StableState& s) { return s.is_garden_of_eden; }))
     key += "\\ldashed: a state that no jump reaches";
+  const std::string numbers = "its load, and the energy released in parentheses";
   if (any_arrow([](const Transition& t) { return t.loading > 0; }))
-    key += "\\lblue: a jump where the load grows, and its load";
+    key += "\\lblue: a jump where the load grows, " + numbers;
   if (any_arrow([](const Transition& t) { return t.loading < 0; }))
-    key += "\\lorange: a jump where the load falls";
+    key += "\\lorange: a jump where the load falls, " + numbers;
   if (any_arrow(
           [](const Transition& t) { return t.verdict != analysis::SnapVerdict::unambiguous; }))
     key += "\\ldashed arrow: other damping or masses may lead elsewhere";
+  if (!at.empty())
+    key +=
+        "\\ldotted: a barrier at lambda = " + at + ", and its height above the state at each end";
   return key + "\\l";
+}
+
+std::string node_line(const StableState& s, const std::string& energy) {
+  return "  \"" + s.label + "\" [label=\"" + s.label + "\\n" + rounded(s.low, digits) + " .. " +
+         rounded(s.high, digits) + (energy.empty() ? "" : "\\nE = " + energy) + "\"" +
+         (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
+}
+
+std::string arrow_line(const Transition& t) {
+  const std::string released =
+      std::isfinite(t.released) ? "\\n(" + rounded(t.released, digits) + ")" : "";
+  return "  \"S" + std::to_string(t.from) + "\" -> \"S" + std::to_string(t.to) + "\" [label=\"" +
+         rounded(t.lambda, digits) + released + "\", color=\"" +
+         (t.loading > 0 ? "#0072B2" : "#D55E00") + "\"" +
+         (t.verdict == analysis::SnapVerdict::unambiguous ? "" : ", style=dashed") + "];\n";
+}
+
+/// Without an arrow, and without a say in where the states stand.
+std::string barrier_edge(const Barrier& b) {
+  const std::string beyond = b.second > 0 ? "S" + std::to_string(b.second) : "outside";
+  return "  \"S" + std::to_string(b.first) + "\" -> \"" + beyond +
+         "\" [dir=none, style=dotted, constraint=false, color=\"#555555\", taillabel=\"" +
+         rounded(b.from_first, digits) + "\"" +
+         (std::isfinite(b.from_second) ? ", headlabel=\"" + rounded(b.from_second, digits) + "\""
+                                       : std::string{}) +
+         "];\n";
 }
 
 }  // namespace
@@ -111,7 +164,7 @@ std::string key_of(const TransitionReport& report) {
 std::string transitions_dot(const StudyResult& result) {
   const TransitionReport* report = report_of(result);
   if (report == nullptr) return "";
-  constexpr int digits = 4;
+  const std::vector<const Barrier*> barriers = shown_barriers(*report);
   std::string text =
       "digraph transitions {\n"
       "  label=\"" +
@@ -121,15 +174,14 @@ std::string transitions_dot(const StudyResult& result) {
       "  fontname=\"DejaVu Sans\"; fontsize=10;\n"
       "  node [fontname=\"DejaVu Sans\", fontsize=10];\n"
       "  edge [fontname=\"DejaVu Sans\", fontsize=8];\n";
-  for (const StableState& s : report->states)
-    text += "  \"" + s.label + "\" [label=\"" + s.label + "\\n" + rounded(s.low, digits) + " .. " +
-            rounded(s.high, digits) + "\"" + (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
+  for (std::size_t i = 0; i < report->states.size(); ++i)
+    text += node_line(report->states[i], energy_of(barriers, static_cast<int>(i) + 1));
+  if (std::any_of(barriers.begin(), barriers.end(),
+                  [](const Barrier* b) { return b->second == 0; }))
+    text += "  \"outside\" [shape=plaintext];\n";
   for (const Transition& t : report->transitions)
-    if (is_arrow(t))
-      text += "  \"S" + std::to_string(t.from) + "\" -> \"S" + std::to_string(t.to) +
-              "\" [label=\"" + rounded(t.lambda, digits) + "\", color=\"" +
-              (t.loading > 0 ? "#0072B2" : "#D55E00") + "\"" +
-              (t.verdict == analysis::SnapVerdict::unambiguous ? "" : ", style=dashed") + "];\n";
+    if (is_arrow(t)) text += arrow_line(t);
+  for (const Barrier* b : barriers) text += barrier_edge(*b);
   return text + "}\n";
 }
 

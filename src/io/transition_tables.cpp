@@ -124,7 +124,9 @@ std::string heights(double from_first, double from_second, const std::string& en
 std::string barrier_line(const Barrier& b, const std::string& energy) {
   std::string text = "barrier at lambda = " + rounded(b.lambda, summary_digits) + ": " +
                      heights(b.from_first, b.from_second, energy) +
-                     (b.second > 0 ? " over the saddle between them" : "");
+                     (b.second == b.first ? " to itself, a turn on and a turn back"
+                      : b.second > 0      ? " over the saddle between them"
+                                          : "");
   // Not by rounding alone.
   constexpr double clearly = 1e-9;
   if (b.lowest_from_first < b.from_first * (1 - clearly))
@@ -187,6 +189,11 @@ std::string transition_lines(const StudyResult& result, const UnitLabels& units)
   if (report->states.size() > most_lines)
     text += summary_line(
         "", "and " + std::to_string(report->states.size() - most_lines) + " more: states.csv");
+  if (report->energy_counts_turns)
+    text +=
+        summary_line("turns",
+                     "the loads do work in whole turns: states are counted once for all turns, and "
+                     "ways over several saddles are not compared");
   for (std::size_t i = 0; i < std::min(most_lines, report->barriers.size()); ++i)
     text += barrier_line(report->barriers[i], energy);
   for (std::size_t i = 0; i < std::min(most_lines, report->escapes.size()); ++i)
@@ -227,6 +234,7 @@ Json transitions_json(const StudyResult& result) {
           {"unjoined", unjoined},
           {"is_closed", report->is_closed},
           {"limit_reached", report->limit_reached},
+          {"energy_counts_turns", report->energy_counts_turns},
           {"memory", memory_word(report->memory)},
           {"loops", report->loops}};
 }

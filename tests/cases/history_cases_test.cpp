@@ -278,7 +278,49 @@ until = { lambda = [0, 0.4] }
   const Ran ran = run(text);
   EXPECT_FALSE(ran.of("push").start.found);
   EXPECT_EQ(ran.of("push").start.message,
-            "study \"preload\", from which it starts, has no point \"LP7\"");
+            "study \"preload\", from which it starts, has no point \"LP7\"; it has start, end, "
+            "EP1, EP2");
+}
+
+/// A symmetric truss in its limit point: to first order V_y = a y^2/2 - b x^2/2, so that two curves cross there.
+TEST(LoadHistories, LeaveALimitPointAcrossByAllItsWays) {
+  const Ran ran = run(R"toml([[node]]
+name = "left"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "right"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "apex"
+at = [0, 0.5]
+[[bar]]
+from = "left"
+to = "apex"
+EA = 1
+[[bar]]
+from = "right"
+to = "apex"
+EA = 1
+[[study]]
+name = "press"
+body = "apex"
+control = "load"
+direction = [0, -1]
+until = { apex.y = [-0.6, 0.6] }
+[[study]]
+name = "across"
+body = "apex"
+control = "load"
+direction = [1, 0]
+start = { from = "press", at = "LP1" }
+until = { apex.y = [-0.8, 0.8], apex.x = [-0.5, 0.5] }
+)toml");
+  const auto& across = ran.of("across");
+  EXPECT_TRUE(analysis::complete(across)) << across.branches.front().forward.reason;
+  EXPECT_EQ(across.start.ways.size(), 4U);
+  EXPECT_TRUE(across.doubts.empty()) << across.doubts.front();
 }
 
 }  // namespace

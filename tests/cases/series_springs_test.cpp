@@ -249,5 +249,37 @@ until = { tool.x = ["0.3*L", "3*L"] }
       EXPECT_EQ(1024 * value(one, row, column), value(other, row, column)) << column;
 }
 
+/// Within both dead bands the slack is shared in any way: no curve leads on, and the coordinate that is free is named.
+TEST(SpringsInSeries, NameTheCoordinateThatTwoDeadBandsLeaveFree) {
+  const StudyResult result = run(R"toml([[node]]
+name = "tool"
+at = [2.5, 0]
+fixed = ["y"]
+[[spring]]
+name = "rope"
+to = "tool"
+series = [
+  { law = "gap", stiffness = 1, low = -0.1, high = 0.1 },
+  { law = "gap", stiffness = 2, low = -0.2, high = 0.2 },
+  { law = "linear", stiffness = 0.3, free = 2 },
+]
+[[study]]
+name = "pull"
+body = "tool"
+control = "mixed"
+direction = [1, 0]
+until = { tool.x = [1, 4.5] }
+)toml")
+                                 .of("pull");
+  EXPECT_FALSE(analysis::complete(result));
+  int told = 0;
+  for (const analysis::Branch& branch : result.branches) {
+    if (branch.forward.complete) continue;
+    ++told;
+    EXPECT_THAT(branch.forward.reason, HasSubstr("nothing resists a motion of rope."));
+  }
+  EXPECT_GT(told, 0);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -83,6 +83,28 @@ TEST(Response, IsUndefinedAtALimitPoint) {
   EXPECT_FALSE(response_at(circle(), Vector::Zero(1), 1, {}));
 }
 
+/// V = k x^2/2 - lambda x + y^3/6 - x^2 y/2: at x = y = lambda = 0 two curves cross, and y has no stiffness.
+struct Crossing {
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, Vector& F) const {
+    F = Vector{{x[0] - x[0] * x[1] - lambda, (x[1] * x[1] - x[0] * x[0]) / 2}};
+    return true;
+  }
+  bool derivatives(const Vector& x, double, Matrix& dF_dx, Vector& dF_dlambda) const {
+    dF_dx = Matrix{{1 - x[1], -x[0]}, {-x[0], x[1]}};
+    dF_dlambda = Vector{{-1.0, 0.0}};
+    return true;
+  }
+};
+
+TEST(Response, IsUndefinedWhereASpecialPointIsAsNearAsItCanBeLocated) {
+  for (const double off : {0.0, 1e-16, -1e-11})
+    EXPECT_FALSE(response_at(Crossing{}, Vector{{0.0, off}}, 0, {})) << off;
+  const auto regular = response_at(Crossing{}, Vector{{0.0, 0.5}}, 0, {});
+  ASSERT_TRUE(regular && regular->lambda);
+}
+
 TEST(LongCurve, HasItsLimitPointAlsoWhereLambdaIsTiny) {
   const double soft = 1e-7;
   const auto height = [soft](double x) { return soft * (3 * x - x * x * x); };

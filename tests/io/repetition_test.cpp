@@ -185,6 +185,25 @@ TEST_F(Repetition, WantsTemplatesAndTheirNamesToExist) {
                           testing::HasSubstr("chain[2, i = 1]")));
 }
 
+TEST_F(Repetition, WantsNamesGivenToTemplatesToStandInThem) {
+  EXPECT_THAT(
+      messages(replaced(arms, "side = \"left\", k = 1 }", "side = \"left\", k = 1, kk = 2 }")),
+      ElementsAre("case.toml:3:47: template.leg.with.kk: stands nowhere in the template, need a "
+                  "formula or braces that name it"));
+  const std::string without = replaced(arms, "with = { angle = 0, side = \"left\", k = 1 }\n", "");
+  EXPECT_THAT(
+      messages(replaced(replaced(without, "{side}_foot", "foot"), "with = { angle = \"R*45*deg\" }",
+                        "with = { angle = \"R*45*deg\", k = 1, kk = 2 }")),
+      testing::Contains(testing::HasSubstr(
+          "chain[1].with.kk: stands nowhere in the template, need a name that it uses")));
+}
+
+TEST_F(Repetition, HintsAtTemplatesThatNothingUses) {
+  EXPECT_TRUE(load(arms).hints.empty());
+  EXPECT_THAT(load(arms + "[template.log]\nelemnts = 3\n").hints,
+              ElementsAre(testing::HasSubstr("template.log: nothing uses it")));
+}
+
 const std::string turned = R"toml([parameters]
 R = 2
 [[node]]

@@ -36,7 +36,7 @@ bool has(const std::string& text, const std::string& part) {
 TEST(TransitionText, HasAnArrowForEachJumpOfASwitch) {
   const auto result = run("snap-through/case-switch.toml", "states");
   const std::string dot = transitions_dot(result), graphml = transitions_graphml(result);
-  EXPECT_TRUE(has(dot, "\"S1\" -> \"S2\""));
+  EXPECT_TRUE(has(dot, "\"S1\" -> \"S2\" [label="));
   EXPECT_TRUE(has(dot, "\"S2\" -> \"S1\""));
   EXPECT_TRUE(has(graphml, "<edge source=\"S1\" target=\"S2\">"));
   EXPECT_TRUE(has(graphml, "<node id=\"S2\">"));
@@ -56,6 +56,18 @@ TEST(TransitionText, ExplainsTheSignsThatOccur) {
   EXPECT_TRUE(has(plain, "\\lblue: a jump where the load grows"));
   EXPECT_TRUE(has(plain, "\\lorange: a jump where the load falls"));
   EXPECT_FALSE(has(plain, "dashed"));
+}
+
+/// Both states of the switch lie 0.05 below the saddle in the middle, with the energy 0.25 there.
+TEST(TransitionText, HasEnergiesAndBarriersInItsFigure) {
+  const auto result = run("snap-through/case-switch.toml", "states");
+  const std::string dot = transitions_dot(result);
+  EXPECT_TRUE(has(dot, "\\nE = "));
+  EXPECT_TRUE(has(dot, "\"S1\" -> \"S2\" [dir=none, style=dotted"));
+  EXPECT_TRUE(has(dot, "taillabel=\"0.05\", headlabel=\"0.05\""));
+  EXPECT_TRUE(has(dot, "0.1162\\n(0.1502)"));  // its load and the energy released
+  EXPECT_TRUE(has(dot, "\\ldotted: a barrier at lambda = 0"));
+  EXPECT_TRUE(has(dot, "\"outside\""));
 }
 
 /// The oblique springs of cases/snap-through/case-switch.toml are straight at the saddle: its pose is the middle.

@@ -191,8 +191,9 @@ struct Transition {
 /// A saddle with one unstable mode and the two minima beside it, at one lambda.
 struct Barrier {
   double lambda = 0;
-  int first = 0;   ///< state, from 1
-  int second = 0;  ///< state; 0: a way without end, or out of the study's range
+  int first = 0;  ///< state, from 1
+  int second =
+      0;  ///< state, which may be the first a turn farther; 0: a way without end, or out of the study's range
   double from_first = 0, from_second = 0;  ///< energy of the saddle above theirs
   /// The same of the lowest way between both, over other states and saddles if that is lower: its highest saddle.
   double lowest_from_first = std::numeric_limits<double>::quiet_NaN();
@@ -223,6 +224,9 @@ struct TransitionReport {
   std::vector<Unjoined> unjoined{};
   std::vector<Escape> escapes{};  ///< of each state that a saddle was found beside
   bool limit_reached = false;     ///< ended because so many were found
+  /// Loads do work in whole turns: states are counted once for all turns, barriers are those beside each, and lowest ways
+  /// over several saddles are not given.
+  bool energy_counts_turns = false;
   bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
   enum class Memory {
     holds,      ///< every loop that was gone through comes back to its state

@@ -26,7 +26,7 @@ struct Response {
 };
 
 /// @param x, lambda, piece  a point of the curve at which dF/dx is regular
-/// @returns nothing where dF/dx is singular to working precision (limit and branch points), or outside the domain
+/// @returns nothing where dF/dx is singular to what limit and branch points are located to, or outside the domain
 /// @throws std::invalid_argument where sizes do not fit together
 std::optional<Response> response_at(ProblemView problem, const Vector& x, double lambda,
                                     const Piece& piece);

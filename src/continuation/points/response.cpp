@@ -7,6 +7,7 @@
 #include "continuation/linear/bordered_factors.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/entry_checks.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/finite.hpp"
 
@@ -139,6 +140,32 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
   return way < farther * d ? way : infinity;
 }
 
+/// Is dF/dx singular, to what special points are located to? Its entries count beside what they are a little aside: a row or
+/// column that vanishes at the point would otherwise look like one in a small unit.
+bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
+  constexpr double gap = 30;  // to the next singular value
+  if (problem.structured()) return false;
+  Linearisation here;
+  if (!linearise(problem, x, lambda, piece, here) || x.size() == 0) return false;
+  const Vector weights = problem.metric();
+  Matrix sizes = here.dF_dx.cwiseAbs();
+  Vector direction = Vector::LinSpaced(x.size(), 1, 2).normalized();
+  for (Index i = 0; i < x.size(); ++i)
+    direction[i] = weights[i] > 0 ? direction[i] / std::sqrt(weights[i]) : 0;
+  for (const double h : {-small_share, small_share}) {
+    Linearisation aside;
+    if (linearise(problem, x + h * direction, lambda, piece, aside))
+      sizes = sizes.cwiseMax(negligible_share * (aside.dF_dx - here.dF_dx).cwiseAbs());
+  }
+  const Equilibration scale = equilibrate(sizes);
+  const Vector values =
+      divided_svd(scale.rows.asDiagonal() * here.dF_dx * scale.columns.asDiagonal()).values;
+  const Index last = values.size() - 1;
+  for (Index i = 0; i <= last; ++i)
+    if (values[i] <= vanishing_rank && values[i] * gap < (i > 0 ? values[i - 1] : 1)) return true;
+  return false;
+}
+
 }  // namespace
 
 std::optional<Response> response_at(ProblemView problem, const Vector& x, double lambda,
@@ -156,6 +183,8 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * change;
   } else if (std::isfinite(way)) {
+    // At a special point the next one is this one, which is no unit of anything.
+    if (way < tiny_share && is_singular(problem, x, lambda, piece)) return std::nullopt;
     change = critical_loads * way;
     response.lambda = change;
   }
