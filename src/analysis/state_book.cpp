@@ -84,10 +84,26 @@ bool StateBook::is_turned(const std::vector<RestState>& met, const RestState& st
   });
 }
 
+std::optional<RestState> StateBook::without_stiffness(const Vector& x) const {
+  constexpr double soft = 1e-3, small = 1e-6;  // of the stiffest mode, or of one unit
+  const auto at = landscape_.ground(x);
+  if (!at || at->hessian.size() == 0) return std::nullopt;
+  const Vector k = symmetric_eigenvalues(at->hessian);
+  const double unit = std::max(1.0, k.cwiseAbs().maxCoeff());
+  if (std::abs(k[0]) > soft * unit || at->slope.norm() > small * unit) return std::nullopt;
+  return RestState{at->x, at->piece, landscape_.energy(x), 0, k[0], false};
+}
+
 WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vector& x) {
   constexpr std::size_t most_met = 4;
   WaysDown ways;
-  const Descent down = descend(landscape_, x);
+  Descent down = descend(landscape_, x);
+  const bool rests = down.end == Descent::End::rest;
+  if (down.end == Descent::End::lost)
+    if (auto state = without_stiffness(down.x)) {
+      down.end = Descent::End::rest;
+      down.state = std::move(*state);
+    }
   if (down.end == Descent::End::runs_away)
     ways.away = true;
   else if (down.end == Descent::End::lost)
@@ -99,13 +115,13 @@ WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vect
   else if (met.size() < most_met) {
     std::vector<RestState> further = met;
     further.push_back(down.state);
-    leave(further, ways);
+    leave(further, rests, ways);
   } else
     ways.lost = true;
   return ways;
 }
 
-void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
+void StateBook::leave(const std::vector<RestState>& met, bool rests, WaysDown& ways) {
   const RestState& state = met.back();
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
@@ -131,13 +147,16 @@ void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
           ways.minima.push_back(m);
     }
   // A state that is flat to second order and nowhere left is a minimum all the same.
-  if (!is_left && state.index == 0) ways.minima.push_back(add(state));
+  if (!is_left && !rests)
+    ways.lost = true;
+  else if (!is_left && state.index == 0)
+    ways.minima.push_back(add(state));
 }
 
 const WaysDown& StateBook::ways_from(std::size_t saddle) {
   if (!ways_[saddle]) {
     WaysDown ways;
-    leave({states_[saddle]}, ways);
+    leave({states_[saddle]}, true, ways);
     ways_[saddle] = std::move(ways);
   }
   return *ways_[saddle];

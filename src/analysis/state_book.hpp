@@ -73,8 +73,12 @@ class StateBook {
   void search_box(const StateSearch& options);
   /// @param met  states of rest that the way down has come past, which are no minima
   WaysDown ways_down_past(const std::vector<RestState>& met, const Vector& x);
-  /// @param met  the state that is left is the last one
-  void leave(const std::vector<RestState>& met, WaysDown& ways);
+  /// Where the energy falls no further and no state of rest was found: the place, if it has next to no stiffness, as
+  /// beside a limit point that has just been passed.
+  std::optional<RestState> without_stiffness(const Vector& x) const;
+  /// @param met    the state that is left is the last one
+  /// @param rests  it is at rest: a minimum, where it is left to no side
+  void leave(const std::vector<RestState>& met, bool rests, WaysDown& ways);
   bool is_turned(const std::vector<RestState>& met, const RestState& state) const;
   /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it by
   /// whole turns.

@@ -2,6 +2,7 @@
 // nothing of the case is written.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "springfold/analysis/snap.hpp"
 #include "text.hpp"
@@ -34,6 +35,23 @@ std::string escape_of(const TransitionReport& report, const StableState& state) 
   return "";
 }
 
+/// Barriers of the first lambda at which they were looked for: a figure has room for one.
+std::vector<const Barrier*> shown_barriers(const TransitionReport& report) {
+  std::vector<const Barrier*> list;
+  for (const Barrier& b : report.barriers)
+    if (b.lambda == report.barriers.front().lambda) list.push_back(&b);
+  return list;
+}
+
+/// Of a state where the barriers are; nothing where no barrier tells it.
+std::optional<double> energy_of(const std::vector<const Barrier*>& barriers, int state) {
+  for (const Barrier* b : barriers) {
+    if (b->first == state) return b->saddle.energy - b->from_first;
+    if (b->second == state) return b->saddle.energy - b->from_second;
+  }
+  return std::nullopt;
+}
+
 std::string truth(bool value) { return value ? "true" : "false"; }
 
 }  // namespace
@@ -56,16 +74,22 @@ std::string transitions_graphml(const StudyResult& result) {
       "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
       key("low", "node", "double") + key("high", "node", "double") +
       key("reached", "node", "boolean") + key("garden_of_eden", "node", "boolean") +
-      key("escape", "node", "double") + key("kind", "edge", "string") +
-      key("loading", "edge", "int") + key("lambda", "edge", "double") +
-      key("released", "edge", "double") + key("from_source", "edge", "double") +
-      key("from_target", "edge", "double") + key("lowest_from_source", "edge", "double") +
-      key("lowest_from_target", "edge", "double") + "  <graph edgedefault=\"directed\">\n";
-  for (const StableState& s : report->states)
+      key("energy", "node", "double") + key("escape", "node", "double") +
+      key("kind", "edge", "string") + key("loading", "edge", "int") +
+      key("lambda", "edge", "double") + key("released", "edge", "double") +
+      key("from_source", "edge", "double") + key("from_target", "edge", "double") +
+      key("lowest_from_source", "edge", "double") + key("lowest_from_target", "edge", "double") +
+      "  <graph edgedefault=\"directed\">\n";
+  const std::vector<const Barrier*> barriers = shown_barriers(*report);
+  for (std::size_t i = 0; i < report->states.size(); ++i) {
+    const StableState& s = report->states[i];
+    const auto energy = energy_of(barriers, static_cast<int>(i) + 1);
     text += "    <node id=\"" + s.label + "\">" + data("low", csv_number(s.low)) +
             data("high", csv_number(s.high)) + data("reached", truth(s.reached)) +
-            data("garden_of_eden", truth(s.is_garden_of_eden)) + escape_of(*report, s) +
+            data("garden_of_eden", truth(s.is_garden_of_eden)) +
+            (energy ? data("energy", csv_number(*energy)) : std::string{}) + escape_of(*report, s) +
             "</node>\n";
+  }
   for (const Transition& t : report->transitions)
     if (t.to > 0 && !t.is_alternative)
       text += "    <edge source=\"S" + std::to_string(t.from) + "\" target=\"S" +
@@ -88,23 +112,6 @@ namespace {
 constexpr int digits = 4;
 
 bool is_arrow(const Transition& t) { return t.to > 0 && !t.is_alternative; }
-
-/// Barriers of the first lambda at which they were looked for: a figure has room for one.
-std::vector<const Barrier*> shown_barriers(const TransitionReport& report) {
-  std::vector<const Barrier*> list;
-  for (const Barrier& b : report.barriers)
-    if (b.lambda == report.barriers.front().lambda) list.push_back(&b);
-  return list;
-}
-
-/// Of a state where the barriers are; empty where no barrier tells it.
-std::string energy_of(const std::vector<const Barrier*>& barriers, int state) {
-  for (const Barrier* b : barriers) {
-    if (b->first == state) return rounded(b->saddle.energy - b->from_first, digits);
-    if (b->second == state) return rounded(b->saddle.energy - b->from_second, digits);
-  }
-  return "";
-}
 
 /// What the signs of the figure mean, as far as they occur.
 std::string key_of(const TransitionReport& report) {
@@ -133,10 +140,10 @@ std::string key_of(const TransitionReport& report) {
   return key + "\\l";
 }
 
-std::string node_line(const StableState& s, const std::string& energy) {
+std::string node_line(const StableState& s, std::optional<double> energy) {
   return "  \"" + s.label + "\" [label=\"" + s.label + "\\n" + rounded(s.low, digits) + " .. " +
-         rounded(s.high, digits) + (energy.empty() ? "" : "\\nE = " + energy) + "\"" +
-         (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
+         rounded(s.high, digits) + (energy ? "\\nE = " + rounded(*energy, digits) : std::string{}) +
+         "\"" + (s.is_garden_of_eden ? ", style=dashed" : "") + "];\n";
 }
 
 std::string arrow_line(const Transition& t) {
