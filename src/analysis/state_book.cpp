@@ -72,8 +72,8 @@ bool StateBook::has_turns() const {
 /// The same as one that the way down came past, but for whole turns and the energy that these release: so it goes on
 /// for ever.
 bool StateBook::is_turned(const std::vector<RestState>& met, const RestState& state) const {
-  /// States without stiffness are known to the root of what residuals are solved to.
-  constexpr double near = 1e-4;
+  /// States without stiffness are known to the root of what residuals are solved to, with room for soft ones.
+  constexpr double near = 1e-2;
   if (met.empty() || !turns_take_work(landscape_, state.x)) return false;
   return std::any_of(met.begin(), met.end(), [&](const RestState& before) {
     if (!(before.energy > state.energy) || are_same(before.energy, state.energy)) return false;
@@ -94,8 +94,16 @@ std::optional<RestState> StateBook::without_stiffness(const Vector& x) const {
   return RestState{at->x, at->piece, landscape_.energy(x), 0, k[0], false};
 }
 
-WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vector& x) {
-  constexpr std::size_t most_met = 4;
+const WaysDown* StateBook::left_before(const RestState& state) const {
+  for (const auto& [before, ways] : left_)
+    if (before.index == state.index && are_same(before.energy, state.energy) &&
+        landscape_.same(before.x, state.x))
+      return &ways;
+  return nullptr;
+}
+
+WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, std::size_t most,
+                                   const Vector& x) {
   WaysDown ways;
   Descent down = descend(landscape_, x);
   const bool rests = down.end == Descent::End::rest;
@@ -112,16 +120,20 @@ WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vect
     ways.minima.push_back(add(down.state));
   else if (is_turned(met, down.state))
     ways.away = true;
-  else if (met.size() < most_met) {
+  else if (const WaysDown* known = left_before(down.state))
+    return *known;
+  else if (met.size() < most) {
     std::vector<RestState> further = met;
     further.push_back(down.state);
-    leave(further, rests, ways);
+    leave(further, most, rests, ways);
+    if (down.state.is_clear && !ways.lost) left_.emplace_back(down.state, ways);
   } else
     ways.lost = true;
   return ways;
 }
 
-void StateBook::leave(const std::vector<RestState>& met, bool rests, WaysDown& ways) {
+void StateBook::leave(const std::vector<RestState>& met, std::size_t most, bool rests,
+                      WaysDown& ways) {
   const RestState& state = met.back();
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
@@ -139,7 +151,7 @@ void StateBook::leave(const std::vector<RestState>& met, bool rests, WaysDown& w
       }
       if (!x) continue;
       is_left = true;
-      const WaysDown further = ways_down_past(met, *x);
+      const WaysDown further = ways_down_past(met, most, *x);
       ways.away |= further.away;
       ways.lost |= further.lost;
       for (const std::size_t m : further.minima)
@@ -156,7 +168,7 @@ void StateBook::leave(const std::vector<RestState>& met, bool rests, WaysDown& w
 const WaysDown& StateBook::ways_from(std::size_t saddle) {
   if (!ways_[saddle]) {
     WaysDown ways;
-    leave({states_[saddle]}, true, ways);
+    leave({states_[saddle]}, most_left + 1, true, ways);
     ways_[saddle] = std::move(ways);
   }
   return *ways_[saddle];
