@@ -188,7 +188,7 @@ TEST_F(Repetition, WantsTemplatesAndTheirNamesToExist) {
 TEST_F(Repetition, WantsNamesGivenToTemplatesToStandInThem) {
   EXPECT_THAT(
       messages(replaced(arms, "side = \"left\", k = 1 }", "side = \"left\", k = 1, kk = 2 }")),
-      ElementsAre("case.toml:3:47: template.leg.with.kk: stands nowhere in the template, need a "
+      ElementsAre("case.toml:3:43: template.leg.with.kk: stands nowhere in the template, need a "
                   "formula or braces that name it"));
   const std::string without = replaced(arms, "with = { angle = 0, side = \"left\", k = 1 }\n", "");
   EXPECT_THAT(
