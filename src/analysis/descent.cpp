@@ -97,9 +97,6 @@ class Walk {
 
   Descent down() {
     constexpr int most = 4000;
-    /// On a ridge a motion along it doubles with every step: from rounding to where it shows takes half of these.
-    constexpr int most_idle = 60;
-    int idle = 0;
     double energy = landscape_.energy(result_.x);
     for (int k = 0; k < most && std::isfinite(energy); ++k) {
       if (is_away(landscape_, result_.x, from_)) {
@@ -117,9 +114,8 @@ class Walk {
           result_.state.energy <= energy + rounding(energy))
         return result_;
       if (!advance(*at, step, energy)) return rests();
-      const bool stays = before - energy <= rounding(energy) && step.norm() < nearly_there;
-      idle = stays ? idle + 1 : 0;
-      if (stays && (is_in_a_pit || idle >= most_idle)) return rests();
+      if (is_in_a_pit && before - energy <= rounding(energy) && step.norm() < nearly_there)
+        return rests();
     }
     return result_;
   }

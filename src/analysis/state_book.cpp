@@ -72,8 +72,8 @@ bool StateBook::has_turns() const {
 /// The same as one that the way down came past, but for whole turns and the energy that these release: so it goes on
 /// for ever.
 bool StateBook::is_turned(const std::vector<RestState>& met, const RestState& state) const {
-  /// States without stiffness are known to the root of what residuals are solved to, with room for soft ones.
-  constexpr double near = 1e-2;
+  /// States without stiffness are known to the root of what residuals are solved to.
+  constexpr double near = 1e-4;
   if (met.empty() || !turns_take_work(landscape_, state.x)) return false;
   return std::any_of(met.begin(), met.end(), [&](const RestState& before) {
     if (!(before.energy > state.energy) || are_same(before.energy, state.energy)) return false;
@@ -84,34 +84,10 @@ bool StateBook::is_turned(const std::vector<RestState>& met, const RestState& st
   });
 }
 
-std::optional<RestState> StateBook::without_stiffness(const Vector& x) const {
-  constexpr double soft = 1e-3, small = 1e-6;  // of the stiffest mode, or of one unit
-  const auto at = landscape_.ground(x);
-  if (!at || at->hessian.size() == 0) return std::nullopt;
-  const Vector k = symmetric_eigenvalues(at->hessian);
-  const double unit = std::max(1.0, k.cwiseAbs().maxCoeff());
-  if (std::abs(k[0]) > soft * unit || at->slope.norm() > small * unit) return std::nullopt;
-  return RestState{at->x, at->piece, landscape_.energy(x), 0, k[0], false};
-}
-
-const WaysDown* StateBook::left_before(const RestState& state) const {
-  for (const auto& [before, ways] : left_)
-    if (before.index == state.index && are_same(before.energy, state.energy) &&
-        landscape_.same(before.x, state.x))
-      return &ways;
-  return nullptr;
-}
-
-WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, std::size_t most,
-                                   const Vector& x) {
+WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vector& x) {
+  constexpr std::size_t most_met = 4;
   WaysDown ways;
-  Descent down = descend(landscape_, x);
-  const bool rests = down.end == Descent::End::rest;
-  if (down.end == Descent::End::lost)
-    if (auto state = without_stiffness(down.x)) {
-      down.end = Descent::End::rest;
-      down.state = std::move(*state);
-    }
+  const Descent down = descend(landscape_, x);
   if (down.end == Descent::End::runs_away)
     ways.away = true;
   else if (down.end == Descent::End::lost)
@@ -120,20 +96,16 @@ WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, std::size_
     ways.minima.push_back(add(down.state));
   else if (is_turned(met, down.state))
     ways.away = true;
-  else if (const WaysDown* known = left_before(down.state))
-    return *known;
-  else if (met.size() < most) {
+  else if (met.size() < most_met) {
     std::vector<RestState> further = met;
     further.push_back(down.state);
-    leave(further, most, rests, ways);
-    if (down.state.is_clear && !ways.lost) left_.emplace_back(down.state, ways);
+    leave(further, ways);
   } else
     ways.lost = true;
   return ways;
 }
 
-void StateBook::leave(const std::vector<RestState>& met, std::size_t most, bool rests,
-                      WaysDown& ways) {
+void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
   const RestState& state = met.back();
   const auto at = landscape_.ground_on(state.x, state.piece);
   if (!at || at->hessian.size() == 0) return;
@@ -151,7 +123,7 @@ void StateBook::leave(const std::vector<RestState>& met, std::size_t most, bool 
       }
       if (!x) continue;
       is_left = true;
-      const WaysDown further = ways_down_past(met, most, *x);
+      const WaysDown further = ways_down_past(met, *x);
       ways.away |= further.away;
       ways.lost |= further.lost;
       for (const std::size_t m : further.minima)
@@ -159,16 +131,13 @@ void StateBook::leave(const std::vector<RestState>& met, std::size_t most, bool 
           ways.minima.push_back(m);
     }
   // A state that is flat to second order and nowhere left is a minimum all the same.
-  if (!is_left && !rests)
-    ways.lost = true;
-  else if (!is_left && state.index == 0)
-    ways.minima.push_back(add(state));
+  if (!is_left && state.index == 0) ways.minima.push_back(add(state));
 }
 
 const WaysDown& StateBook::ways_from(std::size_t saddle) {
   if (!ways_[saddle]) {
     WaysDown ways;
-    leave({states_[saddle]}, most_left + 1, true, ways);
+    leave({states_[saddle]}, ways);
     ways_[saddle] = std::move(ways);
   }
   return *ways_[saddle];

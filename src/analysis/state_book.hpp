@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "descent.hpp"
 
@@ -49,7 +48,7 @@ class StateBook {
   /// A minimum was left alone because it lies beyond all bounds.
   bool met_bounds() const { return met_bounds_; }
   /// The minima below a state that is not at rest; saddles that are met head on are left both ways.
-  WaysDown ways_down(const Vector& x) { return ways_down_past({}, most_left, x); }
+  WaysDown ways_down(const Vector& x) { return ways_down_past({}, x); }
   /// The minima beside a saddle, both ways along its unstable modes.
   const WaysDown& ways_from(std::size_t saddle);
   /// Looks for saddles and the minima behind them uphill from one minimum.
@@ -72,19 +71,10 @@ class StateBook {
   /// Around all known states, twice as wide, and at least a size of the mechanism or a turn.
   Box box_of_states() const;
   void search_box(const StateSearch& options);
-  /// So many states that are no minima are left on one way down.
-  static constexpr std::size_t most_left = 3;
-  /// @param met   states of rest that the way down has come past, which are no minima
-  /// @param most  of them
-  WaysDown ways_down_past(const std::vector<RestState>& met, std::size_t most, const Vector& x);
-  /// What was found below a saddle that another way down met head on.
-  const WaysDown* left_before(const RestState& state) const;
-  /// Where the energy falls no further and no state of rest was found: the place, if it has next to no stiffness, as
-  /// beside a limit point that has just been passed.
-  std::optional<RestState> without_stiffness(const Vector& x) const;
-  /// @param met    the state that is left is the last one
-  /// @param rests  it is at rest: a minimum, where it is left to no side
-  void leave(const std::vector<RestState>& met, std::size_t most, bool rests, WaysDown& ways);
+  /// @param met  states of rest that the way down has come past, which are no minima
+  WaysDown ways_down_past(const std::vector<RestState>& met, const Vector& x);
+  /// @param met  the state that is left is the last one
+  void leave(const std::vector<RestState>& met, WaysDown& ways);
   bool is_turned(const std::vector<RestState>& met, const RestState& state) const;
   /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it by
   /// whole turns.
@@ -95,8 +85,7 @@ class StateBook {
   std::vector<std::optional<WaysDown>> ways_{};  ///< per state
   std::vector<bool> climbed_{};                  ///< minima from which uphill ways have been taken
   std::vector<std::size_t> first_of_turns_{};    ///< per state
-  std::vector<std::pair<RestState, WaysDown>> left_{};  ///< saddles met head on, as a whole
-  std::optional<bool> turns_take_work_{};               ///< found out with the first state
+  std::optional<bool> turns_take_work_{};        ///< found out with the first state
   bool met_bounds_ = false;
 };
 
