@@ -26,10 +26,10 @@ std::string_view bare(std::string_view text) {
 std::size_t numeral_length(std::string_view text) {
   std::size_t at = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
   const std::size_t first = at;
-  bool digits = false;
+  bool has_digits = false;
   for (; at < text.size() && (is_digit(text[at]) || text[at] == '.'); ++at)
-    digits |= is_digit(text[at]);
-  if (!digits || at == first) return 0;
+    has_digits |= is_digit(text[at]);
+  if (!has_digits || at == first) return 0;
   std::size_t power = at;
   if (power < text.size() && (text[power] == 'e' || text[power] == 'E')) {
     ++power;
