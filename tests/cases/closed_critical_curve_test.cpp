@@ -43,11 +43,13 @@ TEST_F(ZeemansCurve, IsDrawnAtTheValuesOfBothParameters) {
   for (const analysis::Sample& row : result.branches.front().samples) {
     const auto scene = scenes.scene_of(row);
     ASSERT_TRUE(scene);
-    const auto hand = std::find_if(scene->names.begin(), scene->names.end(),
-                                   [](const auto& point) { return point.name == "hand"; });
-    ASSERT_NE(hand, scene->names.end());
-    EXPECT_NEAR(scene->points[hand->at][0], value(row, "c"), 1e-12);
-    EXPECT_NEAR(scene->points[hand->at][1], value(row, "lambda"), 1e-12);
+    const auto string =
+        std::find_if(scene->springs.begin(), scene->springs.end(),
+                     [](const drawing::SpringPart& s) { return s.name == "hand-string"; });
+    ASSERT_NE(string, scene->springs.end());
+    const auto& hand = scene->points[string->from];
+    EXPECT_NEAR(hand[0], value(row, "c"), 1e-12);
+    EXPECT_NEAR(hand[1], value(row, "lambda"), 1e-12);
   }
 }
 
