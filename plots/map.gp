@@ -52,7 +52,9 @@ set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.2
 set label 1 figure_title at screen 0.5, screen 1 - 24 * scale / figure_height center @figure_title_mode \
     font title_font textcolor rgb ink
 set cblabel value_title @value_title_mode textcolor rgb ink offset 1.5, 0
-do for [i = 1:words(levels)] { set cbtics add (word(levels, i) real(word(levels, i))) }
+do for [i = 1:words(levels)] {
+  if (i == 1) { set cbtics (word(levels, i) real(word(levels, i))) } else { set cbtics add (word(levels, i) real(word(levels, i))) }
+}
 
 figure_terminal = terminal_of(figure_format)
 set terminal @figure_terminal

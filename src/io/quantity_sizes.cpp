@@ -19,24 +19,46 @@ Unit unit_of(const StudyResult& result, std::size_t column) {
   return unit == Unit::lambda ? result.lambda_unit : unit;
 }
 
-/// The largest size in every column.
-void take(const std::vector<double>& values, std::vector<double>& largest) {
-  for (std::size_t i = 0; i < std::min(values.size(), largest.size()); ++i)
-    if (std::isfinite(values[i])) largest[i] = std::max(largest[i], std::abs(values[i]));
+/// Not more rows than these are asked: evenly spaced ones.
+constexpr std::size_t most_rows = 2000;
+
+/// All rows of a run one after the other.
+std::vector<const std::vector<double>*> rows_of(const StudyResult& result) {
+  std::vector<const std::vector<double>*> rows;
+  for (const analysis::Branch& branch : result.branches)
+    for (const analysis::Sample& row : branch.samples) rows.push_back(&row.values);
+  if (result.equilibria)
+    for (const analysis::Equilibrium& at : result.equilibria->list)
+      rows.push_back(&at.sample.values);
+  return rows;
+}
+
+/// The size that three quarters of the rows do not exceed, of a few rows the largest: at a singular posture stiffness is
+/// as large as rounding lets it be, and says nothing of the others.
+double usual_size(const std::vector<const std::vector<double>*>& rows, std::size_t column) {
+  constexpr double part = 0.75;
+  const std::size_t stride = (rows.size() + most_rows - 1) / most_rows;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < rows.size(); i += stride)
+    if (column < rows[i]->size() && std::isfinite((*rows[i])[column]))
+      sizes.push_back(std::abs((*rows[i])[column]));
+  if (sizes.empty()) return 0;
+  const auto last = static_cast<double>(sizes.size() - 1);
+  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(std::ceil(part * last));
+  std::nth_element(sizes.begin(), at, sizes.end());
+  return *at;
 }
 
 }  // namespace
 
 std::vector<double> quantity_sizes(const StudyResult& result) {
-  std::vector<double> largest(result.quantities.size());
-  for (const analysis::Branch& branch : result.branches)
-    for (const analysis::Sample& row : branch.samples) take(row.values, largest);
-  if (result.equilibria)
-    for (const analysis::Equilibrium& at : result.equilibria->list) take(at.sample.values, largest);
+  const auto rows = rows_of(result);
+  std::vector<double> usual(result.quantities.size());
+  for (std::size_t i = 0; i < usual.size(); ++i) usual[i] = usual_size(rows, i);
   UnitSizes sizes;
-  for (std::size_t i = 0; i < largest.size(); ++i) {
+  for (std::size_t i = 0; i < usual.size(); ++i) {
     double& size = sizes[unit_of(result, i)];
-    size = std::max(size, largest[i]);
+    size = std::max(size, usual[i]);
   }
   const auto at_least = [&sizes](Unit unit, double size) {
     sizes[unit] = std::max(sizes[unit], size);
@@ -48,9 +70,9 @@ std::vector<double> quantity_sizes(const StudyResult& result) {
   at_least(Unit::moment, moment);
   at_least(Unit::energy, moment);
   // Pure numbers have nothing in common: each column stands for itself.
-  for (std::size_t i = 0; i < largest.size(); ++i)
-    if (unit_of(result, i) != Unit::none) largest[i] = sizes[unit_of(result, i)];
-  return largest;
+  for (std::size_t i = 0; i < usual.size(); ++i)
+    if (unit_of(result, i) != Unit::none) usual[i] = sizes[unit_of(result, i)];
+  return usual;
 }
 
 double shown_in(const std::vector<double>& sizes, std::size_t column, double value) {

@@ -7,9 +7,9 @@
 
 namespace springfold::io {
 
-/// Per quantity what its rounding is measured by: the largest value of its unit in the run (of a pure number: its own),
-/// and at least that of what it is made of (a moment: force times length; an angle: 1 rad). Against it, shown_against
-/// tells what is zero.
+/// Per quantity what its rounding is measured by: the size that the values of its unit (of a pure number: its own) usually
+/// have in the run, without the largest quarter of the rows, which may be singular; and at least that of what it is made
+/// of (a moment: force times length; an angle: 1 rad). Against it, shown_against tells what is zero.
 std::vector<double> quantity_sizes(const analysis::StudyResult& result);
 
 /// The same for a result whose sizes are known; the value itself where there are none.

@@ -37,7 +37,7 @@ elements = [
 )toml";
 
 /// From (1, 1) to the point, taut where it is longer than 1.
-const std::string as_spring = R"toml(
+const std::string as_line_spring = R"toml(
 [[spring]]
 name = "cable"
 from_at = [1, 1]
@@ -55,7 +55,7 @@ elements = [
 ]
 )toml";
 
-const std::string studies = R"toml(
+const std::string two_studies = R"toml(
 [[study]]
 name = "way"
 kind = "control"
@@ -81,7 +81,7 @@ std::pair<double, double> commands_at(double x, double y) {
 }
 
 TEST(CommandedCables, AreHeldAsTheirForceAsks) {
-  const StudyResult way = run(legs + as_spring + studies).of("way");
+  const StudyResult way = run(legs + as_line_spring + two_studies).of("way");
   int targets = 0;
   for (std::size_t row = 0; row < way.branches[0].samples.size(); ++row) {
     const auto [first, second] = commands_at(value(way, row, "p.x"), value(way, row, "p.y"));
@@ -93,7 +93,7 @@ TEST(CommandedCables, AreHeldAsTheirForceAsks) {
 }
 
 TEST(CommandedCables, GoSlackWhereTheirLengthIsTheFreeOne) {
-  const StudyResult way = run(legs + as_spring + studies).of("way");
+  const StudyResult way = run(legs + as_line_spring + two_studies).of("way");
   const auto& events = way.branches[0].events;
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, EventKind::switching);
@@ -106,7 +106,8 @@ TEST(CommandedCables, GoSlackWhereTheirLengthIsTheFreeOne) {
 }
 
 TEST(CommandedCables, GiveTheSameNumbersAsTheChainThatTheyStandFor) {
-  const auto spring = run(legs + as_spring + studies), chain = run(legs + as_chain + studies);
+  const auto spring = run(legs + as_line_spring + two_studies),
+             chain = run(legs + as_chain + two_studies);
   for (const char* study : {"way", "map"}) {
     const StudyResult a = spring.of(study), b = chain.of(study);
     ASSERT_EQ(a.branches[0].samples.size(), b.branches[0].samples.size());
@@ -124,7 +125,7 @@ TEST(CommandedCables, GiveTheSameNumbersAsTheChainThatTheyStandFor) {
 }
 
 TEST(CommandedCables, HaveColumnsOfTheirLengthAndForce) {
-  const StudyResult way = run(legs + as_spring + studies).of("way");
+  const StudyResult way = run(legs + as_line_spring + two_studies).of("way");
   for (std::size_t row = 0; row < way.branches[0].samples.size(); ++row) {
     const double l = std::hypot(1 - value(way, row, "p.x"), 1 - value(way, row, "p.y"));
     EXPECT_NEAR(value(way, row, "cable.length"), l, 1e-14);

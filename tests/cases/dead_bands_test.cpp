@@ -12,29 +12,29 @@ using analysis::Branch;
 using analysis::EventKind;
 using analysis::StudyResult;
 
-const std::string head = "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n";
-const std::string press =
+const std::string top_body = "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n";
+const std::string press_study =
     "[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\n"
     "until = { lambda = [-0.5, 2.5], mast.foot = [-1, 1] }\nbranches = { depth = 1 }\n";
 
 /// A bar of length 1 on a torsion spring of stiffness 1 with backlash.
 StudyResult with_backlash(const std::string& gap) {
-  return run(head +
+  return run(top_body +
              "[[chain]]\nname = \"mast\"\nelements = [ { joint = \"revolute\", axis = \"z\", name "
              "= \"foot\", role = \"preloaded\", spring = { law = \"gap\", stiffness = 1, low = -" +
-             gap + ", high = " + gap + " } }, { rigid = [0, 1] } ]\n" + press)
+             gap + ", high = " + gap + " } }, { rigid = [0, 1] } ]\n" + press_study)
       .of("press");
 }
 
 /// Free to the left; to the right a spring of stiffness 1, on a second chain.
 StudyResult held_on_one_side() {
-  return run(head + R"([[chain]]
+  return run(top_body + R"([[chain]]
 name = "mast"
 elements = [ { joint = "revolute", axis = "z", name = "foot" }, { rigid = [0, 1] } ]
 [[chain]]
 name = "guide"
 elements = [ { joint = "revolute", axis = "z", name = "foot", role = "preloaded", spring = { law = "one_sided", stiffness = 1, from = 0, side = "below" } }, { joint = "prismatic", axis = "y", name = "slide", initial = 1 } ]
-)" + press)
+)" + press_study)
       .of("press");
 }
 

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 
 /// A roof of 30 degrees between fixed nodes at -w and w; its largest pressure for bars and a half span of 1 is
 /// 0.0638559806.
-std::string roof(const std::string& nodes, const std::string& loads) {
+std::string roof_between(const std::string& nodes, const std::string& loads) {
   return "[parameters]\nw = 1\n" + nodes + R"toml(
 [[node]]
 name = "top"
@@ -40,7 +40,7 @@ TEST(PressureOfAStudy, ActsBetweenFixedNodesInWhateverOrderTheyAre) {
   const std::string load =
       R"(loads = [{ shape = "area", of = ["left", "right", "top"], pressure = -1, scale = "lambda" }])";
   for (const std::string& nodes : {std::string{left} + right, std::string{right} + left})
-    EXPECT_THAT(lambdas(run(roof(nodes, load)).of("press"), EventKind::limit_point),
+    EXPECT_THAT(lambdas(run(roof_between(nodes, load)).of("press"), EventKind::limit_point),
                 ElementsAre(DoubleNear(0.0638559806, 1e-10)));
 }
 
@@ -56,8 +56,8 @@ of = ["left", "right", "top"]
 pressure = -1
 scale = "lambda"
 )";
-  const Ran a = run(roof(std::string{right} + left, own));
-  const Ran b = run(roof(std::string{right} + left, of_all));
+  const Ran a = run(roof_between(std::string{right} + left, own));
+  const Ran b = run(roof_between(std::string{right} + left, of_all));
   for (const std::size_t i : {0U, 1U})
     EXPECT_EQ(lambdas(a.results.at(i), EventKind::limit_point),
               lambdas(b.results.at(i), EventKind::limit_point));
