@@ -384,7 +384,10 @@ Stop stop_of(const Curve& curve) {
     return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
-  if (!curve.stop_detail.empty()) stop.reason += ": " + curve.stop_detail;
+  const bool is_refused =
+      curve.stop == StopReason::bad_start;  // by a limit: what it says is all there is to say
+  if (!curve.stop_detail.empty())
+    stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
   stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
   return stop;
 }
