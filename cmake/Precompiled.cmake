@@ -6,10 +6,9 @@ if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(SPRINGFOLD_PRECOMPILED_HEADERS OFF)
 endif()
 
-# Tests, readers and writers do little arithmetic themselves: the optimiser would cost minutes. Clang's sanitizers do without
-# it in readers and writers; not in tests, whose copies of Eigen's templates the linker takes for all.
+# Tests, readers and writers do little arithmetic themselves: the optimiser would cost minutes. (Without any of it the
+# linker would take their slow copies of Eigen's templates for all.)
 set(springfold_plain_options $<$<CONFIG:Release>:-O1>)
-set(springfold_text_options $<$<AND:$<CONFIG:Debug>,$<CXX_COMPILER_ID:Clang>>:-O0>)
 set(springfold_arithmetic_headers
     <Eigen/Core> <Eigen/LU>
     <algorithm> <array> <cassert> <cmath> <functional> <limits> <map> <memory> <numbers> <optional> <set> <span> <string>
@@ -31,9 +30,6 @@ endif()
 function(springfold_precompile target kind)
   if(NOT kind STREQUAL "arithmetic")
     target_compile_options(${target} PRIVATE ${springfold_plain_options})
-  endif()
-  if(kind STREQUAL "text")
-    target_compile_options(${target} PRIVATE ${springfold_text_options})
   endif()
   if(NOT SPRINGFOLD_PRECOMPILED_HEADERS)
     return()
