@@ -38,12 +38,10 @@ double Evaluator::load_rate() const {
 /// What the drive adds to the constant load, along the direction.
 double Evaluator::force(const continuation::CurvePoint& point) const {
   if (control_ == ControlMode::load) return point.lambda * load_rate();
-  statics::Workspace work;
-  Vector r;
+  problem_.put_inputs(point.lambda, trial_.inputs);
   equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
-                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
-                       r);
-  return conjugate_.dot(r.segment(t_, d_));
+                       problem_.local(point.x, point.lambda), trial_.inputs, trial_.work, trial_.r);
+  return conjugate_.dot(trial_.r.segment(t_, d_));
 }
 
 void Evaluator::put_state(const continuation::CurvePoint& point, const Turns* turns,
@@ -238,20 +236,28 @@ std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quan
 }
 
 RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
+  const continuation::CurvePoint& known = force_rate_.point;
+  const bool is_known = known.x.size() > 0 && known.lambda == point.lambda &&
+                        known.tangent.dlambda == point.tangent.dlambda &&
+                        known.piece == point.piece && known.x == point.x &&
+                        known.tangent.dx == point.tangent.dx;
+  if (!is_known) force_rate_ = {point, computed_force_rate(point)};
+  return force_rate_.rate;
+}
+
+RoundedRate Evaluator::computed_force_rate(const continuation::CurvePoint& point) const {
   const double dlambda = point.tangent.dlambda;
   if (control_ == ControlMode::load) return {dlambda * load_rate(), 0};
   double rate = 0, size = 0;
   if (stages_) {
     rate = force_rate_in_stages(point, size);
   } else {
-    statics::Workspace work;
-    Vector r;
-    Matrix A;
+    problem_.put_inputs(point.lambda, trial_.inputs);
     if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
-                            problem_.local(point.x, point.lambda), problem_.inputs(point.lambda),
-                            work, r, A))
+                            problem_.local(point.x, point.lambda), trial_.inputs, trial_.work,
+                            trial_.r, trial_.A))
       return {undefined, 0};
-    const Matrix rows = A.middleRows(t_, d_);
+    const auto rows = trial_.A.middleRows(t_, d_);
     rate = conjugate_.dot(rows * problem_.local_rate(point.x, point.tangent.dx, dlambda));
     size = rows.norm();
   }

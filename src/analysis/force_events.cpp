@@ -29,20 +29,25 @@ bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test)
 }  // namespace
 
 continuation::Event dead_load_event(const Evaluator& evaluator) {
-  // The same factors all along the curve, so that the determinant is smooth; they keep it within the range of numbers.
-  const auto factors = std::make_shared<Vector>();
+  struct Kept {
+    // The same all along the curve, so that the determinant is smooth; they keep it within the range of numbers.
+    Vector factors{};
+    statics::Workspace work{};
+    Vector z{}, r{};
+    Matrix A{};
+    Lu lu{};
+  };
   const auto value = [&problem = evaluator.problem(),
-                      factors](const continuation::CurvePoint& point) {
-    statics::Workspace work;
-    Vector z, r;
-    Matrix A;
+                      kept = std::make_shared<Kept>()](const continuation::CurvePoint& point) {
+    auto& [factors, work, z, r, A, lu] = *kept;
     const statics::System& system = problem.turned_to_pose(point.x, point.lambda, z);
     if (!equilibrium_matrix(system, point.piece, z, problem.inputs(point.lambda), work, r, A))
       return std::numeric_limits<double>::quiet_NaN();
-    if (factors->size() == 0) *factors = equilibrate(A).rows;
+    if (factors.size() == 0) factors = equilibrate(A).rows;
     // Where nothing holds the body, as on cables that are all slack, it is zero all along.
     constexpr double singular = 1e-14;
-    const Lu lu(factors->asDiagonal() * A * factors->asDiagonal());
+    A = factors.asDiagonal() * A * factors.asDiagonal();
+    lu.compute(A);
     return lu.reciprocal_condition() > singular ? lu.determinant() : 0.0;
   };
   return {dead_load_change_name, value, continuation::EventAction::record, dead_load_change};

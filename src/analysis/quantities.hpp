@@ -155,6 +155,7 @@ class Evaluator {
   const Assembled* assemble(const continuation::CurvePoint& point) const;
   const Assembled* assemble_densely(const continuation::CurvePoint& point) const;
   const Assembled* assemble_in_stages(const continuation::CurvePoint& point) const;
+  RoundedRate computed_force_rate(const continuation::CurvePoint& point) const;
   double force_rate_in_stages(const continuation::CurvePoint& point, double& size) const;
   std::vector<Index> closure_ranks_in_stages() const;
   /// What the quantities of a row have in common.
@@ -192,6 +193,19 @@ class Evaluator {
   Vector conjugate_{};           ///< d entries: direction with which the force is conjugate
   mutable Assembled scratch_{};  ///< kept for its memory
   mutable State state_{};        ///< likewise
+  struct Equilibrium {
+    Vector z{}, r{};
+    Matrix A{};
+    statics::Inputs inputs{};
+    statics::Workspace work{};
+  };
+  mutable Equilibrium trial_{};  ///< likewise
+  /// An event's value and its noise are asked for one after the other.
+  struct KnownRate {
+    continuation::CurvePoint point{};
+    RoundedRate rate{};
+  };
+  mutable KnownRate force_rate_{};
 };
 
 }  // namespace springfold::analysis

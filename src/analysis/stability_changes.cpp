@@ -14,6 +14,9 @@ using continuation::Direction;
 using continuation::Hit;
 using continuation::HitKind;
 
+/// Points closer than this, relative to their size, are one.
+constexpr double same_place = 1e-6;
+
 class Watcher {
  public:
   explicit Watcher(const Tracing& tracing)
@@ -76,9 +79,30 @@ class Watcher {
     return point;
   }
 
+  /// Does the count change at the curve's own special points between the two, and nowhere else as far as it shows beside them?
+  bool is_at_hits(const CurvePoint& a, const CurvePoint& b, int from, int to,
+                  const Curve& curve) const {
+    const Direction chord{b.x - a.x, b.lambda - a.lambda};
+    const double square = continuation::metric_product(weights_, chord, chord);
+    for (const Hit& hit : curve.hits) {
+      if (!is_special(hit) || hit.point.piece != a.piece || !(hit.point.s > a.s) ||
+          !(hit.point.s < b.s))
+        continue;
+      const Direction way{hit.point.x - a.x, hit.point.lambda - a.lambda};
+      const double part = continuation::metric_product(weights_, way, chord) / square;
+      const double aside = 0.5 * same_place / std::sqrt(square);
+      if (!(part > aside) || !(part < 1 - aside)) continue;
+      const auto before = point_at(a, b, part - aside), behind = point_at(a, b, part + aside);
+      if (!before || !behind) continue;
+      if (count_at(*before) == from && count_at(*behind) == to) return true;
+    }
+    return false;
+  }
+
   /// All places between two points at which the count goes from one value to the other.
   void search(const CurvePoint& a, const CurvePoint& b, int from, int to, Curve& curve) const {
     constexpr int most_places = 8, halvings = 60;
+    if (is_at_hits(a, b, from, to, curve)) return;
     double begin = 0;
     for (int places = 0; places < most_places && from != to; ++places) {
       double low = begin, high = 1;
@@ -107,7 +131,6 @@ class Watcher {
 
   /// Arc lengths are those of chords here: places are compared, not their s.
   bool is_at(const CurvePoint& a, const CurvePoint& b) const {
-    constexpr double same_place = 1e-6;
     const Direction way{a.x - b.x, a.lambda - b.lambda};
     return std::sqrt(continuation::metric_product(weights_, way, way)) <=
            same_place * std::max({1.0, a.x.lpNorm<Eigen::Infinity>(), std::abs(a.lambda)});
@@ -117,10 +140,12 @@ class Watcher {
   bool is_explained(const Curve& curve, const CurvePoint& point) const {
     if (is_at(point, curve.points.front()) || is_at(point, curve.points.back())) return true;
     return std::any_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
-      const bool special =
-          hit.kind != HitKind::user || hit.tag == force_limit || hit.tag == dead_load_change;
-      return special && is_at(point, hit.point);
+      return is_special(hit) && is_at(point, hit.point);
     });
+  }
+
+  static bool is_special(const Hit& hit) {
+    return hit.kind != HitKind::user || hit.tag == force_limit || hit.tag == dead_load_change;
   }
 
   void add(const CurvePoint& point, int from, int to, Curve& curve) const {

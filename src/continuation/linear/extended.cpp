@@ -17,6 +17,9 @@ constexpr Index jacobi_size = 32;
 /// Steps of inverse iteration for singular vectors.
 constexpr Index most_steps = 16;
 
+/// Singular vectors that are off by so much give their singular value with the square of it as error.
+constexpr double few_digits = poor;
+
 /// All columns of a structured E by a function of columns of dF/dx.
 template <class Columns>
 Matrix by_columns(const ExtendedMatrix& E, const Matrix& X, bool sizes, Columns columns) {
@@ -154,6 +157,21 @@ Borders borders_of(const ExtendedMatrix& E, Index m) {
   const auto decompose = E.rows() <= jacobi_size ? jacobi_svd : divided_svd;
   const Svd svd = decompose(E.dense, SingularVectors::full, SingularVectors::full);
   return {svd.U.rightCols(m), svd.V.rightCols(m)};
+}
+
+Borders weakest_borders(const ExtendedMatrix& E) {
+  if (E.at.structured) return borders_of(E, 1);
+  const Lu lu(E.dense);
+  Matrix u, v = irregular_columns(E.rows(), 1);
+  for (Index step = 0; step < most_steps; ++step) {
+    u = lu.solve_transposed(v).normalized();
+    const Matrix next = lu.solve(u).normalized();
+    if (!u.allFinite() || !next.allFinite()) break;  // exactly singular
+    const double moved = (next - v * (v.transpose() * next)).norm();
+    v = next;
+    if (moved < few_digits) return {u, v};
+  }
+  return borders_of(E, 1);
 }
 
 Vector singular_values(const Matrix& M) {

@@ -48,6 +48,10 @@ std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders
 /// A structured E has them by inverse iteration with bordered matrices.
 Borders borders_of(const ExtendedMatrix& E, Index m);
 
+/// borders_of(E, 1) to some digits, as rates of the smallest singular value need them: by inverse iteration, at a fraction of
+/// the cost.
+Borders weakest_borders(const ExtendedMatrix& E);
+
 /// Of any matrix of entries, in descending order.
 Vector singular_values(const Matrix& M);
 

@@ -36,7 +36,7 @@ double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const Curv
 class WeakestDirection {
  public:
   WeakestDirection(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point)
-      : arc_{arc}, point_{point}, weakest_{borders_of(E, 1)}, here_{seen(E)} {
+      : arc_{arc}, point_{point}, weakest_{weakest_borders(E)}, here_{seen(E)} {
     const Index n = point.x.size();
     v_ = {weakest_.C.col(0).head(n), weakest_.C(n, 0)};
     length_ = std::sqrt(metric_product(arc.walker().weights, v_, v_));

@@ -12,6 +12,7 @@
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/working_memory.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -49,10 +50,23 @@ double clear_value_beyond(const Function& value, double h, double noise) {
   return 0;
 }
 
+using EventValue = WorkingMemory::EventValues::Value;
+
+EventValue value_of(const Event& event, const CurvePoint& point) {
+  return {event.value(point), event.noise ? event.noise(point) : 0};
+}
+
+bool is_same(const CurvePoint& a, const CurvePoint& b) {
+  return a.lambda == b.lambda && a.piece == b.piece && a.tangent.dlambda == b.tangent.dlambda &&
+         a.s == b.s && a.x == b.x && a.tangent.dx == b.tangent.dx;
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
+/// @param known  at `from`, or nullptr
+/// @param end    is filled with what is found at `to`
 bool add_user_event(const Walker& walker, Samples samples, const Event& event,
-                    std::vector<Found>& found) {
+                    const EventValue* known, EventValue& end, std::vector<Found>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
   std::array<double, 3> storage{};
@@ -60,14 +74,15 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
   const std::span values(storage.data(), samples.size());
   double scale = 0, noise = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    values[i] = event.value(*samples[i]);
-    scale = std::max(scale, std::abs(values[i]));
-    if (event.noise) noise = std::max(noise, event.noise(*samples[i]));
+    end = i == 0 && known ? *known : value_of(event, *samples[i]);
+    values[i] = end.value;
+    scale = std::max(scale, std::abs(end.value));
+    noise = std::max(noise, end.noise);
   }
   // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
   noise = std::max(noise, refined_step * scale);
-  for (double* end : {&values.front(), &values.back()})
-    if (std::abs(*end) <= noise) *end = 0;
+  for (double* outer : {&values.front(), &values.back()})
+    if (std::abs(*outer) <= noise) *outer = 0;
   if (!within_reach(values)) return true;
   // At the ends the very values that the neighbouring steps see: a sign must not change in between.
   const auto value = [&](double ds) -> std::optional<double> {
@@ -122,11 +137,17 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   result.flat = singular.flat;
   std::vector<Found> found;
   for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
-  for (const Event& event : events)
-    if (!add_user_event(walker, samples, event, found)) {
-      result.doubt = "event \"" + event.name + "\" could not be located";
+  auto& known = walker.memory->at_end;
+  const bool is_known = known.events == events.data() && known.values.size() == events.size() &&
+                        is_same(known.point, from);
+  std::vector<EventValue> at_end(events.size());
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (!add_user_event(walker, samples, events[i], is_known ? &known.values[i] : nullptr,
+                        at_end[i], found)) {
+      result.doubt = "event \"" + events[i].name + "\" could not be located";
       result.of_caller = true;
     }
+  if (!events.empty()) known = {events.data(), to, std::move(at_end)};
 
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });

@@ -8,33 +8,59 @@
 
 namespace springfold::continuation {
 
-Vector Interpolant::operator()(double t) const {
-  Vector numerator = Vector::Zero(values.rows());
+namespace {
+
+/// @param value_of  of the sample with this number
+/// @param none      zero, as many as there are values
+template <class ValueOf, class Value>
+Value value_at(const Interpolant& p, double t, const ValueOf& value_of, const Value& none) {
+  Value numerator = none;
   double denominator = 0;
-  for (int i = 0; i < samples; ++i) {
+  for (int i = 0; i < Interpolant::samples; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (t == at[k]) return values.col(i);
-    const double weight = barycentric[k] / (t - at[k]);
-    numerator += weight * values.col(i);
+    if (t == p.at[k]) return value_of(i);
+    const double weight = p.barycentric[k] / (t - p.at[k]);
+    numerator += weight * value_of(i);
     denominator += weight;
   }
   return numerator / denominator;
 }
 
-Vector Interpolant::slope(double t) const {
+template <class ValueOf, class Value>
+Value slope_at(const Interpolant& p, double t, const ValueOf& value_of, const Value& none) {
   // At a sample: a neighbour in the last digits is as good.
-  if (std::find(at.begin(), at.end(), t) != at.end())
-    t += one_place * (t > 0.5 * (a + b) ? a - b : b - a);
-  const Vector here = (*this)(t);
-  Vector numerator = Vector::Zero(values.rows());
+  if (std::find(p.at.begin(), p.at.end(), t) != p.at.end())
+    t += one_place * (t > 0.5 * (p.a + p.b) ? p.a - p.b : p.b - p.a);
+  const Value here = value_at(p, t, value_of, none);
+  Value numerator = none;
   double denominator = 0;
-  for (int i = 0; i < samples; ++i) {
+  for (int i = 0; i < Interpolant::samples; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double weight = barycentric[k] / (t - at[k]);
-    numerator += weight / (t - at[k]) * (here - values.col(i));
+    const double weight = p.barycentric[k] / (t - p.at[k]);
+    numerator += weight / (t - p.at[k]) * (here - value_of(i));
     denominator += weight;
   }
   return numerator / denominator;
+}
+
+}  // namespace
+
+Vector Interpolant::operator()(double t) const {
+  const auto column = [&](int i) { return values.col(i); };
+  return value_at(*this, t, column, Vector(Vector::Zero(values.rows())));
+}
+
+Vector Interpolant::slope(double t) const {
+  const auto column = [&](int i) { return values.col(i); };
+  return slope_at(*this, t, column, Vector(Vector::Zero(values.rows())));
+}
+
+double Interpolant::first(double t) const {
+  return value_at(*this, t, [&](int i) { return values(0, i); }, 0.0);
+}
+
+double Interpolant::first_slope(double t) const {
+  return slope_at(*this, t, [&](int i) { return values(0, i); }, 0.0);
 }
 
 std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
@@ -48,8 +74,9 @@ std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>
     if (!value || !value->allFinite()) return std::nullopt;
     if (i == 0) p.values.resize(value->size(), last + 1);
     p.values.col(i) = *value;
-    p.at.push_back(t);
-    p.barycentric.push_back((i % 2 ? -1.0 : 1.0) * (i == 0 || i == last ? 0.5 : 1.0));
+    const auto k = static_cast<std::size_t>(i);
+    p.at[k] = t;
+    p.barycentric[k] = (i % 2 ? -1.0 : 1.0) * (i == 0 || i == last ? 0.5 : 1.0);
   }
   return p;
 }

@@ -5,7 +5,6 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "springfold/core/types.hpp"
 
@@ -16,17 +15,18 @@ namespace springfold::continuation {
 struct Interpolant {
   static constexpr int samples = 10;
   double a = 0, b = 1;
-  std::vector<double> at{};           ///< places of the samples, from b down to a
-  std::vector<double> barycentric{};  ///< weights
-  Matrix values{};                    ///< one column per sample
+  std::array<double, samples> at{};           ///< places of the samples, from b down to a
+  std::array<double, samples> barycentric{};  ///< weights
+  Matrix values{};                            ///< one column per sample
 
   Vector operator()(double t) const;
   Vector slope(double t) const;
   /// Two places half-way between neighbouring samples, where the polynomial is farthest off: one on each side of the middle
   /// and not opposite to each other.
   std::array<double, 2> checks() const;
-  double first(double t) const { return (*this)(t)[0]; }
-  double first_slope(double t) const { return slope(t)[0]; }
+  /// The same for functions with one value, without memory from the heap.
+  double first(double t) const;
+  double first_slope(double t) const;
 };
 
 /// f may fail (nothing) where its point cannot be computed; then there is no interpolant.

@@ -46,6 +46,16 @@ struct WorkingMemory {
     Matrix dg_dx{};
   };
   Switches at_from{}, at_to{};
+  /// The caller's events at the end of the last step, where the next one begins.
+  struct EventValues {
+    struct Value {
+      double value = 0, noise = 0;
+    };
+    const Event* events = nullptr;  ///< which ones
+    CurvePoint point{};
+    std::vector<Value> values{};
+  };
+  EventValues at_end{};
   Vector g{};
 
   bool asked = false;  ///< what follows is the problem's
