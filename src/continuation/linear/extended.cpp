@@ -20,6 +20,9 @@ constexpr Index most_steps = 16;
 /// Singular vectors that are off by so much give their singular value with the square of it as error.
 constexpr double few_digits = poor;
 
+/// Steps up to there cost less than a decomposition.
+constexpr Index most_cheap_steps = 64;
+
 /// All columns of a structured E by a function of columns of dF/dx.
 template <class Columns>
 Matrix by_columns(const ExtendedMatrix& E, const Matrix& X, bool sizes, Columns columns) {
@@ -163,7 +166,7 @@ Borders weakest_borders(const ExtendedMatrix& E) {
   if (E.at.structured) return borders_of(E, 1);
   const Lu lu(E.dense);
   Matrix u, v = irregular_columns(E.rows(), 1);
-  for (Index step = 0; step < most_steps; ++step) {
+  for (Index step = 0; step < most_cheap_steps; ++step) {
     u = lu.solve_transposed(v).normalized();
     const Matrix next = lu.solve(u).normalized();
     if (!u.allFinite() || !next.allFinite()) break;  // exactly singular

@@ -23,17 +23,18 @@ struct Found {
 };
 
 /// The curve's point from its points around it, where none can be computed: at a branch point.
-std::optional<CurvePoint> interpolated_point(const Walker& walker, const CurvePoint& from,
-                                             const CurvePoint& to, double ds) {
+std::optional<CurvePoint> interpolated_point(const WatchedStep& arc, const CurvePoint& to,
+                                             double ds) {
+  const CurvePoint& from = arc.from();
   const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
   const auto curve =
-      interpolated_curve([&](double t) { return point_between(walker, from, to, t); }, a, b);
+      interpolated_curve([&](double t) { return arc.point_once(t); }, a, b);
   if (!curve) return std::nullopt;
   const Vector u = (*curve)(ds);
   CurvePoint point = from;
   point.x = u.head(from.x.size());
   point.lambda = u[from.x.size()];
-  point.tangent = unit_direction(walker, curve->slope(ds));
+  point.tangent = unit_direction(arc.walker(), curve->slope(ds));
   point.negative.reset();
   point.s = from.s + ds;
   return point;
@@ -65,7 +66,7 @@ bool is_same(const CurvePoint& a, const CurvePoint& b) {
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
 /// @param end    is filled with what is found at `to`
-bool add_user_event(const Walker& walker, Samples samples, const Event& event,
+bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
                     const EventValue* known, EventValue& end, std::vector<Found>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
@@ -88,7 +89,7 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
   const auto value = [&](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
     if (ds == h) return values.back();
-    const auto point = point_between(walker, from, to, ds);
+    const auto point = arc.point_once(ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
@@ -104,8 +105,8 @@ bool add_user_event(const Walker& walker, Samples samples, const Event& event,
   bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
     if (zero.touches || !(zero.at > begin)) continue;
-    auto point = point_between(walker, from, to, zero.at);
-    if (!point) point = interpolated_point(walker, from, to, zero.at);
+    auto point = arc.point_once(zero.at);
+    if (!point) point = interpolated_point(arc, to, zero.at);
     // The end is zero itself, and a branch point, next to which there are no points and tangents are rough: see below.
     if (!point && h - zero.at <= one_place) {
       values.back() = 0;
@@ -130,7 +131,8 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
 
   StepEvents result;
-  SingularPoints singular = singular_points(walker, samples);
+  const WatchedStep arc(walker, samples);
+  SingularPoints singular = singular_points(arc, samples);
   result.doubt = singular.doubt;
   result.unexplained = singular.unexplained;
   result.passing = singular.passing;
@@ -142,7 +144,7 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
                         is_same(known.point, from);
   std::vector<EventValue> at_end(events.size());
   for (std::size_t i = 0; i < events.size(); ++i)
-    if (!add_user_event(walker, samples, events[i], is_known ? &known.values[i] : nullptr,
+    if (!add_user_event(arc, samples, events[i], is_known ? &known.values[i] : nullptr,
                         at_end[i], found)) {
       result.doubt = "event \"" + events[i].name + "\" could not be located";
       result.of_caller = true;

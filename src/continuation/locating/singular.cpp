@@ -253,10 +253,10 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 }  // namespace
 
-SingularPoints singular_points(const Walker& walker, Samples samples) {
+SingularPoints singular_points(const WatchedStep& arc, Samples samples) {
   SingularPoints result;
   const CurvePoint& to = *samples.back();
-  const WatchedStep arc(walker, samples);
+  const TraceOptions& options = arc.walker().options;
   WatchedZeros turns = turns_on(arc, samples);
   const WatchedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
@@ -284,7 +284,7 @@ SingularPoints singular_points(const Walker& walker, Samples samples) {
     result.doubt = "rounding does not determine the point at the end of the step";
     return result;
   }
-  if (walker.options.limit_points && walker.options.branch_points)
+  if (options.limit_points && options.branch_points)
     result.doubt = accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
   for (Candidate& candidate : found) {

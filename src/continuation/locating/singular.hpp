@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/step.hpp"
 
@@ -22,7 +23,8 @@ struct SingularPoints {
 /// samples of one step and puts them together: an eigenvalue and the tangent vanish at a limit
 /// point, an eigenvalue alone at a branch point, the tangent with an eigenvalue that does not change
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
-/// @param samples  the step's ends and points between them, in order; all on one piece
-SingularPoints singular_points(const Walker& walker, Samples samples);
+/// @param arc      the step
+/// @param samples  its ends and points between them, in order; all on one piece
+SingularPoints singular_points(const WatchedStep& arc, Samples samples);
 
 }  // namespace springfold::continuation

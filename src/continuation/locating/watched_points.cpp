@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/determined.hpp"
@@ -39,6 +40,29 @@ std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
   StepMeasures measures;
   std::string refusal;
   if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  return point;
+}
+
+bool WatchedStep::model_of_samples() const {
+  return model_.go_through(walker_.weights, from_, Samples(samples_).first(sample_count_));
+}
+
+std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
+  constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
+  const CurvePoint& to = *samples_[sample_count_ - 1];
+  if (model_.empty() && (settled_ || !model_of_samples()))
+    return point_between(walker_, from_, to, ds);
+  CurvePoint expected;
+  model_.point(walker_.weights, from_, ds, expected);
+  std::optional<CurvePoint> point(std::in_place);
+  point->x = expected.x;
+  point->lambda = expected.lambda;
+  point->s = expected.s;
+  StepMeasures measures;
+  std::string refusal;
+  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  if (metric_product(walker_.weights, point->tangent, expected.tangent) < half_a_right_angle)
+    return {};
   return point;
 }
 

@@ -42,6 +42,9 @@ class WatchedStep {
     if (found == points_.end()) found = points_.emplace(ds, find(ds)).first;
     return found->second;
   }
+  /// A point between the ends for whoever asks once, corrected from the model as far as it is known.
+  /// @returns nothing also where the tangent found is not that of the model: another branch's
+  std::optional<CurvePoint> point_once(double ds) const;
   std::optional<double> rate(double ds) const {
     const auto& p = point(ds);
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
@@ -63,6 +66,7 @@ class WatchedStep {
   double length_;
   std::optional<CurvePoint> find(double ds) const;
   std::optional<CurvePoint> corrected(double ds) const;
+  bool model_of_samples() const;
   void settle_model() const;
 
   /// How far corrected points are from the model, and their tangents from its own.
