@@ -241,7 +241,10 @@ RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
                         known.tangent.dlambda == point.tangent.dlambda &&
                         known.piece == point.piece && known.x == point.x &&
                         known.tangent.dx == point.tangent.dx;
-  if (!is_known) force_rate_ = {point, computed_force_rate(point)};
+  if (!is_known) {
+    force_rate_.rate = computed_force_rate(point);
+    force_rate_.point = point;
+  }
   return force_rate_.rate;
 }
 

@@ -142,14 +142,18 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
   auto& known = walker.memory->at_end;
   const bool is_known = known.events == events.data() && known.values.size() == events.size() &&
                         is_same(known.point, from);
-  std::vector<EventValue> at_end(events.size());
+  known.next.resize(events.size());
   for (std::size_t i = 0; i < events.size(); ++i)
     if (!add_user_event(arc, samples, events[i], is_known ? &known.values[i] : nullptr,
-                        at_end[i], found)) {
+                        known.next[i], found)) {
       result.doubt = "event \"" + events[i].name + "\" could not be located";
       result.of_caller = true;
     }
-  if (!events.empty()) known = {events.data(), to, std::move(at_end)};
+  if (!events.empty()) {
+    known.events = events.data();
+    known.point = to;
+    known.values.swap(known.next);
+  }
 
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });

@@ -53,7 +53,7 @@ struct WorkingMemory {
     };
     const Event* events = nullptr;  ///< which ones
     CurvePoint point{};
-    std::vector<Value> values{};
+    std::vector<Value> values{}, next{};  ///< next: of the step that is being looked at
   };
   EventValues at_end{};
   Vector g{};
