@@ -86,11 +86,12 @@ Outcome execute(Mode mode, const fs::path& case_file, const fs::path& out, bool 
   stop_after(0);
   outcome.code = said.code;
   check_texts(said, outcome.broken);
-  if (!is_one_of(said.code, {0, 3, 4, 5, 6, 7, 130})) outcome.broken.push_back("exit code of run");
+  if (!is_one_of(said.code, {0, 3, 4, 5, 6, 7, ended_by_signal}))
+    outcome.broken.push_back("exit code of run");
   if (outcome.accepted && said.code == 3)
     outcome.broken.push_back("run refuses what check accepts");
   if (!outcome.accepted && said.code != checked.code &&
-      said.code != 130)  // stopped before it was read
+      said.code != ended_by_signal)  // before it was read
     outcome.broken.push_back("run accepts what check refuses");
   if (said.code == 3 && fs::exists(out)) outcome.broken.push_back("written with exit code 3");
   const bool wrote = is_one_of(said.code, {0, 4, 5});

@@ -14,6 +14,9 @@ enum class Mode {
   uncapped,  ///< `run` of gentle ones to their end, some with figures
 };
 
+/// Exit code of a program that a signal has ended. Where it comes in the middle of a long step the process ends at once.
+inline constexpr int ended_by_signal = 130;
+
 struct Outcome {
   int code = 0;                       ///< exit code
   bool accepted = false;              ///< `check` has nothing to object to

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -26,8 +27,18 @@ using Clock = std::chrono::steady_clock;
 /// Executions of one process; a call that is broken off repeats them.
 std::uint64_t batch_of(Mode mode) { return mode == Mode::check ? 100 : mode == Mode::run ? 20 : 4; }
 
-/// The program ends at once, and the worker with it, where a signal comes in the middle of a long step.
-constexpr int given_up = 130;
+/// CPU seconds after which a mutant has no end. On a machine that is busy with something else they last longer; what waits
+/// without working has `patience` times as many seconds.
+double limit_of(Mode mode) { return mode == Mode::uncapped ? 300 : 60; }
+constexpr double patience = 10;
+
+/// CPU seconds that a process has taken; 0 once it is gone.
+double cpu_seconds_of(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 const char* name_of(Mode mode) {
   return mode == Mode::check ? "check" : mode == Mode::run ? "run" : "uncapped";
@@ -49,7 +60,8 @@ struct Record {
 struct Board {
   std::uint64_t current = 0,
                 done = 0;  ///< number of the mutant; behind the last one that is finished
-  std::int64_t began = 0;  ///< of `current`, in the clock's ticks
+  std::int64_t began = 0;  ///< of `current`, in the clock's ticks; 0: not yet
+  double cpu_before = 0;   ///< seconds that the process had taken by then
   std::uint64_t accepted = 0, found = 0;
   std::array<std::uint64_t, 256> codes{};
 };
@@ -135,16 +147,14 @@ class Worker {
     if (process_ == 0) return std::nullopt;
     int status = 0;
     if (::waitpid(process_, &status, WNOHANG) == 0) {
-      const Clock::duration age(Clock::now().time_since_epoch().count() - board_->began);
-      const auto limit = std::chrono::seconds(settings_.mode == Mode::uncapped ? 300 : 60);
-      if (board_->began == 0 || age < limit) return std::nullopt;
+      if (board_->began == 0 || !has_no_end()) return std::nullopt;
       ::kill(process_, SIGKILL);
       ::waitpid(process_, &status, 0);
       found("no end");
     } else if (settings_.mode == Mode::run && WIFEXITED(status) &&
-               WEXITSTATUS(status) == given_up) {
+               WEXITSTATUS(status) == ended_by_signal) {
       ++board_->accepted;
-      ++board_->codes[given_up];
+      ++board_->codes[ended_by_signal];
       board_->done = board_->current + 1;
     } else if (!(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {
       found("the process ended with status " + std::to_string(status) + "\n" + text_of_file(log()));
@@ -156,6 +166,13 @@ class Worker {
   }
 
  private:
+  bool has_no_end() const {
+    const double limit = limit_of(settings_.mode);
+    const Clock::duration age(Clock::now().time_since_epoch().count() - board_->began);
+    return cpu_seconds_of(process_) - board_->cpu_before > limit ||
+           age > std::chrono::duration<double>(patience * limit);
+  }
+
   fs::path log() const { return folder_ / "log.txt"; }
 
   /// The mutant at which the process ended is stepped over.
@@ -183,6 +200,7 @@ class Worker {
     std::signal(SIGINT, SIG_IGN);  // but while the program runs, which listens
     for (std::uint64_t i = board_->done; i < last_; ++i) {
       board_->current = i;
+      board_->cpu_before = cpu_seconds_of(::getpid());
       board_->began = Clock::now().time_since_epoch().count();
       if (::ftruncate(file, 0) != 0) std::_Exit(3);
       const Mutant m = mutant(corpus_, settings_.seed, i, strength_of(settings_.mode));

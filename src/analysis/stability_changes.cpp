@@ -139,9 +139,8 @@ class Watcher {
   /// A curve may begin or end at a special point, which then is none of its hits.
   bool is_explained(const Curve& curve, const CurvePoint& point) const {
     if (is_at(point, curve.points.front()) || is_at(point, curve.points.back())) return true;
-    return std::any_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
-      return is_special(hit) && is_at(point, hit.point);
-    });
+    return std::any_of(curve.hits.begin(), curve.hits.end(),
+                       [&](const Hit& hit) { return is_special(hit) && is_at(point, hit.point); });
   }
 
   static bool is_special(const Hit& hit) {

@@ -27,8 +27,7 @@ std::optional<CurvePoint> interpolated_point(const WatchedStep& arc, const Curve
                                              double ds) {
   const CurvePoint& from = arc.from();
   const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
-  const auto curve =
-      interpolated_curve([&](double t) { return arc.point_once(t); }, a, b);
+  const auto curve = interpolated_curve([&](double t) { return arc.point_once(t); }, a, b);
   if (!curve) return std::nullopt;
   const Vector u = (*curve)(ds);
   CurvePoint point = from;

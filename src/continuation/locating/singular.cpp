@@ -284,8 +284,7 @@ SingularPoints singular_points(const WatchedStep& arc, Samples samples) {
     result.doubt = "rounding does not determine the point at the end of the step";
     return result;
   }
-  if (options.limit_points && options.branch_points)
-    result.doubt = accounting(arc, found, to);
+  if (options.limit_points && options.branch_points) result.doubt = accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
   for (Candidate& candidate : found) {
     const double off = candidate.off;

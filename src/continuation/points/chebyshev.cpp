@@ -56,11 +56,13 @@ Vector Interpolant::slope(double t) const {
 }
 
 double Interpolant::first(double t) const {
-  return value_at(*this, t, [&](int i) { return values(0, i); }, 0.0);
+  return value_at(
+      *this, t, [&](int i) { return values(0, i); }, 0.0);
 }
 
 double Interpolant::first_slope(double t) const {
-  return slope_at(*this, t, [&](int i) { return values(0, i); }, 0.0);
+  return slope_at(
+      *this, t, [&](int i) { return values(0, i); }, 0.0);
 }
 
 std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
