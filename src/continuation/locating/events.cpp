@@ -88,7 +88,8 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
   const auto value = [&](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
     if (ds == h) return values.back();
-    const auto point = arc.point_once(ds);
+    auto point = arc.exact_point(ds);
+    if (!point) point = arc.point_once(ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);

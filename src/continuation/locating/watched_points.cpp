@@ -105,6 +105,19 @@ void WatchedStep::settle_model() const {
            is_exact(error_.direction * length_, scale * between_samples);
 }
 
+std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
+  if (!settled_) settle_model();
+  if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
+  std::optional<CurvePoint> point(std::in_place);
+  model_.point(walker_.weights, from_, ds, *point);
+  Vector& F = walker_.memory->F;
+  const bool inside = walker_.problem.residual(point->x, point->lambda, point->piece, F);
+  const double allowed = small_share * walker_.options.newton.residual_tolerance;
+  const bool small = inside && (F.size() == 0 || F.lpNorm<Eigen::Infinity>() <=
+                                                     allowed * std::max(1.0, size_of(*point)));
+  return small ? point : std::nullopt;
+}
+
 std::optional<CurvePoint> WatchedStep::find(double ds) const {
   if (!settled_) settle_model();
   if (model_.empty()) return point_at(walker_, from_, ds);
