@@ -110,12 +110,18 @@ std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  Vector& F = walker_.memory->F;
-  const bool inside = walker_.problem.residual(point->x, point->lambda, point->piece, F);
-  const double allowed = small_share * walker_.options.newton.residual_tolerance;
-  const bool small = inside && (F.size() == 0 || F.lpNorm<Eigen::Infinity>() <=
-                                                     allowed * std::max(1.0, size_of(*point)));
-  return small ? point : std::nullopt;
+  Place* const place = place_with_residual(walker_.problem, *walker_.memory, point->x,
+                                           point->lambda, point->piece);
+  if (!place) return std::nullopt;
+  const double allowed = small_share * walker_.options.newton.residual_tolerance *
+                         std::max(1.0, size_of(*point));
+  if (place->F.size() > 0 && place->F.lpNorm<Eigen::Infinity>() > allowed) return std::nullopt;
+  const Direction expected = point->tangent;
+  if (!tangent_at(*walker_.memory, *place, walker_.weights, from_.tangent, point->tangent))
+    return std::nullopt;
+  if (length_of(walker_, difference(point->tangent, expected)) > told_apart) return std::nullopt;
+  if (walker_.problem.symmetric()) point->negative = place->factors.negative();
+  return point;
 }
 
 std::optional<CurvePoint> WatchedStep::find(double ds) const {

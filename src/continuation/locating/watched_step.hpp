@@ -45,8 +45,7 @@ class WatchedStep {
   /// A point between the ends for whoever asks once, corrected from the model as far as it is known.
   /// @returns nothing also where the tangent found is not that of the model: another branch's
   std::optional<CurvePoint> point_once(double ds) const;
-  /// The model's own point, for values of functions: where the model is exact and satisfies F as corrected points do. Nothing
-  /// is counted there.
+  /// The model's own point, with the tangent there: where the model is exact and satisfies F as corrected points do.
   std::optional<CurvePoint> exact_point(double ds) const;
   std::optional<double> rate(double ds) const {
     if (const auto exact = exact_point(ds)) return exact->tangent.dlambda;
