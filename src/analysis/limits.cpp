@@ -80,7 +80,10 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
                       [&evaluator, definition = *q, value](const continuation::CurvePoint& point) {
                         return evaluator.value(definition, point) - value;
                       },
-                      action});
+                      action,
+                      0,
+                      {},
+                      true});
   };
   if (study.control == ControlMode::pose || study.control == ControlMode::mixed)
     events.push_back({"limit point of the force",

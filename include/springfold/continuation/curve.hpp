@@ -123,6 +123,7 @@ struct Event {
   /// What rounding may do to the value there: values that are no larger are not told from zero. Not given: a few units
   /// in the last place of the values on a step.
   std::function<double(const CurvePoint&)> noise{};
+  bool of_place = false;  ///< the value depends on x and lambda alone: it needs no tangent
 };
 
 }  // namespace springfold::continuation

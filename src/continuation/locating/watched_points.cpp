@@ -105,17 +105,31 @@ void WatchedStep::settle_model() const {
            is_exact(error_.direction * length_, scale * between_samples);
 }
 
+/// Does the model's own point satisfy F as corrected ones do?
+bool WatchedStep::is_on_curve(const CurvePoint& point, const Vector& F) const {
+  const double allowed =
+      small_share * walker_.options.newton.residual_tolerance * std::max(1.0, size_of(point));
+  return F.size() == 0 || F.lpNorm<Eigen::Infinity>() <= allowed;
+}
+
+std::optional<CurvePoint> WatchedStep::exact_place(double ds) const {
+  if (!settled_) settle_model();
+  if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
+  std::optional<CurvePoint> point(std::in_place);
+  model_.point(walker_.weights, from_, ds, *point);
+  Vector& F = walker_.memory->F;
+  const bool inside = walker_.problem.residual(point->x, point->lambda, point->piece, F);
+  return inside && is_on_curve(*point, F) ? point : std::nullopt;
+}
+
 std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
   if (!settled_) settle_model();
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  Place* const place = place_with_residual(walker_.problem, *walker_.memory, point->x,
-                                           point->lambda, point->piece);
-  if (!place) return std::nullopt;
-  const double allowed = small_share * walker_.options.newton.residual_tolerance *
-                         std::max(1.0, size_of(*point));
-  if (place->F.size() > 0 && place->F.lpNorm<Eigen::Infinity>() > allowed) return std::nullopt;
+  Place* const place =
+      place_with_residual(walker_.problem, *walker_.memory, point->x, point->lambda, point->piece);
+  if (!place || !is_on_curve(*point, place->F)) return std::nullopt;
   const Direction expected = point->tangent;
   if (!tangent_at(*walker_.memory, *place, walker_.weights, from_.tangent, point->tangent))
     return std::nullopt;

@@ -47,6 +47,8 @@ class WatchedStep {
   std::optional<CurvePoint> point_once(double ds) const;
   /// The model's own point, with the tangent there: where the model is exact and satisfies F as corrected points do.
   std::optional<CurvePoint> exact_point(double ds) const;
+  /// The same with the model's tangent, and nothing counted.
+  std::optional<CurvePoint> exact_place(double ds) const;
   std::optional<double> rate(double ds) const {
     if (const auto exact = exact_point(ds)) return exact->tangent.dlambda;
     const auto& p = point(ds);
@@ -70,6 +72,7 @@ class WatchedStep {
   std::optional<CurvePoint> find(double ds) const;
   std::optional<CurvePoint> corrected(double ds) const;
   bool model_of_samples() const;
+  bool is_on_curve(const CurvePoint& point, const Vector& F) const;
   void settle_model() const;
 
   /// How far corrected points are from the model, and their tangents from its own.

@@ -162,13 +162,17 @@ Hit Normalised::outside(const Hit& hit) const {
 
 std::vector<Event> Normalised::inside(const std::vector<Event>& events) const {
   std::vector<Event> result = events;
-  for (Event& event : result)
-    event.value = [this, value = std::move(event.value),
-                   there = CurvePoint{}](const CurvePoint& point) mutable {
+  const auto of_point_outside = [this](std::function<double(const CurvePoint&)> value) {
+    return [this, value = std::move(value), there = CurvePoint{}](const CurvePoint& point) mutable {
       there = point;  // into the memory of the last one
       there = outside(std::move(there));
       return value(there);
     };
+  };
+  for (Event& event : result) {
+    event.value = of_point_outside(std::move(event.value));
+    if (event.noise) event.noise = of_point_outside(std::move(event.noise));
+  }
   return result;
 }
 
