@@ -64,8 +64,9 @@ class Barriers {
 
  private:
   void doubt(const std::string& what) {
-    result_.doubts.push_back("at lambda = " + rounded(t_.lambda_scale * frozen_.lambda()) + " " +
-                             what);
+    std::string text = "at lambda = " + rounded(t_.lambda_scale * frozen_.lambda()) + " " + what;
+    if (std::find(result_.doubts.begin(), result_.doubts.end(), text) == result_.doubts.end())
+      result_.doubts.push_back(std::move(text));
   }
 
   /// The stretch of a minimum; 0: none.
@@ -160,11 +161,8 @@ class Barriers {
 
 }  // namespace
 
-void search_all(StateBook& book, const SnapSettings& settings,
-                const std::function<bool(const RestState&)>& is_within,
-                std::vector<std::string>& open) {
-  /// Ten bistable units have 1,024 minima and 5,120 saddles between neighbours; more is a continuum of states.
-  constexpr int most_states = 20'000;
+SearchEnd search_all(StateBook& book, const SnapSettings& settings,
+                     const std::function<bool(const RestState&)>& is_within) {
   const StateSearch options{.starts = settings.transitions->starts,
                             .seed = settings.seed,
                             .modes = std::numeric_limits<int>::max(),
@@ -174,13 +172,7 @@ void search_all(StateBook& book, const SnapSettings& settings,
   book.search(options);
   join_by_strings(book);
   book.climb_from_minima(options);  // from those that only strings met
-  if (std::ssize(book.states()) >= most_states)
-    open.push_back("the search ended at " + std::to_string(most_states) +
-                   " states of rest: there are more");
-  if (book.met_bounds())
-    open.push_back(
-        "states of rest go on beyond 1,000 sizes of the mechanism or 50 turns, where "
-        "the search ended: limits in until give it a range");
+  return {std::ssize(book.states()) >= most_states, book.met_bounds()};
 }
 
 void find_barriers(const Stretches& stretches, const Tracing& tracing, const Scales& scales,

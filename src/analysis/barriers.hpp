@@ -5,13 +5,20 @@
 
 namespace springfold::analysis {
 
+/// Why a search left something out.
+struct SearchEnd {
+  bool is_full = false;      ///< it found `most_states`
+  bool left_bounds = false;  ///< states lie beyond `lengths_away` or `turns_away`
+};
+
+/// Ten bistable units have 1,024 minima and 5,120 saddles between neighbours; more is a continuum of states.
+inline constexpr int most_states = 20'000;
+
 /// All states of rest of one lambda that can be found: uphill from all minima, from random states, and along strings
 /// between minima that nothing else joins. What was searched around before is not searched around again.
 /// @param is_within  the study's range, beyond which nothing is searched around
-/// @param open       why the search was ended, in words, where it was
-void search_all(StateBook& book, const SnapSettings& settings,
-                const std::function<bool(const RestState&)>& is_within,
-                std::vector<std::string>& open);
+SearchEnd search_all(StateBook& book, const SnapSettings& settings,
+                     const std::function<bool(const RestState&)>& is_within);
 
 /// All saddles of a search with one unstable mode, with the stretches whose states are beside them; for each pair of
 /// states the lowest one, and the lowest way over several of them. Doubts go to the result.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "resting.hpp"
 #include "springfold/continuation/newton.hpp"
@@ -17,8 +20,6 @@ constexpr double longest_step = 0.1, longest_part = 0.1;
 constexpr double softest_part = 1e-6;
 /// Newton's method is tried once the steps are so short.
 constexpr double nearly_there = 1e-3;
-/// Sizes of the mechanism, or turns, beyond which a state has run away.
-constexpr double lengths_away = 1e3, turns_away = 50;
 /// Newton's method must not lead away from the state of rest that it polishes.
 constexpr double polishing_reach = 0.05;
 /// An eigenvalue this small is zero: at a fold whose load is known to 1e-13 it is the root of that. Relative to
@@ -113,6 +114,7 @@ class Walk {
       if (is_in_a_pit && step.norm() < nearly_there && rests().end == Descent::End::rest &&
           result_.state.energy <= energy + rounding(energy))
         return result_;
+      if (is_at_an_end(*at, modes, step, energy)) return rests();
       if (!advance(*at, step, energy)) return rests();
       if (is_in_a_pit && before - energy <= rounding(energy) && step.norm() < nearly_there)
         return rests();
@@ -130,6 +132,24 @@ class Walk {
     const double size = y.norm(), longest = reach_of(landscape_, at.x);
     if (size > std::min(reach_, longest)) y *= std::min(reach_, longest) / size;
     return modes.directions * y;
+  }
+
+  /// The step can gain nothing that rounding does not hide, and the state is in no pit. Either a saddle is so near that
+  /// it was met head on: rounding alone would choose the side, and who asked leaves it to both. Or nothing leads on, as
+  /// on a level floor: beside a ridge of any order the gain along what falls grows from step to step.
+  bool is_at_an_end(const Ground& at, const Modes& modes, const Vector& step, double energy) {
+    const auto before = std::exchange(gain_on_ridge_, std::nullopt);
+    if (modes.curvatures[0] > 0 || -at.slope.dot(step) > rounding(energy) ||
+        step.norm() >= nearly_there)
+      return false;
+    const auto state = rest_near(landscape_, at.x);
+    if (state && state->index > 0 && state->is_clear && state->energy <= energy + rounding(energy))
+      return true;
+    double gain = 0;
+    for (Index i = 0; i < modes.slopes.size() && modes.curvatures[i] <= 0; ++i)
+      gain += modes.slopes[i] * modes.slopes[i] / std::max(modes.floor, -modes.curvatures[i]);
+    gain_on_ridge_ = gain;
+    return before && gain <= *before;
   }
 
   /// Shortens the step until the energy falls as it should.
@@ -163,6 +183,7 @@ class Walk {
   const Landscape& landscape_;
   Vector from_;
   double reach_;
+  std::optional<double> gain_on_ridge_{};  ///< of the last step, if that was hidden by rounding
   Descent result_{};
 };
 

@@ -31,7 +31,10 @@ struct Descent {
   RestState state{};  ///< of End::rest
 };
 
-/// A coordinate has left all bounds, as seen from a first state: 1,000 sizes of the mechanism, 50 turns.
+/// Sizes of the mechanism, or turns, beyond which a state has run away.
+inline constexpr int lengths_away = 1000, turns_away = 50;
+
+/// A coordinate has left these bounds, as seen from a first state.
 bool is_away(const Landscape& landscape, const Vector& x, const Vector& from);
 
 /// Goes down from x, so that the energy falls along the whole way and nowhere between two steps lies

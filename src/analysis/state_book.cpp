@@ -22,6 +22,11 @@ bool are_same(double a, double b) {
   return std::abs(a - b) <= same_energy * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
+/// Two states of rest without stiffness at one height: places of one motion that nothing resists, as far as can be seen.
+bool are_on_one_floor(const RestState& a, const RestState& b) {
+  return !a.is_clear && !b.is_clear && are_same(a.energy, b.energy);
+}
+
 /// Loads do work in a whole turn of a coordinate, as much in every state: turned states have other energies and the
 /// same surroundings. (A spring that counts turns has other forces after one: such states are different.)
 bool turns_take_work(const Landscape& landscape, const Vector& x) {
@@ -149,14 +154,15 @@ void StateBook::climb_from_minima(const StateSearch& options) {
 }
 
 bool StateBook::may_climb(std::size_t minimum, const StateSearch& options) {
-  /// Departures to two sides may end a turn apart; each wants its own neighbours.
-  constexpr int most_turns = 4;
-  if (climbed_[minimum] || !(states_[minimum].energy < options.bound)) return false;
-  int turns = 0;
-  for (std::size_t i = 0; i < states_.size(); ++i) turns += climbed_[i] && are_turns(i, minimum);
-  if (turns >= most_turns || (options.is_within && !options.is_within(states_[minimum])))
-    return false;
-  const bool away = is_away(landscape_, states_[minimum].x, states_.front().x);
+  /// Departures to two sides may end a turn apart, or at two places of a floor; each wants its own neighbours.
+  constexpr int most_alike = 4;
+  const RestState& state = states_[minimum];
+  if (climbed_[minimum] || !(state.energy < options.bound)) return false;
+  int alike = 0;
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    alike += climbed_[i] && (are_turns(i, minimum) || are_on_one_floor(states_[i], state));
+  if (alike >= most_alike || (options.is_within && !options.is_within(state))) return false;
+  const bool away = is_away(landscape_, state.x, states_.front().x);
   met_bounds_ |= away;
   return !away;
 }

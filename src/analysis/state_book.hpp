@@ -77,7 +77,7 @@ class StateBook {
   void leave(const std::vector<RestState>& met, WaysDown& ways);
   bool is_turned(const std::vector<RestState>& met, const RestState& state) const;
   /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it by
-  /// whole turns.
+  /// whole turns, or rest on the same floor.
   bool may_climb(std::size_t minimum, const StateSearch& options);
 
   const Landscape& landscape_;

@@ -92,10 +92,9 @@ class Explorer {
       return stretches_.is_within(at.frozen, state);
     };
     std::size_t known = 0;
-    std::vector<std::string> open;
+    SearchEnd end;
     do {
-      open.clear();
-      search_all(at.book, settings_, is_within, open);
+      end = search_all(at.book, settings_, is_within);
       for (const RestState& state : at.book.states())
         if (is_minimum(state) && goes_on()) stretches_.follow_new(at.frozen, state);
       take_known(at);
@@ -103,8 +102,19 @@ class Explorer {
       follow_jumps();
       take_known(at);
     } while (at.book.states().size() > known && goes_on());
-    for (const std::string& why : open)
-      result_.doubts.push_back("at lambda = " + rounded(t_.lambda_scale * lambda) + ": " + why);
+    tell(end, lambda);
+  }
+
+  void tell(const SearchEnd& end, double lambda) {
+    const std::string place = "at lambda = " + rounded(t_.lambda_scale * lambda) + ": ";
+    if (end.is_full)
+      result_.doubts.push_back(place + "the search ended at " + std::to_string(most_states) +
+                               " states of rest: there are more");
+    if (end.left_bounds)
+      result_.doubts.push_back(place + "states of rest go on beyond " +
+                               std::to_string(lengths_away) + " sizes of the mechanism or " +
+                               std::to_string(turns_away) +
+                               " turns, where the search ended: limits in until give it a range");
   }
 
   /// One lambda with all that was found there.
