@@ -26,6 +26,7 @@ constexpr int outline_digits = 4;
 struct Stretch {
   Stability stability = Stability::stable;
   std::size_t from = 0, to = 0;
+  bool is_joined = false;  ///< stable ones and such that are stable only as they are driven
 };
 
 /// @param forward  from the start to the last row, otherwise from it back to the first one
@@ -36,7 +37,7 @@ std::vector<Stretch> stretches_of(const StudyResult& result, const Branch& branc
     if (!stretches.empty() && stretches.back().stability == stability)
       stretches.back().to = to;
     else
-      stretches.push_back({stability, from, to});
+      stretches.push_back({stability, from, to, false});
   };
   if (forward)
     for (std::size_t i = branch.start_row; i < steps.size(); ++i) add(steps[i], i, i + 1);
@@ -94,19 +95,33 @@ std::string state_text(Stability stability, bool is_load) {
   return {};
 }
 
+/// Neighbours that all stand under a driven way count as one stretch: what the study holds comes first.
+std::vector<Stretch> as_driven(const std::vector<Stretch>& stretches) {
+  std::vector<Stretch> joined;
+  for (const Stretch& stretch : stretches)
+    if (!joined.empty() && stands(joined.back().stability, false) &&
+        stands(stretch.stability, false)) {
+      joined.back().to = stretch.to;
+      joined.back().is_joined = true;
+    } else
+      joined.push_back(stretch);
+  return joined;
+}
+
 /// "stable up to LP1 at 0.027 N, snaps there; unstable up to LP2 at 0.01 N; stable again to the end".
 /// @param most  stretches that are told
 std::string way_text(const Case& the_case, const StudyResult& result, const Branch& branch,
                      bool forward, bool is_load, std::size_t most) {
-  const auto stretches = stretches_of(result, branch, forward);
+  auto stretches = stretches_of(result, branch, forward);
+  if (!is_load && stretches.size() > most) stretches = as_driven(stretches);
   std::string text;
   bool was_stable = false;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];
     if (i == most)
-      return text + "; and so on, " + counted(static_cast<int>(stretches.size()), "change");
+      return text + "; and so on, " + counted(static_cast<int>(stretches.size()) - 1, "change");
     const bool is_stable = stretch.stability == Stability::stable;
-    text += (i == 0 ? "" : "; ") + state_text(stretch.stability, is_load) +
+    text += (i == 0 ? "" : "; ") + (stretch.is_joined ? "stable as it is driven" : state_text(stretch.stability, is_load)) +
             (is_stable && was_stable ? " again" : "");
     was_stable = was_stable || is_stable;
     const bool is_last = i + 1 == stretches.size();

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "io/case_files.hpp"
 #include "io/cycle_access.hpp"
 #include "io/jump_access.hpp"
+#include "io/outline.hpp"
 #include "io/result_access.hpp"
 #include "io/transition_access.hpp"
 #include "springfold/analysis/run.hpp"
@@ -31,6 +33,65 @@ std::size_t lines_in(const std::string& text) {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// A truss pushed through a spring of 0.5: the force turns back at LP1, the way only at LP2.
+const std::string pushed_truss = R"(
+[[node]]
+name = "left"
+at = [-1, 0]
+fixed = true
+
+[[node]]
+name = "right"
+at = [1, 0]
+fixed = true
+
+[[node]]
+name = "apex"
+at = [0, 0.9]
+fixed = ["x"]
+
+[[node]]
+name = "hand"
+at = [0, 1.9]
+fixed = ["x"]
+
+[[bar]]
+from = "left"
+to = "apex"
+stiffness = 1.3
+
+[[bar]]
+from = "right"
+to = "apex"
+stiffness = 1.3
+
+[[bar]]
+name = "push"
+from = "apex"
+to = "hand"
+stiffness = 0.5
+
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "mixed"
+body = "hand"
+direction = [0, -1]
+until = { lambda = [-0.5, 2.3] }
+)";
+
+using DrivenTruss = CaseFiles;
+
+TEST_F(DrivenTruss, IsOutlinedAsItIsDriven) {
+  const Case c = load(pushed_truss);
+  auto result = analysis::run_study(c.runs.at(0).mechanism, c.runs.at(0).plan);
+  result.study = c.runs.at(0).study;
+  const std::vector<std::string> lines = outline_of(c, result);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_TRUE(has(lines[0], "stable as it is driven up to LP2 at ")) << lines[0];
+  EXPECT_TRUE(has(lines[0], ", where it snaps; and so on, 2 changes")) << lines[0];
 }
 
 TEST(TransitionText, HasAnArrowForEachJumpOfASwitch) {
