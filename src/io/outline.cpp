@@ -121,8 +121,10 @@ std::string way_text(const Case& the_case, const StudyResult& result, const Bran
     if (i == most)
       return text + "; and so on, " + counted(static_cast<int>(stretches.size()) - 1, "change");
     const bool is_stable = stretch.stability == Stability::stable;
-    text += (i == 0 ? "" : "; ") + (stretch.is_joined ? "stable as it is driven" : state_text(stretch.stability, is_load)) +
-            (is_stable && was_stable ? " again" : "");
+    text +=
+        (i == 0 ? "" : "; ") +
+        (stretch.is_joined ? "stable as it is driven" : state_text(stretch.stability, is_load)) +
+        (is_stable && was_stable ? " again" : "");
     was_stable = was_stable || is_stable;
     const bool is_last = i + 1 == stretches.size();
     text += is_last ? " to the end" : " up to " + point_text(the_case, result, branch, stretch.to);
