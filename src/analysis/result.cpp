@@ -71,9 +71,21 @@ int ways_not_followed(const StudyResult& result) {
   return static_cast<int>(count);
 }
 
+namespace {
+
+/// A question about jumps, or about their motions with masses, has no answer.
+bool is_refused(const SnapReport& report) {
+  return !report.refusals.empty() ||
+         std::any_of(report.jumps.begin(), report.jumps.end(), [](const Jump& jump) {
+           return jump.inertial && jump.inertial->end == InertialMotion::End::no_mass;
+         });
+}
+
+}  // namespace
+
 bool complete(const StudyResult& result) {
   if (result.row) return result.row->complete;
-  const bool refused = result.snap && !result.snap->refusals.empty();
+  const bool refused = result.snap && is_refused(*result.snap);
   return result.start.found && result.doubts.empty() && !refused &&
          std::all_of(result.branches.begin(), result.branches.end(), [](const Branch& branch) {
            return branch.backward.complete && branch.forward.complete &&
