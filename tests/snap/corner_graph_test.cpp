@@ -84,6 +84,70 @@ TEST(CornerGraph, AJumpFromACornerSwitchesTheSpringThatItLeaves) {
   EXPECT_EQ(from_corner, 1);
 }
 
+/// A shallow truss (span 200, height 20, bars of stiffness 50) above a stop at y = -10. Snapped, it rests on the stop; the
+/// load falls until it lifts off, where the truss without a stop is unstable and snaps back.
+using StopGraph = io::CaseFiles;
+
+TEST_F(StopGraph, JumpsFromTheCornerWhereAStateLetsGoOfItsStop) {
+  const io::Case c = load(R"(
+[[node]]
+name = "l"
+at = [-100, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [100, 0]
+fixed = true
+[[node]]
+name = "apex"
+at = [0, 20]
+[[bar]]
+from = "l"
+to = "apex"
+stiffness = 50
+[[bar]]
+from = "r"
+to = "apex"
+stiffness = 50
+[[spring]]
+name = "stop"
+shape = "line"
+of = ["apex", { on = "base", at = [-1, -10] }, { on = "base", at = [1, -10] }]
+law = { law = "one_sided", stiffness = 30, from = 0, side = "below" }
+[[study]]
+name = "states"
+kind = "transitions"
+control = "load"
+direction = [0, -1]
+until = { apex.y = [-50, 30], lambda = [-30, 30] }
+)");
+  const StudyResult result = run_study(c.runs.at(0).mechanism, c.runs.at(0).plan);
+  ASSERT_TRUE(result.snap && result.snap->transitions);
+  const TransitionReport& report = *result.snap->transitions;
+  const double drawn = std::hypot(100, 20);
+  const auto energy = [&](double y) { return 50 * std::pow(std::hypot(100, y) - drawn, 2); };
+  const auto lambda = [&](double y) {
+    return -100 * (std::hypot(100, y) - drawn) * y / std::hypot(100, y);
+  };
+  double below = 20, above = 30;  // where the truss without its stop bears the load of the corner
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (below + above) / 2;
+    (lambda(middle) > lambda(-10) ? below : above) = middle;
+  }
+  const double load = lambda(-10);
+  const double released = energy(-10) - 10 * load - energy(below) - below * load;
+  int down = 0;
+  for (const Transition& t : report.transitions) {
+    if (t.loading > 0) continue;
+    ++down;
+    EXPECT_GT(t.jump, 0);
+    EXPECT_EQ(t.to, 1);
+    EXPECT_NEAR(t.lambda, load, 1e-8);
+    EXPECT_NEAR(t.released, released, 1e-6);
+  }
+  EXPECT_EQ(down, 1);
+}
+
 TEST(LowestWay, GoesOverOtherStatesWhereTheirSaddlesAreLower) {
   TransitionReport report;
   report.states.resize(3);
