@@ -54,8 +54,8 @@ if (x_low < 0 && x_high > 0) set yzeroaxis linestyle 5
 if (y_low < 0 && y_high > 0) set xzeroaxis linestyle 5
 
 set title figure_title @figure_title_mode font title_font textcolor rgb ink offset 0, 2.7
-set xlabel x_title @x_title_mode textcolor rgb ink offset 0, -0.4
-set ylabel y_title @y_title_mode textcolor rgb ink offset -0.6, 0
+set xlabel x_title @x_title_mode font sized(fitted(x_title, figure_font_size, 0.9 * figure_width)) textcolor rgb ink offset 0, -0.4
+set ylabel y_title @y_title_mode font sized(fitted(y_title, figure_font_size, 0.9 * figure_height)) textcolor rgb ink offset -0.6, 0
 # Up to three entries in a row above the frame; three rows stand closer.
 key_rows = (words(first_parts) + words(key_codes) + mixed_in_key + quantities + regions + 2) / 3
 set key at screen (frame_left + frame_right) / 2, \

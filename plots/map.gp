@@ -29,7 +29,11 @@ set style line 34 linecolor rgb '#CC79A7' linewidth 3.0 dashtype (2, 4)   # stab
 
 tic_font = sized(figure_font_size - 2)
 scale = figure_font_size / 14.0
-left = 100.0 * scale; gap = 85.0 * scale; right = 150.0 * scale; bottom = 85.0 * scale; top = 110.0 * scale
+left = 100.0 * scale; gap = 85.0 * scale; right = 150.0 * scale; bottom = 85.0 * scale
+# Beside one panel each entry of the key takes a line, beside several two share one.
+entries = has_edge + has_activation + has_unstable + has_gaps + has_infinite + (clipped > 0)
+key_lines = panels > 1 ? (entries + 1) / 2 : entries
+top = (50.0 + 20.0 * (key_lines < 3 ? 3 : key_lines + 0.5)) * scale
 least_panel = 60.0
 panel_width = figure_width > 0 ? (figure_width - left - right - (panels - 1) * gap) / panels : 470.0
 panel_height = figure_height > 0 ? figure_height - bottom - top : 470.0
@@ -37,6 +41,7 @@ panel_width = panel_width < least_panel ? least_panel : panel_width
 panel_height = panel_height < least_panel ? least_panel : panel_height
 figure_width = left + panels * panel_width + (panels - 1) * gap + right
 figure_height = bottom + panel_height + top
+title_font = sized(fitted(figure_title, figure_font_size + 4, 0.9 * figure_width))
 
 set xrange [x_low:x_high]
 set yrange [y_low:y_high]
@@ -57,6 +62,11 @@ do for [i = 1:words(levels)] {
 }
 
 figure_terminal = terminal_of(figure_format)
+# Viewers blur the picture that a vector file holds, and let it stand over the frame: rectangles keep their edges. Of very many
+# nodes they would make a very large file.
+most_rectangles = 20000
+stats $field_1 using 1 nooutput
+nodes = '' . (figure_format eq 'png' || STATS_records > most_rectangles ? 'image' : 'image pixels')
 set terminal @figure_terminal
 set output output_of(figure_format)
 set multiplot
@@ -76,7 +86,7 @@ do for [n = 1:panels] {
     set key at screen 0.5, screen 1 - 40 * scale / figure_height top center horizontal noenhanced \
         samplen 3 font key_font textcolor rgb ink Left reverse
   } else { unset key }
-  plot '$field_'.n using 1:2:3 with image notitle, \
+  plot '$field_'.n using 1:2:3 with @nodes notitle, \
        '$contours_'.n with lines linestyle 31 notitle, \
        '$activation_'.n with lines linestyle 33 notitle, \
        '$unstable_'.n with lines linestyle 34 notitle, \

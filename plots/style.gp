@@ -30,7 +30,11 @@ pale = '#D9D9D9'
 # LaTeX has fonts of its own: a name would be printed as a text.
 sized(points) = figure_format eq 'tikz' ? '' : sprintf('%s,%g', figure_font, points)
 base_font = sized(figure_font_size)
-title_font = sized(figure_font_size + 4)
+# A text that is longer than its room gets smaller letters: those of most fonts are about 0.62 of their size wide, of a
+# point 96 / 72 pixels. A room of 0 is not known yet.
+fitted(text, points, room) = room > 0 && strlen(text) * 0.62 * points * 96 / 72.0 > room ? \
+    room / (strlen(text) * 0.62 * 96 / 72.0) : points
+title_font = sized(fitted(figure_title, figure_font_size + 4, 0.9 * figure_width))
 key_font = sized(figure_font_size - 1)
 point_label_font = sized(figure_font_size - 1)
 point_label_color = ink

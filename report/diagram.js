@@ -51,7 +51,7 @@ class Diagram {
     this.choose = choose;
     this.width = 560;
     this.height = 420;
-    this.edges = {left: 70, right: 14, top: 12, bottom: 44};
+    this.edges = {left: 70, right: 14, top: 26, bottom: 44};
     /** @type {Run | null} */ this.run = null;
     /** @type {Plot[]} */ this.plots = [];
     /** @type {Plot[]} */ this.others = [];
@@ -70,7 +70,7 @@ class Diagram {
     this.xAxis = root.append("g").attr("class", "axis").attr("transform", `translate(0,${this.height - this.edges.bottom})`);
     this.yAxis = root.append("g").attr("class", "axis").attr("transform", `translate(${this.edges.left},0)`);
     this.xLabel = root.append("text").attr("x", this.width - this.edges.right).attr("y", this.height - 8).attr("text-anchor", "end");
-    this.yLabel = root.append("text").attr("x", 6).attr("y", 11);
+    this.yLabel = root.append("text").attr("x", 6).attr("y", 13);
     const plane = root.append("g");
     this.image = plane.append("g").attr("clip-path", `url(#${id})`).append("image").attr("class", "nodes")
         .attr("preserveAspectRatio", "none").attr("display", "none");

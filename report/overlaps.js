@@ -107,6 +107,18 @@ function dropShort(covers, lengths) {
   }
 }
 
+/**
+ * Two curves that lie on each other lose their stability at one place: there the end of one's stable line comes near the begin
+ * of the other's unstable line, which lies on a line like itself (1), not on a more stable one (2).
+ * @param {number[]} covers @param {number[]} lengths */
+function dropShortBetter(covers, lengths) {
+  for (let begin = 0, end = 0; begin < covers.length; begin = end) {
+    let length = 0;
+    for (end = begin; end < covers.length && covers[end] === covers[begin]; ++end) length += lengths[end];
+    if (covers[begin] === 2 && (covers[begin - 1] === 1 || covers[end] === 1) && length < shortestOverlap) covers.fill(1, begin, end);
+  }
+}
+
 /** @param {number[]} ends @param {number[]} covers @returns {SeenLine} */
 function seenOf(ends, covers) {
   /** @type {SeenLine} */ const seen = {isWhole: covers.every(c => c === 0), stretches: [], beneath: []};
@@ -141,6 +153,7 @@ function withoutOverlaps(lines, width, height) {
       return cover;
     });
     dropShort(covers, lengths);
+    dropShortBetter(covers, lengths);
     seen[i] = seenOf(ends, covers);
   }
   return seen;

@@ -194,7 +194,9 @@ class LoadsOverParameter {
       side.decides = turn->kind;
       end_at(side, static_cast<std::size_t>(turn - side.curve.hits.begin()));
     } else {
-      side.end = side.curve.hits.back().point.mu;
+      const double end = side.curve.hits.back().point.mu;
+      // The end of the range itself, if that was reached: beyond what it was located to nothing is left of the range.
+      side.end = std::abs(end - limit) <= closest_bracket * width_ ? limit : end;
     }
     verify(piece, side, mu, sense);
     return side;

@@ -120,6 +120,26 @@ CutLine cut(const RankedLine& line, double width, double height, double along) {
   return all;
 }
 
+double length_of(const CutLine& line, std::size_t begin, std::size_t end) {
+  return line.pieces[end - 1].along - line.pieces[begin].along;
+}
+
+/// Two curves that lie on each other lose their stability at one place: there the end of one's stable line comes near the
+/// begin of the other's unstable line, which lies on a line like itself.
+void drop_short_better(const CutLine& line, std::vector<Cover>& covers) {
+  for (std::size_t begin = 0; begin < covers.size();) {
+    std::size_t end = begin;
+    while (end < covers.size() && covers[end] == covers[begin]) ++end;
+    const bool is_beside_alike = (begin > 0 && covers[begin - 1] == Cover::alike) ||
+                                 (end < covers.size() && covers[end] == Cover::alike);
+    if (covers[begin] == Cover::better && is_beside_alike &&
+        length_of(line, begin, end) < shortest_overlap)
+      std::fill(covers.begin() + static_cast<std::ptrdiff_t>(begin),
+                covers.begin() + static_cast<std::ptrdiff_t>(end), Cover::alike);
+    begin = end;
+  }
+}
+
 /// Covers that are too short to be more than a crossing do not count.
 void drop_short(const CutLine& line, std::vector<Cover>& covers) {
   for (std::size_t begin = 0; begin < covers.size();) {
@@ -127,8 +147,7 @@ void drop_short(const CutLine& line, std::vector<Cover>& covers) {
     while (end < covers.size() && (covers[end] == Cover::none) == (covers[begin] == Cover::none))
       ++end;
     const bool is_whole = begin == 0 && end == covers.size();
-    const double size = line.pieces[end - 1].along - line.pieces[begin].along;
-    if (covers[begin] != Cover::none && !is_whole && size < shortest_overlap)
+    if (covers[begin] != Cover::none && !is_whole && length_of(line, begin, end) < shortest_overlap)
       std::fill(covers.begin() + static_cast<std::ptrdiff_t>(begin),
                 covers.begin() + static_cast<std::ptrdiff_t>(end), Cover::none);
     begin = end;
@@ -187,6 +206,7 @@ std::vector<SeenLine> without_overlaps(const std::vector<RankedLine>& lines, dou
       drawn.add(piece);
     }
     drop_short(line, covers);
+    drop_short_better(line, covers);
     seen[i] = seen_of(line, covers);
   }
   return seen;

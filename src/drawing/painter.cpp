@@ -165,6 +165,7 @@ class Painter {
               .title = "spring or pressure " + outline.name,
               .is_obstacle = false,
               .is_avoided = true};
+    if (!outline.acts) path.ink = {passive_colour, "", 1.2, {3, 2}};
     for (const PointId corner : outline.corners) path.places.push_back(place(corner));
     add(std::move(path));
   }
@@ -284,7 +285,7 @@ class Painter {
     for (const NamedPoint& point : scene_.names) want(point.at, point.name, false, "#444444");
     for (std::size_t c = 0; c < scene_.chains.size(); ++c) want_chain(c);
     for (const SpringPart& spring : scene_.springs)
-      if (spring.is_line && spring.name.find('.') == std::string::npos)
+      if (spring.is_line && spring.name.find('.') == std::string::npos && !is_outline(spring.name))
         names_.push_back({0.5 * (place(spring.from) + place(spring.to)),
                           {.text = spring.name, .size = 11, .colour = spring_colour},
                           1.6 * sheet_.joint});
@@ -295,6 +296,12 @@ class Painter {
       for (const JointPart& joint : scene_.joints)
         want(joint.at, joint.name.substr(joint.name.find('.') + 1), false, "#555555");
     place_names(names_, room_, picture_);
+  }
+
+  /// The name stands at the outline then.
+  bool is_outline(const std::string& name) const {
+    return std::any_of(scene_.outlines.begin(), scene_.outlines.end(),
+                       [&](const OutlinePart& outline) { return outline.name == name; });
   }
 
   /// At the middle of its longest side.

@@ -1,5 +1,7 @@
 #include "shape_parts.hpp"
 
+#include <optional>
+
 #include "chain_walk.hpp"
 #include "spring_state.hpp"
 #include "springfold/model/shape.hpp"
@@ -29,6 +31,30 @@ void add_way(const model::ShapeSpring& spring, const std::vector<PointId>& point
     scene.springs.push_back({spring.name, true, from, from, to, state.is_one_sided, state.acts,
                              state.force, share * state.energy});
   }
+}
+
+/// The point of the line, or of the plane, that is nearest to the first point; nothing where these are none.
+std::optional<model::Vec3<double>> foot_of(const std::vector<PointId>& points, const Scene& scene) {
+  using Place3 = model::Vec3<double>;
+  const Place3 p = scene.points[points[0]], a = scene.points[points[1]];
+  const Place3 along = scene.points[points[2]] - a;
+  if (points.size() == 3) {
+    const double square = along.squaredNorm();
+    return square > 0 ? std::optional<Place3>(a + (p - a).dot(along) / square * along)
+                      : std::nullopt;
+  }
+  const Place3 normal = along.cross(scene.points[points[3]] - a);
+  const double square = normal.squaredNorm();
+  return square > 0 ? std::optional<Place3>(p - (p - a).dot(normal) / square * normal)
+                    : std::nullopt;
+}
+
+/// A distance is a coil from the point to the nearest one of the line or plane.
+void add_distance(const model::ShapeSpring& spring, const std::vector<PointId>& points,
+                  const SpringState& state, Scene& scene) {
+  const PointId foot = add_point(scene, foot_of(points, scene).value_or(scene.points[points[0]]));
+  scene.springs.push_back({spring.name, true, points[0], points[0], foot, state.is_one_sided,
+                           state.acts, state.force, state.energy});
 }
 
 }  // namespace
@@ -72,11 +98,18 @@ void add_shape_spring(const model::ShapeSpring& spring, const std::vector<PointI
           add_point(scene, 0.5 * (scene.points[points[1]] + scene.points[points[2]]));
       return add_spiral(points[0], middle, points[3]);
     }
-    case ShapeKind::area:
-    case ShapeKind::volume:
     case ShapeKind::line:
     case ShapeKind::plane:
+      add_distance(spring, points, state, scene);
       return add_outlines(spring.name, spring.shape, points, scene);
+    case ShapeKind::area:
+    case ShapeKind::volume: {
+      const std::size_t first = scene.outlines.size();
+      add_outlines(spring.name, spring.shape, points, scene);
+      for (std::size_t i = first; i < scene.outlines.size(); ++i)
+        scene.outlines[i].acts = state.acts;
+      return;
+    }
   }
 }
 

@@ -10,7 +10,7 @@ struct ShapeLook {
   double alpha = 0, own = 0, series_energy = 0;
 };
 
-/// A way as coils, an angle and a fold as spirals, the others as outlines.
+/// A way as coils, an angle and a fold as spirals, a distance as a coil and an outline, the others as outlines.
 /// @param points  of the shape
 void add_shape_spring(const model::ShapeSpring& spring, const std::vector<PointId>& points,
                       const ShapeLook& look, Scene& scene);

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "map_figure.hpp"
 
@@ -41,6 +44,28 @@ std::vector<Segment> contour(const GridField& field, double level,
       segments.push_back({crossings[2], crossings[together ? 3 : 1]});
     }
   return segments;
+}
+
+void drop_crowded(std::vector<std::vector<Segment>>& lines, const GridField& field,
+                  std::size_t most) {
+  const auto cell_along = [](const std::vector<double>& nodes, double at) {
+    const bool rises = nodes.front() <= nodes.back();
+    const auto behind = std::find_if(nodes.begin() + 1, nodes.end() - 1,
+                                     [&](double node) { return rises ? node > at : node < at; });
+    return static_cast<std::size_t>(behind - nodes.begin()) - 1;
+  };
+  const auto cell_of = [&](const Segment& s) {
+    return cell_along(field.ys, (s.first.second + s.second.second) / 2) * field.xs.size() +
+           cell_along(field.xs, (s.first.first + s.second.first) / 2);
+  };
+  std::map<std::size_t, std::size_t> levels;  // that lead through a cell
+  for (const auto& line : lines) {
+    std::set<std::size_t> cells;
+    for (const Segment& segment : line) cells.insert(cell_of(segment));
+    for (const std::size_t cell : cells) ++levels[cell];
+  }
+  for (auto& line : lines)
+    std::erase_if(line, [&](const Segment& segment) { return levels[cell_of(segment)] > most; });
 }
 
 }  // namespace springfold::io

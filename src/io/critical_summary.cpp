@@ -45,7 +45,7 @@ std::string point_table(const StudyResult& result, const Branch& branch,
 
 /// d(lambda)/d(parameter) of every special point, one row per parameter.
 std::string rate_table(const StudyResult& result, const Branch& branch) {
-  std::vector<std::vector<std::string>> rows{{"d(lambda)/d()"}};
+  std::vector<std::vector<std::string>> rows{{"d(lambda)/d(parameter)"}};
   std::vector<const analysis::Event*> points;
   for (const auto& event : branch.events) {
     if (event.kind == analysis::EventKind::end_of_range) continue;

@@ -69,7 +69,7 @@ Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 std::string design_lines(const DesignReport& report) {
   std::string text =
       summary_line("design", report.message + (report.verified ? "; traced again" : ""));
-  text += summary_line("search", std::to_string(report.designs) + " designs traced");
+  text += summary_line("search", counted(report.designs, "design") + " traced");
   return text + parameter_table(report) + requirement_table(report);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "report_lists.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "springfold/io/postures.hpp"
@@ -30,12 +31,13 @@ bool is_known_on(const StudyResult& result, const Branch& branch, const std::str
   return false;
 }
 
-std::string name_with_unit(const StudyResult& result, const std::string& name,
-                           const UnitLabels& units) {
+std::string name_with_unit(const PlannedRun& planned, const StudyResult& result,
+                           const std::string& name, const UnitLabels& units) {
   const auto column = column_of(result, name);
   if (!column) return name;
-  const std::string unit = unit_label(result.quantities[*column].unit, result.lambda_unit, units);
-  return shown_name(result, name) + (unit.empty() ? "" : " [" + shown_in_line(unit) + "]");
+  const std::string unit = column_unit(result, *column, &planned, units);
+  return column_title(result, name, &planned) +
+         (unit.empty() ? "" : " [" + shown_in_line(unit) + "]");
 }
 
 /// Is there a deflection, and is it more than what rounding leaves of none?
@@ -51,21 +53,36 @@ bool moves_on(const StudyResult& result, const Branch& branch, double size) {
   return false;
 }
 
-/// Force over deflection; without them lambda, or over arc length.
+/// Force over deflection; without them lambda, or over arc length. Studies that trace no branch have axes of their kind, as
+/// on the page.
 /// @param size  of the mechanism [length]
-drawing::Diagram diagram_of(const StudyResult& result, const Branch& branch, double size,
-                            const UnitLabels& units) {
-  const std::string x = moves_on(result, branch, size) ? "deflection" : "s";
+PageAxes axes_of(const PlannedRun& planned, const StudyResult& result, const Branch& branch,
+                 double size) {
+  if (planned.plan.kind == analysis::StudyKind::map ||
+      planned.plan.kind == analysis::StudyKind::control ||
+      analysis::is_of_critical_points(planned.plan.kind))
+    return page_axes_of(planned, result);
+  return {moves_on(result, branch, size) ? "deflection" : "s",
+          is_known_on(result, branch, "force") ? "force" : "lambda"};
+}
+
+/// @param size  of the mechanism [length]
+drawing::Diagram diagram_of(const PlannedRun& planned, const StudyResult& result,
+                            const Branch& branch, double size, const UnitLabels& units) {
+  const PageAxes axes = axes_of(planned, result, branch, size);
   const char* driven = column_of(result, "index_driven") ? "index_driven" : "index";
-  const std::string y = is_known_on(result, branch, "force") ? "force" : "lambda";
-  drawing::Diagram diagram{.x_name = name_with_unit(result, x, units),
-                           .y_name = name_with_unit(result, y, units)};
-  for (std::size_t row = 0; row < branch.samples.size(); ++row)
-    diagram.points.push_back({.x = value_at(result, branch, row, x),
-                              .y = value_at(result, branch, row, y),
+  drawing::Diagram diagram{.x_name = name_with_unit(planned, result, axes.x, units),
+                           .y_name = name_with_unit(planned, result, axes.y, units)};
+  for (std::size_t row = 0; row < branch.samples.size(); ++row) {
+    const std::string& label = branch.samples[row].event;
+    const bool is_said =
+        row > 0 && branch.samples[row - 1].event == label;  // both rows of one switching
+    diagram.points.push_back({.x = value_at(result, branch, row, axes.x),
+                              .y = value_at(result, branch, row, axes.y),
                               .unstable_dead = count_at(result, branch, row, "index_force"),
                               .unstable_driven = count_at(result, branch, row, driven),
-                              .label = branch.samples[row].event});
+                              .label = is_said ? std::string{} : label});
+  }
   return diagram;
 }
 
@@ -175,8 +192,8 @@ std::string heading_with(const StudyResult& result, const Branch& branch) {
   return heading_of(result) + (result.branches.size() > 1 ? ", " + number_of(result, branch) : "");
 }
 
-FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const Branch& branch,
-                const UnitLabels& units, const FilmWish& wish) {
+FilmOutcome way(const PlannedRun& planned, const RowScenes& scenes, const StudyResult& result,
+                const Branch& branch, const UnitLabels& units, const FilmWish& wish) {
   const auto from = row_of(branch, wish.from, 0);
   const auto to = row_of(branch, wish.to, branch.samples.size() - 1);
   if (!from || !to)
@@ -196,12 +213,12 @@ FilmOutcome way(const RowScenes& scenes, const StudyResult& result, const Branch
   }
   if (film.frames.empty()) return {.problem = result.study + ": no posture is known on the way"};
   const double size = drawing::size_of(film.frames.front().panel.scene);
-  film.diagram = diagram_of(result, branch, size, units);
+  film.diagram = diagram_of(planned, result, branch, size, units);
   return {.film = std::move(film)};
 }
 
-FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const Branch& branch,
-                 const UnitLabels& units, const FilmWish& wish) {
+FilmOutcome mode(const PlannedRun& planned, const RowScenes& scenes, const StudyResult& result,
+                 const Branch& branch, const UnitLabels& units, const FilmWish& wish) {
   const std::vector<Mode> modes = modes_on(branch);
   const auto found =
       std::find_if(modes.begin(), modes.end(), [&](const Mode& m) { return m.name == wish.mode; });
@@ -222,7 +239,7 @@ FilmOutcome mode(const RowScenes& scenes, const StudyResult& result, const Branc
   const double size = drawing::size_of(panel->scene), amplitude = part * size / largest;
   const int count = std::min(wish.frames, 24);  // of half a period
   Film film{.heading = heading_with(result, branch),
-            .diagram = diagram_of(result, branch, size, units)};
+            .diagram = diagram_of(planned, result, branch, size, units)};
   for (int i = 0; i < count; ++i) {
     const double phase = std::numbers::pi * (static_cast<double>(i) / (count - 1) - 0.5);
     drawing::Frame frame{*panel, found->row};
@@ -284,13 +301,16 @@ FilmOutcome film_of(const PlannedRun& planned, const StudyResult& result, const 
     return {.problem = result.study +
                        ": a study of this kind has no branch of postures; "
                        "try springfold draw"};
+  if (planned.plan.kind == analysis::StudyKind::map && planned.plan.map.axes.size() > 1)
+    return {.problem = result.study +
+                       ": the nodes of a map lie on no way; the page shows the posture of each"};
   if (!wish.jump.empty()) return jump(scenes, result, units, wish);
   const Branch* branch = branch_of(result, wish);
   if (branch == nullptr || branch->samples.empty())
     return {.problem = "there is no branch " + std::to_string(wish.branch) + " of " + result.study +
                        "; there are " + std::to_string(result.branches.size())};
-  return wish.mode.empty() ? way(scenes, result, *branch, units, wish)
-                           : mode(scenes, result, *branch, units, wish);
+  return wish.mode.empty() ? way(planned, scenes, result, *branch, units, wish)
+                           : mode(planned, scenes, result, *branch, units, wish);
 }
 
 PlannedRun with_rows_for(const FilmWish& wish, PlannedRun planned, const StudyResult& result) {

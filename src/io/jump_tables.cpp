@@ -4,6 +4,7 @@
 
 #include "cycle_access.hpp"
 #include "jump_access.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "summary_line.hpp"
@@ -25,8 +26,21 @@ double value_of(const StudyResult& result, const SnapState& state, std::string_v
                                                  : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// A result with the sizes of its quantities.
+struct Sized {
+  const StudyResult& result;
+  std::vector<double> sizes{};
+};
+
+std::string lambda_text(const Sized& sized, const SnapState& state) {
+  const auto column = column_of(sized.result, "lambda");
+  if (!column || *column >= state.values.size()) return "nan";
+  return rounded(shown_in(sized.sizes, *column, state.values[*column]), summary_digits);
+}
+
 /// "apex.x = 0, apex.y = -1.5": poses of the bodies, which come behind the study's own columns.
-std::string pose_text(const StudyResult& result, const SnapState& state) {
+std::string pose_text(const Sized& sized, const SnapState& state) {
+  const StudyResult& result = sized.result;
   std::string text;
   for (std::size_t i = 0; i < result.quantities.size() && i < state.values.size(); ++i) {
     const std::string& name = result.quantities[i].name;
@@ -37,7 +51,7 @@ std::string pose_text(const StudyResult& result, const SnapState& state) {
                         coordinates.end())
       continue;
     text += (text.empty() ? "" : ", ") + name + " = " +
-            rounded(shown_value(result, state.values, i), summary_digits);
+            rounded(shown_in(sized.sizes, i, state.values[i]), summary_digits);
   }
   return text;
 }
@@ -55,7 +69,7 @@ std::string warning_text(const analysis::SnapWarning& warning) {
 }
 
 /// What the motion with masses says beside the overdamped one.
-std::string inertial_lines(const StudyResult& result, const InertialMotion& motion,
+std::string inertial_lines(const Sized& sized, const InertialMotion& motion,
                            const std::string& energy) {
   if (motion.end == InertialMotion::End::no_mass)
     return summary_line("", "with masses: REFUSED, nothing with a mass moves" +
@@ -66,7 +80,7 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
       motion.end == InertialMotion::End::runs_away
           ? summary_line("", "with masses it runs away")
           : summary_line("", "with masses it lands " + place_of(motion.landing) + ": " +
-                                 pose_text(result, motion.landing) + ", released " +
+                                 pose_text(sized, motion.landing) + ", released " +
                                  rounded(motion.released, summary_digits) + energy);
   constexpr int few = 4;  // of what a motion of a certain push says
   text += summary_line(
@@ -80,16 +94,15 @@ std::string inertial_lines(const StudyResult& result, const InertialMotion& moti
   return text;
 }
 
-std::string lines_of(const StudyResult& result, const Jump& jump, const std::string& energy) {
-  const double lambda = value_of(result, jump.critical, "lambda");
+std::string lines_of(const Sized& sized, const Jump& jump, const std::string& energy) {
   std::string text = summary_line(
       jump.label, "from " + jump.from + (jump.towards.empty() ? "" : ", " + jump.towards) +
-                      ", lambda = " + rounded(lambda, summary_digits) +
+                      ", lambda = " + lambda_text(sized, jump.critical) +
                       (jump.loading > 0 ? " (rising): " : " (falling): ") +
                       to_string(jump.verdict));
   if (!jump.landing.values.empty()) {
-    text += summary_line(
-        "", "lands " + place_of(jump.landing) + ": " + pose_text(result, jump.landing));
+    text +=
+        summary_line("", "lands " + place_of(jump.landing) + ": " + pose_text(sized, jump.landing));
     text += summary_line("", "released " + rounded(jump.released, summary_digits) + energy +
                                  ", overdamped time scale " + rounded(jump.time_scale, 4));
     if (!jump.barriers.empty() && std::isfinite(jump.barriers.front()))
@@ -98,23 +111,21 @@ std::string lines_of(const StudyResult& result, const Jump& jump, const std::str
   }
   for (const SnapState& other : jump.others)
     text += summary_line(
-        "", "or, with inertia or other damping: " + pose_text(result, other) + ", released " +
+        "", "or, with inertia or other damping: " + pose_text(sized, other) + ", released " +
                 rounded(jump.critical.energy - other.energy, summary_digits) + energy);
   if (jump.may_run_away && jump.verdict == analysis::SnapVerdict::depends)
     text += summary_line("", "or it runs away");
-  if (jump.inertial) text += inertial_lines(result, *jump.inertial, energy);
+  if (jump.inertial) text += inertial_lines(sized, *jump.inertial, energy);
   for (const std::string& name : jump.switches) text += summary_line("", "switches: " + name);
   for (const auto& warning : jump.warnings) text += summary_line("", warning_text(warning));
   if (jump.back > 0) {
-    const Jump& back = result.snap->jumps[static_cast<std::size_t>(jump.back - 1)];
-    text += summary_line(
-        "",
-        "leaves it again at " + back.from +
-            ", lambda = " + rounded(value_of(result, back.critical, "lambda"), summary_digits) +
-            " (" + back.label + ")" +
-            (std::isnan(jump.loop) ? ""
-                                   : "; the loop closes, " + rounded(jump.loop, summary_digits) +
-                                         energy + " lost in each"));
+    const Jump& back = sized.result.snap->jumps[static_cast<std::size_t>(jump.back - 1)];
+    text += summary_line("", "leaves it again at " + back.from + ", lambda = " +
+                                 lambda_text(sized, back.critical) + " (" + back.label + ")" +
+                                 (std::isnan(jump.loop)
+                                      ? ""
+                                      : "; the loop closes, " + rounded(jump.loop, summary_digits) +
+                                            energy + " lost in each"));
   }
   return text;
 }
@@ -200,7 +211,8 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
     text += summary_line("jumps", "REFUSED: " + refusal);
   if (report.jumps.empty() && report.refusals.empty())
     text += summary_line("jumps", "none: stability is nowhere lost to a jump");
-  for (const Jump& jump : report.jumps) text += lines_of(result, jump, energy);
+  const Sized sized{result, report.jumps.empty() ? std::vector<double>{} : quantity_sizes(result)};
+  for (const Jump& jump : report.jumps) text += lines_of(sized, jump, energy);
   for (const auto& handover : report.handovers)
     text +=
         summary_line(handover.at, "no jump: branch " + std::to_string(handover.branch) +

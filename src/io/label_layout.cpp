@@ -68,6 +68,8 @@ std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas
       return;  // two texts on each other: neither could be read
     scene.labels.push_back(best.box);
     labels.push_back(placed(text, best));
+    if (labels.back().has_leader)
+      scene.leaders.emplace_back(labels.back().leader_from, labels.back().leader_to);
     labels.back().is_curve_label = is_curve_label;
   };
   for (std::size_t i = 0; i < figure.marks.size(); ++i) {

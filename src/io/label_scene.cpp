@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "curve_labels.hpp"
 #include "gnuplot_text.hpp"
 #include "stability_parts.hpp"
 #include "text.hpp"
@@ -43,9 +44,35 @@ std::vector<PlotPoint> dense_points(const Figure& figure, const Canvas& canvas,
   return dense;
 }
 
-/// How bad it would be to have a text there: hidden curve points, marks and texts.
-double badness(const LabelScene& scene, const LabelBox& box) {
+/// Does the line from one point to the other lead through a text?
+bool leads_through(const LabelBox& box, const PlotPoint& from, const PlotPoint& to) {
+  constexpr double step = 3;  // pixels
+  const int count = static_cast<int>(pixels_between(from, to) / step) + 1;
+  for (int i = 0; i <= count; ++i) {
+    const double t = static_cast<double>(i) / count;
+    if (box.holds(
+            {from.first + t * (to.first - from.first), from.second + t * (to.second - from.second)},
+            1))
+      return true;
+  }
+  return false;
+}
+
+/// Lines to what texts name: those of others through this one, and its own through others.
+double crossed_by_leaders(const LabelScene& scene, const LabelBox& box, const PlotPoint& anchor) {
+  constexpr double crossed = 100;
   double sum = 0;
+  for (const auto& [from, to] : scene.leaders)
+    if (leads_through(box, from, to)) sum += crossed;
+  if (needs_leader(box, anchor))
+    for (const LabelBox& label : scene.labels)
+      if (leads_through(label, anchor, box.nearest(anchor))) sum += crossed;
+  return sum;
+}
+
+/// How bad it would be to have a text there: hidden curve points, marks, texts and lines to what texts name.
+double badness(const LabelScene& scene, const LabelBox& box, const PlotPoint& anchor) {
+  double sum = crossed_by_leaders(scene, box, anchor);
   for (const auto& curve : scene.curves)
     for (const auto& point : curve)
       if (box.holds(point, 4)) sum += 3;
@@ -68,7 +95,7 @@ double badness(const LabelScene& scene, const LabelBox& box) {
 void consider(LabelCandidate& best, const LabelScene& scene, const LabelBox& box,
               const PlotPoint& anchor, double extra, const ExtraBadness& more) {
   if (extra >= best.badness) return;  // whatever is hidden
-  double value = badness(scene, box) + extra;
+  double value = badness(scene, box, anchor) + extra;
   if (more && value < best.badness) value += more(box, anchor);
   if (value < best.badness) best = {box, anchor, value};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "canvas.hpp"
@@ -40,7 +41,8 @@ struct LabelScene {
   std::vector<std::vector<PlotPoint>> curves{};  ///< evenly spaced points of each curve
   std::vector<LabelBox> marks{};
   std::vector<LabelBox> labels{};
-  PlotPoint zero{};  ///< where the axes through zero are
+  std::vector<std::pair<PlotPoint, PlotPoint>> leaders{};  ///< lines from labels to what they name
+  PlotPoint zero{};                                        ///< where the axes through zero are
   LabelBox frame{};
 };
 

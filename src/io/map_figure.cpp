@@ -201,6 +201,10 @@ void add_lines(const MapPlotSpec& spec, const Plane& plane, const std::vector<do
   const std::vector<std::string> pieces = jumps ? plane.pieces() : std::vector<std::string>{};
   std::vector<std::vector<Segment>> of_levels;
   for (const double level : levels) of_levels.push_back(contour(panel.field, level, pieces));
+  constexpr double usual_panel = 470, apart = 4;  // pixels: of a panel, from line to line
+  const auto nodes = static_cast<double>(std::max(panel.field.xs.size(), panel.field.ys.size()));
+  drop_crowded(of_levels, panel.field,
+               std::max<std::size_t>(1, static_cast<std::size_t>(usual_panel / nodes / apart)));
   for (const auto& line : of_levels) append(panel.contours, line);
   panel.numbers = numbers_of(of_levels, levels, panel.field);
   panel.edge = contour(plane.held(), 0.5);

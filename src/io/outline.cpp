@@ -5,6 +5,7 @@
 
 #include "command_summary.hpp"
 #include "outline_kinds.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "stability_parts.hpp"
 #include "summary_line.hpp"
@@ -55,26 +56,33 @@ const Event* event_at(const Branch& branch, std::size_t row) {
   return nullptr;
 }
 
+/// A run that is told in words.
+struct Told {
+  const Case& the_case;
+  const StudyResult& result;
+  bool is_load = false;         ///< controlled by its load
+  std::vector<double> sizes{};  ///< of its quantities
+};
+
 /// "0.02701 N" along the study's direction; lambda where there is no force.
-std::string value_text(const Case& the_case, const StudyResult& result, const Branch& branch,
-                       std::size_t row) {
+std::string value_text(const Told& told, const Branch& branch, std::size_t row) {
+  const StudyResult& result = told.result;
   for (const char* name : {"force", "lambda"}) {
     const auto column = column_of(result, name);
     if (!column || std::isnan(branch.samples[row].values[*column])) continue;
     const std::string unit =
-        unit_label(result.quantities[*column].unit, result.lambda_unit, the_case.units);
+        unit_label(result.quantities[*column].unit, result.lambda_unit, told.the_case.units);
     const std::string number =
-        rounded(shown_value(result, branch.samples[row].values, *column), outline_digits);
+        rounded(shown_in(told.sizes, *column, branch.samples[row].values[*column]), outline_digits);
     return (name == std::string{"lambda"} ? "lambda = " : "") + number +
            (unit.empty() ? "" : " " + unit);
   }
   return {};
 }
 
-std::string point_text(const Case& the_case, const StudyResult& result, const Branch& branch,
-                       std::size_t row) {
+std::string point_text(const Told& told, const Branch& branch, std::size_t row) {
   const Event* event = event_at(branch, row);
-  const std::string value = value_text(the_case, result, branch, row);
+  const std::string value = value_text(told, branch, row);
   if (event == nullptr || event->label.empty()) return value;
   return event->label + (value.empty() ? "" : " at " + value);
 }
@@ -110,10 +118,9 @@ std::vector<Stretch> as_driven(const std::vector<Stretch>& stretches) {
 
 /// "stable up to LP1 at 0.027 N, snaps there; unstable up to LP2 at 0.01 N; stable again to the end".
 /// @param most  stretches that are told
-std::string way_text(const Case& the_case, const StudyResult& result, const Branch& branch,
-                     bool forward, bool is_load, std::size_t most) {
-  auto stretches = stretches_of(result, branch, forward);
-  if (!is_load && stretches.size() > most) stretches = as_driven(stretches);
+std::string way_text(const Told& told, const Branch& branch, bool forward, std::size_t most) {
+  auto stretches = stretches_of(told.result, branch, forward);
+  if (!told.is_load && stretches.size() > most) stretches = as_driven(stretches);
   std::string text;
   bool was_stable = false;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -121,16 +128,16 @@ std::string way_text(const Case& the_case, const StudyResult& result, const Bran
     if (i == most)
       return text + "; and so on, " + counted(static_cast<int>(stretches.size()) - 1, "change");
     const bool is_stable = stretch.stability == Stability::stable;
-    text +=
-        (i == 0 ? "" : "; ") +
-        (stretch.is_joined ? "stable as it is driven" : state_text(stretch.stability, is_load)) +
-        (is_stable && was_stable ? " again" : "");
+    text += (i == 0 ? "" : "; ") +
+            (stretch.is_joined ? "stable as it is driven"
+                               : state_text(stretch.stability, told.is_load)) +
+            (is_stable && was_stable ? " again" : "");
     was_stable = was_stable || is_stable;
     const bool is_last = i + 1 == stretches.size();
-    text += is_last ? " to the end" : " up to " + point_text(the_case, result, branch, stretch.to);
+    text += is_last ? " to the end" : " up to " + point_text(told, branch, stretch.to);
     const Event* event = event_at(branch, stretch.to);
     if (!is_last && event != nullptr &&
-        loses_hold(event->kind, stretch.stability, stretches[i + 1].stability, is_load))
+        loses_hold(event->kind, stretch.stability, stretches[i + 1].stability, told.is_load))
       text += ", where it snaps";
   }
   return text;
@@ -154,8 +161,8 @@ std::string branches_text(const StudyResult& result) {
 
 /// The way along the first branch, how many others there are, jumps.
 /// @param most  stretches of one stability that are told, on each side
-std::vector<std::string> curve_outline(const Case& the_case, const StudyResult& result,
-                                       const PlannedRun& planned, std::size_t most) {
+std::vector<std::string> curve_outline(const Told& told, std::size_t most) {
+  const StudyResult& result = told.result;
   const Branch& first = result.branches.front();
   if (first.samples.size() == 1) return {equilibrium_words(result, first.samples.front())};
   std::vector<std::string> lines;
@@ -164,13 +171,12 @@ std::vector<std::string> curve_outline(const Case& the_case, const StudyResult& 
     lines.push_back("followed from end to end, stability not known" +
                     (points.empty() ? "" : "; special points: " + points));
   } else {
-    const bool is_load = planned.plan.control == ControlMode::load;
-    const std::string onward = way_text(the_case, result, first, true, is_load, most);
-    const std::string back = way_text(the_case, result, first, false, is_load, most);
+    const std::string onward = way_text(told, first, true, most);
+    const std::string back = way_text(told, first, false, most);
     if (!onward.empty()) lines.push_back("forward: " + onward);
     if (!back.empty()) lines.push_back("backward: " + back);
   }
-  const std::string branches = branches_text(result), jumps = jump_words(the_case, result);
+  const std::string branches = branches_text(result), jumps = jump_words(told.the_case, result);
   const std::string others = branches + (branches.empty() || jumps.empty() ? "" : "; ") + jumps;
   if (!others.empty()) lines.push_back(others);
   return lines;
@@ -187,20 +193,24 @@ std::vector<std::string> in_lines(const std::vector<std::string>& sentences) {
 
 /// Do special points and ends have the same values? Those at which a mirror image ends are named otherwise: by the
 /// mirrored joint, or by the opposite limit.
-bool agree(const StudyResult& result, const Branch& a, const Branch& b) {
+bool agree(const StudyResult& result, const std::vector<double>& sizes, const Branch& a,
+           const Branch& b) {
   // What is said of one is said of the other: they begin alike.
   if (a.origin != b.origin || a.origin_branch != b.origin_branch || a.start != b.start)
     return false;
   if (a.backward.complete != b.backward.complete || a.forward.complete != b.forward.complete)
     return false;
   if (a.events.size() != b.events.size()) return false;
-  // Both were computed, each with errors of its own: far above those, far below what is printed.
+  // Both were computed, each with errors of its own: far above those, far below what is printed. Sizes are those of the
+  // run: the same in all units.
   constexpr double near = 1e-6;
   const auto same = [&](std::size_t i, std::size_t k) {
     for (const char* name : {"lambda", "deflection", "force", "energy", "index"}) {
       const double u = value_at(result, a, i, name), v = value_at(result, b, k, name);
       if (std::isnan(u) != std::isnan(v)) return false;
-      if (std::abs(u - v) > near * std::max({1.0, std::abs(u), std::abs(v)})) return false;
+      const auto column = column_of(result, name);
+      const double size = column ? sizes[*column] : 0;
+      if (std::abs(u - v) > near * std::max({size, std::abs(u), std::abs(v)})) return false;
     }
     return true;
   };
@@ -215,9 +225,11 @@ bool agree(const StudyResult& result, const Branch& a, const Branch& b) {
 
 std::vector<std::vector<std::size_t>> alike_branches(const StudyResult& result) {
   std::vector<std::vector<std::size_t>> groups;
+  const std::vector<double> sizes =
+      result.branches.size() > 1 ? quantity_sizes(result) : std::vector<double>{};
   for (std::size_t b = 0; b < result.branches.size(); ++b) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& known) {
-      return agree(result, result.branches[known.front() - 1], result.branches[b]);
+      return agree(result, sizes, result.branches[known.front() - 1], result.branches[b]);
     });
     if (group == groups.end())
       groups.push_back({b + 1});
@@ -243,8 +255,10 @@ std::vector<std::string> outline_of(const Case& the_case, const StudyResult& res
                         !result.branches.front().samples.empty() &&
                         !has_summary_of_its_own(planned->plan.kind);
   // What has no room is told in fewer stretches: the table below has all points.
+  const Told told{the_case, result, planned->plan.control == ControlMode::load,
+                  is_curve ? quantity_sizes(result) : std::vector<double>{}};
   for (std::size_t most = 4; is_curve && most > 0; --most) {
-    lines = in_lines(curve_outline(the_case, result, *planned, most));
+    lines = in_lines(curve_outline(told, most));
     if (lines.size() <= most_lines) break;
   }
   if (lines.size() <= most_lines) return lines;

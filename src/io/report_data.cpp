@@ -176,7 +176,38 @@ std::vector<double> motion_at(const RowScenes& scenes, const Sample& row,
   return motion;
 }
 
-Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scenes) {
+/// A run and the sizes of its quantities.
+struct PageRun {
+  const PlannedRun& planned;
+  const StudyResult& result;
+  const std::vector<double>& sizes;
+};
+
+/// Which rows of a stiffness belong to translations; empty where it is not that of all bodies.
+std::vector<bool> translations_in(const Matrix& stiffness, const model::Mechanism& mechanism) {
+  std::vector<bool> list;
+  for (const auto& body : mechanism.bodies)
+    for (Index i = 0; i < body.pose.size(); ++i)
+      list.push_back(i < model::translations(body.task_space));
+  if (std::ssize(list) != stiffness.rows()) list.clear();
+  return list;
+}
+
+/// For people: at a located point an entry is 0 where an eigenvalue of its unit would be.
+Matrix shown_stiffness(const Matrix& stiffness, const PageRun& run) {
+  Matrix shown = shown_matrix(stiffness);
+  const auto column = column_of(run.result, "K_eig1");
+  const std::vector<bool> moves = translations_in(stiffness, run.planned.mechanism);
+  if (!column || moves.empty()) return shown;
+  for (Index r = 0; r < shown.rows(); ++r)
+    for (Index c = 0; c < shown.cols(); ++c)
+      if (moves[static_cast<std::size_t>(r)] && moves[static_cast<std::size_t>(c)])
+        shown(r, c) = shown_in(run.sizes, *column, shown(r, c));
+  return shown;
+}
+
+Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scenes,
+             const PageRun& run) {
   Json json = {{"label", point.label},
                {"code", point.code},
                {"row", point.row},
@@ -191,7 +222,7 @@ Json json_of(const PagePoint& point, const PageRows& list, const RowScenes& scen
       json["modes"].push_back(base64_of(motion_at(scenes, *list.rows[event.row], mode)));
   }
   if (event.stiffness.size() > 0) {
-    const Matrix stiffness = shown_matrix(event.stiffness);
+    const Matrix stiffness = shown_stiffness(event.stiffness, run);
     json["stiffness"] = Json::array();
     for (Index i = 0; i < stiffness.rows(); ++i) {
       const Vector row = stiffness.row(i);
@@ -214,12 +245,12 @@ Json status_of(const PageRows& list) {
   return {{"texts", texts}, {"of", numbers}};
 }
 
-Json json_of(const StudyResult& result, const PageRows& list, const RowScenes& scenes,
-             Layouts& layouts) {
+Json json_of(const PageRun& run, const PageRows& list, const RowScenes& scenes, Layouts& layouts) {
   RowNumbers rows;
-  for (const Sample* row : list.rows) add_row(result, *row, scenes.scene_of(*row), layouts, rows);
+  for (const Sample* row : list.rows)
+    add_row(run.result, *row, scenes.scene_of(*row), layouts, rows);
   Json points = Json::array();
-  for (const PagePoint& point : list.points) points.push_back(json_of(point, list, scenes));
+  for (const PagePoint& point : list.points) points.push_back(json_of(point, list, scenes, run));
   const bool is_usual =
       std::all_of(rows.layout.begin(), rows.layout.end(), [](int number) { return number == 0; });
   return {{"name", list.name},
@@ -279,7 +310,7 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
   const RowScenes scenes{planned, result};
   Layouts layouts;
   for (const PageRows& list : page.lists)
-    json["branches"].push_back(json_of(result, list, scenes, layouts));
+    json["branches"].push_back(json_of(PageRun{planned, result, sizes}, list, scenes, layouts));
   json["mechanisms"] = Json::array();
   for (const drawing::Scene& scene : layouts) json["mechanisms"].push_back(parts_of(scene));
   return json;

@@ -213,14 +213,4 @@ Matrix shown_matrix(Matrix matrix) {
   return matrix;
 }
 
-double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
-                   std::size_t column) {
-  const Unit unit = result.quantities[column].unit;
-  double scale = unit == Unit::angle ? 1 : 0;
-  for (std::size_t i = 0; i < std::min(row.size(), result.quantities.size()); ++i)
-    if (result.quantities[i].unit == unit && std::isfinite(row[i]))
-      scale = std::max(scale, std::abs(row[i]));
-  return shown_against(row[column], scale);
-}
-
 }  // namespace springfold::io

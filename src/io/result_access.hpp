@@ -42,10 +42,6 @@ double shown_against(double value, double scale);
 /// whatever the units of both, or where no accuracy of the whole matrix reaches down to them.
 Matrix shown_matrix(Matrix matrix);
 
-/// An entry of a row for people: 0 where it is nothing but rounding beside the largest entry of its unit (angles: beside 1 rad).
-double shown_value(const analysis::StudyResult& result, const std::vector<double>& row,
-                   std::size_t column);
-
 /// What people are told that a column is: what drives a body along a rotation is a moment, and the way is an angle, but
 /// columns have one name for both ("force", "deflection").
 std::string shown_name(const analysis::StudyResult& result, const std::string& quantity);

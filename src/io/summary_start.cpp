@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
@@ -100,9 +101,12 @@ std::string matrix_lines(const std::string& name, const Matrix& matrix) {
 std::string eigenvalue_line(const StudyResult& result) {
   if (result.branches.empty() || result.branches.front().samples.empty()) return {};
   const analysis::Branch& first = result.branches.front();
+  const std::vector<double> sizes = quantity_sizes(result);
   std::string values;
-  for (int i = 1; column_of(result, "K_eig" + std::to_string(i)); ++i) {
-    const double value = value_at(result, first, first.start_row, "K_eig" + std::to_string(i));
+  for (int i = 1;; ++i) {
+    const auto column = column_of(result, "K_eig" + std::to_string(i));
+    if (!column) break;
+    const double value = shown_in(sizes, *column, first.samples[first.start_row].values[*column]);
     values += (values.empty() ? "" : ", ") +
               (std::isnan(value) ? std::string("infinite") : rounded(value, summary_digits));
   }

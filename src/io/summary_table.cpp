@@ -43,11 +43,12 @@ std::string named_values(std::string_view label, const std::vector<std::string>&
                          const StudyResult& result, const UnitLabels& units) {
   std::string text;
   const Branch& first = result.branches.front();
+  const std::vector<double> sizes = quantity_sizes(result);
   for (const auto& name : names) {
     const std::size_t column = *column_of(result, name);
     const auto& quantity = result.quantities[column];
     const auto unit = unit_label(quantity.unit, result.lambda_unit, units);
-    const double value = shown_value(result, first.samples[first.start_row].values, column);
+    const double value = shown_in(sizes, column, first.samples[first.start_row].values[column]);
     text += (text.empty() ? "" : ", ") + name + " = " + rounded(value, summary_digits);
     if (!unit.empty()) text += " " + unit;
   }

@@ -7,6 +7,7 @@
 #include "compared_quantity.hpp"
 #include "fitted_table.hpp"
 #include "nothing.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
@@ -87,12 +88,14 @@ std::vector<std::string> point_columns(const SweepPoints& sweep) {
 }
 
 /// A number for people; a dash where there is none.
-std::string point_cell(const SweepPoints::Run& run, std::size_t point, const std::string& name) {
+/// @param sizes  of the run's quantities
+std::string point_cell(const SweepPoints::Run& run, const std::vector<double>& sizes,
+                       std::size_t point, const std::string& name) {
   const auto& place = run.places[point];
   const auto column = column_of(*run.result, name);
   if (!place || !column) return "-";
   constexpr int digits = 7;  // the blocks of the runs have more
-  return rounded(shown_value(*run.result, place->branch->samples[place->row].values, *column),
+  return rounded(shown_in(sizes, *column, place->branch->samples[place->row].values[*column]),
                  digits);
 }
 
@@ -161,8 +164,9 @@ std::string sweep_points_lines(const SweepPoints& sweep, const std::string& file
     auto& row = rows.emplace_back();
     for (const std::string& name : sweep.parameters)
       row.push_back(rounded(varied_value(run.planned, name), summary_digits));
+    const std::vector<double> sizes = quantity_sizes(*run.result);
     for (std::size_t i = 0; i < sweep.labels.size(); ++i)
-      row.push_back(point_cell(run, i, quantity));
+      row.push_back(point_cell(run, sizes, i, quantity));
   }
   return text + fitted(rows, std::vector<Align>(rows.front().size(), Align::right), summary_indent);
 }

@@ -5,6 +5,7 @@
 
 #include "gnuplot_text.hpp"
 #include "nothing.hpp"
+#include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -37,7 +38,8 @@ void add_bars(const StudyResult& result, const PlannedRun& planned, const Tornad
   // 0 where it is nothing but rounding: there are no shares of that.
   const auto column = column_of(result, spec.quantity);
   const double value =
-      column ? shown_value(result, at.branch->samples[at.row].values, *column) : nothing;
+      column ? shown_in(quantity_sizes(result), *column, at.branch->samples[at.row].values[*column])
+             : nothing;
   const std::string prefix = "d(" + spec.quantity + ")/d(";
   std::string zero, unknown;
   for (const auto& quantity : result.quantities) {

@@ -147,10 +147,13 @@ std::string node_line(const StableState& s, std::optional<double> energy) {
 }
 
 std::string arrow_line(const Transition& t) {
-  const std::string released =
-      std::isfinite(t.released) ? "\\n(" + rounded(t.released, digits) + ")" : "";
+  // Graphviz takes letters for narrower than most fonts have them: without room words touch the arrows.
+  const std::string room = "  ";
+  const std::string released = std::isfinite(t.released)
+                                   ? "\\n" + room + "(" + rounded(t.released, digits) + ")" + room
+                                   : "";
   return "  \"S" + std::to_string(t.from) + "\" -> \"S" + std::to_string(t.to) + "\" [label=\"" +
-         rounded(t.lambda, digits) + released + "\", color=\"" +
+         room + rounded(t.lambda, digits) + room + released + "\", color=\"" +
          (t.loading > 0 ? "#0072B2" : "#D55E00") + "\"" +
          (t.verdict == analysis::SnapVerdict::unambiguous ? "" : ", style=dashed") + "];\n";
 }
@@ -177,7 +180,7 @@ std::string transitions_dot(const StudyResult& result) {
       "  label=\"" +
       key_of(*report) +
       "\";\n"
-      "  labeljust=l;\n"
+      "  labeljust=l; pad=0.3;\n"
       "  fontname=\"DejaVu Sans\"; fontsize=10;\n"
       "  node [fontname=\"DejaVu Sans\", fontsize=10];\n"
       "  edge [fontname=\"DejaVu Sans\", fontsize=8];\n";

@@ -106,6 +106,53 @@ std::pair<double, double> across(const Polyline& outline) {
   return {low->first, high->first};
 }
 
+/// A shallow truss on a post, pushed at an angle psi: mirrored about 90 degrees. Its first critical point is one curve
+/// over the whole range, whose ends are no round numbers.
+TEST(CriticalLoads, HaveNoPieceOfNoLengthAtTheEndOfTheRange) {
+  const std::string truss = R"([parameters]
+psi = "90*deg"
+[[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "apex"
+at = [0, 0.2]
+[[bar]]
+from = "l"
+to = "apex"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "apex"
+stiffness = 1
+[[spring]]
+name = "post"
+from_at = [0, -1]
+to = "apex"
+stiffness = 0.02
+free = 1.2
+[[study]]
+name = "directions"
+kind = "critical_load"
+control = "load"
+direction = ["cos(psi)", "-sin(psi)"]
+until = { apex.y = [-0.3, 0.44], lambda = [0, 1] }
+critical_load = { of = "loss_of_stability", parameter = "psi", range = ["30*deg", "150*deg"], values = 25 }
+)";
+  const Ran ran = run(truss);
+  const analysis::StudyResult& result = ran.results.at(0);
+  ASSERT_THAT(result.branches, SizeIs(1));
+  const auto& samples = result.branches[0].samples;
+  constexpr double degree = 0.017453292519943295;
+  EXPECT_NEAR(value(result, 0, "psi"), 30 * degree, 1e-12);
+  EXPECT_NEAR(value(result, samples.size() - 1, "psi"), 150 * degree, 1e-12);
+}
+
 TEST(BoundaryFigure, HasALineForEveryPieceNamedByWhatDecidesThere) {
   const Figure figure = only_figure(run(one_sided));
   ASSERT_THAT(figure.curves, SizeIs(3));

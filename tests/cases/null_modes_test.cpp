@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "cases/case_runs.hpp"
@@ -143,6 +144,101 @@ TEST(NullModes, CanBeSeenAsAFilm) {
   EXPECT_THAT(film.film.frames, SizeIs(24));
   const auto other = film_of(planned, result, ran.read.units, {.mode = "BP1.2"});
   EXPECT_THAT(other.problem, HasSubstr("there are: BP1, BP2"));
+}
+
+/// A two-arm plotter with stiff drives: commands along a circle, and a map.
+const std::string plotter = R"toml([[body]]
+name = "pen"
+task_space = "xy"
+pose = [0, 1.2]
+[[chain]]
+name = "left"
+from_at = [-0.3, 0]
+elements = [
+  { joint = "revolute", axis = "z", name = "drive", role = "actuated", value = "120*deg", stiffness = 100 },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", name = "elbow", initial = "-80*deg" },
+  { rigid = [1, 0] },
+]
+[[chain]]
+name = "right"
+from_at = [0.3, 0]
+elements = [
+  { joint = "revolute", axis = "z", name = "drive", role = "actuated", value = "60*deg", stiffness = 100 },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", name = "elbow", initial = "80*deg" },
+  { rigid = [1, 0] },
+]
+[[spring]]
+name = "line"
+from_at = [0, 2]
+to = "pen"
+stiffness = 1
+)toml";
+
+TEST(CommandFilm, HasADiagramOverThePathOfTheCommands) {
+  const Ran ran = run(plotter + R"toml([[study]]
+name = "circle"
+kind = "control"
+circle = { centre = [0, 1.2], radius = 0.3, points = 7 }
+)toml");
+  const auto outcome = film_of(ran.read.runs.front(), ran.results.front(), ran.read.units, {});
+  ASSERT_EQ(outcome.problem, "");
+  EXPECT_EQ(outcome.film.diagram.x_name, "path");
+  EXPECT_EQ(outcome.film.diagram.y_name, "energy [N·m]");
+  for (const auto& point : outcome.film.diagram.points)
+    EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y));
+}
+
+TEST(MapFilm, IsRefusedBecauseNodesLieOnNoWay) {
+  const Ran ran = run(plotter + R"toml([[study]]
+name = "map"
+kind = "map"
+axes = [{ pose = "x", from = -0.2, to = 0.2, points = 3 }, { pose = "y", from = 1, to = 1.3, points = 3 }]
+)toml");
+  EXPECT_THAT(film_of(ran.read.runs.front(), ran.results.front(), ran.read.units, {}).problem,
+              HasSubstr("lie on no way"));
+}
+
+/// A truss above a stop: the stop switches in two rows at one place.
+TEST(SwitchingFilm, NamesAPointOnce) {
+  const Ran ran = run(R"toml([[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "apex"
+at = [0, 0.2]
+[[bar]]
+from = "l"
+to = "apex"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "apex"
+stiffness = 1
+[[spring]]
+name = "stop"
+from_at = [0, -1]
+to = "apex"
+law = { law = "one_sided", stiffness = 3, from = 0.95, side = "below" }
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+until = { apex.y = [-0.4, 0.3] }
+)toml");
+  const auto outcome = film_of(ran.read.runs.front(), ran.results.front(), ran.read.units, {});
+  ASSERT_EQ(outcome.problem, "");
+  std::map<std::string, int> times;
+  for (const auto& point : outcome.film.diagram.points)
+    if (!point.label.empty()) ++times[point.label];
+  EXPECT_EQ(times.count("SA1") + times.count("CL1"), 1U);
+  for (const auto& [label, count] : times) EXPECT_EQ(count, 1) << label;
 }
 
 }  // namespace

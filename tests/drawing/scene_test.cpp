@@ -127,6 +127,43 @@ TEST(Scene, ACableIsDrawnLegByLegAndAGasByItsOutline) {
   EXPECT_EQ(scene.outlines[0].corners.size(), 3U);
 }
 
+/// A wall from (4, 0) to (4, 1) that pushes what comes behind it, to the right of that way: the first tip stands 1 before
+/// it, the second one 0.5 behind.
+TEST(Scene, AWallIsACoilToTheNearestPointOfItsLineThatShowsWhetherItActs) {
+  for (const double x : {3.0, 4.5}) {
+    model::Mechanism mechanism = two_links();
+    const model::Anchor tip{.body = 1}, low{.at = {4, 0, 0}}, high{.at = {4, 1, 0}};
+    mechanism.shape_springs = {
+        {"wall",
+         {.kind = model::ShapeKind::line, .points = {tip, low, high}},
+         model::OneSidedSpring{
+             .stiffness = 8, .from = 0, .side = model::OneSidedSpring::Side::below}}};
+    const statics::System system = statics::prepare(mechanism);
+    const Scene scene = scene_of(system, posture_of(system, 0, 0, x, 3));
+    const SpringPart& wall = scene.springs.back();
+    EXPECT_EQ(wall.name, "wall");
+    EXPECT_EQ(wall.acts, x > 4);
+    EXPECT_TRUE(wall.is_one_sided);
+    EXPECT_NEAR(std::abs(wall.force), x > 4 ? 8 * 0.5 : 0, 1e-14);
+    EXPECT_LT((scene.points[wall.to] - model::Vec3<double>{4, 3, 0}).norm(), 1e-14);
+  }
+}
+
+/// The triangle (0, 5), (6, 5), (3, y) has the area 3 (5 - y): a bladder that pushes where it is below 12.
+TEST(Scene, AnAreaShowsWhetherItsSpringActs) {
+  for (const double y : {0.5, 3.0}) {
+    model::Mechanism mechanism = two_links();
+    const model::Anchor left{.at = {0, 5, 0}}, right{.at = {6, 5, 0}}, tip{.body = 1};
+    mechanism.shape_springs = {
+        {"bladder",
+         {.kind = model::ShapeKind::area, .points = {left, tip, right}},
+         model::OneSidedSpring{
+             .stiffness = 1, .from = 12, .side = model::OneSidedSpring::Side::below}}};
+    const statics::System system = statics::prepare(mechanism);
+    EXPECT_EQ(scene_of(system, posture_of(system, 0, 0, 3, y)).outlines.at(0).acts, y > 1);
+  }
+}
+
 TEST(Scene, AFollowerForceTurnsWithItsBodyAndGrowsWithLambda) {
   model::Mechanism mechanism = two_links();
   mechanism.bodies[0].task_space = model::TaskSpace::planar;

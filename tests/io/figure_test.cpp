@@ -260,6 +260,33 @@ TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
   EXPECT_EQ(labels[0].text.text, "LP1, LP2");
 }
 
+/// Three pairs of curves that end beside each other, as of a sweep over two parameters: long labels need lines to their ends.
+TEST(PlaceLabels, LeadNoLineThroughAnotherText) {
+  Figure figure{.low = {-10, -100}, .high = {80, 1250}};
+  const auto add = [&](const std::string& label, const Polyline& line) {
+    figure.curves.push_back({.label = {label}, .parts = {{Stability::stable, line}}});
+  };
+  add("h = 10, k = 20", {{0, 0}, {20, 0}, {25, 153.7}});
+  add("h = 20, k = 20", {{0, 0}, {30, -6}, {50, 627.8}});
+  add("h = 30, k = 20", {{0, 0}, {40, -15.5}, {75, 1136}});
+  add("h = 10, k = 40", {{0, 0}, {20, 0}, {25, 157.4}});
+  add("h = 20, k = 40", {{0, 0}, {30, -12}, {50, 655.7}});
+  add("h = 30, k = 40", {{0, 0}, {40, -31}, {75, 1213}});
+  const auto labels = place_labels(figure, {});
+  ASSERT_THAT(labels, SizeIs(6));
+  for (const PlacedLabel& a : labels)
+    for (const PlacedLabel& b : labels) {
+      if (&a == &b || !a.has_leader) continue;
+      for (double t = 0; t <= 1; t += 0.01) {
+        const double x = a.leader_from.first + t * (a.leader_to.first - a.leader_from.first);
+        const double y = a.leader_from.second + t * (a.leader_to.second - a.leader_from.second);
+        EXPECT_FALSE(std::abs(x - b.at.first) < 4.5 * static_cast<double>(b.text.text.size()) &&
+                     std::abs(y - b.at.second) < 8)
+            << "the line of " << a.text.text << " through " << b.text.text;
+      }
+    }
+}
+
 TEST(PlaceLabels, LeaveOutWhatHasNoPlaceButOnAnother) {
   Figure figure{.low = {0, 0}, .high = {1, 1}};
   constexpr int many = 120;

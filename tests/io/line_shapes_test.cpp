@@ -159,6 +159,18 @@ TEST(WithoutOverlaps, DoesNotSayThatABranchLiesOnItselfAtItsLimitPoint) {
   EXPECT_EQ(lines_in(drawn), 2u);
 }
 
+/// Twice the same curve, as of a design that changes nothing: the unstable line of one ends where the stable one of the other
+/// begins.
+TEST(WithoutOverlaps, DoesNotSayThatEqualCurvesLieOnEachOtherWhereTheyLoseStability) {
+  Figure figure{.low = {0, 0}, .high = {1, 1}};
+  const FigureCurve curve{.parts = {{Stability::stable, {{0.1, 0.1}, {0.5, 0.8}}},
+                                    {Stability::unstable, {{0.5, 0.8}, {0.9, 0.7}}}}};
+  figure.curves = {curve, curve};
+  const auto drawn = without_overlaps(figure, Canvas{});
+  EXPECT_THAT(drawn.mixed, IsEmpty());
+  EXPECT_EQ(lines_in(drawn), 3u) << "both solid lines, and one of the dashed ones";
+}
+
 TEST(WithoutOverlaps, LeavesLinesThatCrossAlone) {
   const auto drawn = without_overlaps(with_parts({{Stability::unstable, {{0.1, 0.1}, {0.9, 0.9}}},
                                                   {Stability::unstable, {{0.1, 0.9}, {0.9, 0.1}}},

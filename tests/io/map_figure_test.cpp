@@ -45,6 +45,21 @@ TEST(Contour, DoesNotLeadThroughACellInWhichASpringSwitches) {
   EXPECT_TRUE(contour(field, 0.5, {"0", "1", "0", "1"}).empty());
 }
 
+/// Two cells side by side: gentle from 0 to 2, then a jump to 100.
+TEST(Contour, HasNoLinesWhereMoreOfThemThanCanBeToldApartLeadThroughACell) {
+  const GridField field{{0, 1, 2}, {0, 1}, {0, 2, 100, 0, 2, 100}};
+  std::vector<std::vector<Segment>> lines;
+  for (const double level : {1.0, 20.0, 40.0, 60.0, 80.0}) lines.push_back(contour(field, level));
+  for (const auto& line : lines) ASSERT_EQ(line.size(), 1u);
+  auto few = lines;
+  drop_crowded(few, field, 3);
+  EXPECT_EQ(few[0], lines[0]) << "the gentle one stays";
+  for (std::size_t i = 1; i < few.size(); ++i) EXPECT_TRUE(few[i].empty());
+  auto all = lines;
+  drop_crowded(all, field, 4);
+  EXPECT_EQ(all, lines);
+}
+
 TEST(Contour, ASaddleIsDecidedByTheMeanOfItsCorners) {
   const GridField high{{0, 1}, {0, 1}, {1, 0, 0, 1}};
   const auto lines = contour(high, 0.4);  // the mean 0.5 is above: the corners of 1 are connected

@@ -99,6 +99,37 @@ TEST(AlikeBranches, DoNotEndAtOtherEnergies) {
   EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
 }
 
+/// Energies of thousandths of a millionth are no rounding where forces and lengths are as small.
+TEST(AlikeBranches, DoNotEndAtOtherEnergiesInAnyUnits) {
+  auto result = sample::two_results()[0];
+  for (analysis::Sample& sample : result.branches[0].samples)
+    for (std::size_t i = 0; i < result.quantities.size(); ++i)
+      if (result.quantities[i].unit != analysis::Unit::none &&
+          result.quantities[i].unit != analysis::Unit::angle)
+        sample.values[i] *= 1e-9;
+  result.branches.push_back(result.branches[0]);
+  const auto energy = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                   [](const auto& quantity) { return quantity.name == "energy"; });
+  ASSERT_NE(energy, result.quantities.end());
+  const auto column = static_cast<std::size_t>(energy - result.quantities.begin());
+  result.branches[1].samples.back().values[column] += 1e-9;
+  EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
+}
+
+TEST(Outline, SaysThatRoundingIsZero) {
+  const Case the_case = sample::two_runs();
+  auto results = sample::two_results();
+  analysis::Branch& branch = results[1].branches[0];
+  const auto force = std::find_if(results[1].quantities.begin(), results[1].quantities.end(),
+                                  [](const auto& quantity) { return quantity.name == "force"; });
+  const auto column = static_cast<std::size_t>(force - results[1].quantities.begin());
+  for (const analysis::Event& event : branch.events)
+    if (event.label == "LP1") branch.samples[event.row].values[column] = -7e-17;
+  std::string text;
+  for (const std::string& line : outline_of(the_case, results[1])) text += line + " ";
+  EXPECT_THAT(text, HasSubstr("stable up to LP1 at 0 N"));
+}
+
 TEST(PointTables, SayThatRoundingIsZero) {
   auto result = sample::two_results()[0];
   auto& values = result.branches[0].samples[result.branches[0].events[0].row].values;

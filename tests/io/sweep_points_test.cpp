@@ -68,6 +68,20 @@ class SweepPointsTest : public testing::Test {
   std::vector<analysis::StudyResult> results{};
 };
 
+TEST_F(SweepPointsTest, SaysThatRoundingIsZero) {
+  add_run(0.01);
+  add_run(0.011);
+  for (analysis::StudyResult& result : results) {
+    const auto force = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                    [](const auto& quantity) { return quantity.name == "force"; });
+    const auto column = static_cast<std::size_t>(force - result.quantities.begin());
+    analysis::Branch& branch = result.branches.at(0);
+    for (const analysis::Event& event : branch.events)
+      if (event.label == "LP1") branch.samples[event.row].values[column] = 3e-17;
+  }
+  EXPECT_THAT(sweep_points_lines(sweeps().at(0), "points.csv"), Not(HasSubstr("e-17")));
+}
+
 TEST_F(SweepPointsTest, HaveARowForEveryRunWithItsParameterAndItsPoints) {
   for (const double k : {0.0, 0.01}) add_run(k);
   EXPECT_THAT(table().at(0),

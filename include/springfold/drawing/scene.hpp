@@ -84,6 +84,7 @@ struct OutlinePart {
   std::string name{};
   std::vector<PointId> corners{};
   bool is_filled = false;  ///< an area or a surface
+  bool acts = true;        ///< false: a spring that has no force here
 };
 
 /// Where a one-sided spring begins to act: a mark that the link behind the joint, or the slide, reaches.
