@@ -4,6 +4,7 @@
 
 #include "chain_walk.hpp"
 #include "spring_state.hpp"
+#include "springfold/model/se3.hpp"
 #include "springfold/model/shape.hpp"
 
 namespace springfold::drawing {
@@ -43,7 +44,7 @@ std::optional<model::Vec3<double>> foot_of(const std::vector<PointId>& points, c
     return square > 0 ? std::optional<Place3>(a + (p - a).dot(along) / square * along)
                       : std::nullopt;
   }
-  const Place3 normal = along.cross(scene.points[points[3]] - a);
+  const Place3 normal = model::cross<double>(along, Place3(scene.points[points[3]] - a));
   const double square = normal.squaredNorm();
   return square > 0 ? std::optional<Place3>(p - (p - a).dot(normal) / square * normal)
                     : std::nullopt;

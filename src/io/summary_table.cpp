@@ -296,6 +296,23 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
          diagram_lines(result, plan_of(the_case, result));
 }
 
+/// What happened in the runs of a sweep, in words.
+std::string sweep_lines(const Case& the_case, const SweepTable& sweep,
+                        const std::vector<StudyResult>& results) {
+  std::string text;
+  for (const std::string& sentence : sweep_words(the_case, sweep, results))
+    for (const std::string& line : wrapped(sentence, table_width - summary_indent))
+      text += std::string(summary_indent, ' ') + line + "\n";
+  return text;
+}
+
+std::string sweep_heading(const SweepTable& sweep, int runs) {
+  std::string parameters;
+  for (const std::string& name : sweep.parameters)
+    parameters += (parameters.empty() ? "" : ", ") + name;
+  return shown(sweep.study) + ", " + counted(runs, "run") + " over " + parameters + "\n";
+}
+
 /// One block for every table of many runs.
 std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& results,
                          bool is_first) {
@@ -304,11 +321,8 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
   for (std::size_t i = 0; i < files.size(); ++i) {
     const SweepTable& sweep = the_case.sweeps[i];
     const SweepCounts counts = counts_of(the_case, sweep, results);
-    std::string parameters;
-    for (const std::string& name : sweep.parameters)
-      parameters += (parameters.empty() ? "" : ", ") + name;
-    text += (is_first && text.empty() ? "" : "\n") + shown(sweep.study) + ", " +
-            counted(counts.planned, "run") + " over " + parameters + "\n";
+    text += (is_first && text.empty() ? "" : "\n") + sweep_heading(sweep, counts.planned) +
+            sweep_lines(the_case, sweep, results);
     text +=
         summary_line("complete", std::to_string(counts.complete) + " of " +
                                      std::to_string(counts.planned) + ", table " + shown(files[i]));
@@ -348,6 +362,9 @@ std::string outline_text(const Case& the_case, const std::vector<StudyResult>& r
   std::string text;
   for (const auto& result : results)
     if (!result.row) text += heading_of(result) + "\n" + outline_lines(the_case, result);
+  for (const SweepTable& sweep : the_case.sweeps)
+    text += sweep_heading(sweep, counts_of(the_case, sweep, results).planned) +
+            sweep_lines(the_case, sweep, results);
   return text;
 }
 

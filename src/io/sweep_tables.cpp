@@ -1,10 +1,13 @@
 #include "sweep_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "compared_quantity.hpp"
 #include "springfold/io/start_text.hpp"
 #include "springfold/io/sweep.hpp"
+#include "summary_line.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -109,6 +112,43 @@ SweepCounts counts_of(const Case& the_case, const SweepTable& sweep,
     if (analysis::complete(*result)) ++counts.complete;
   });
   return counts;
+}
+
+std::vector<std::string> sweep_words(const Case& the_case, const SweepTable& sweep,
+                                     const std::vector<StudyResult>& results) {
+  struct Reached {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    int count = 0;
+  };
+  constexpr std::size_t most = 2;
+  constexpr int outlined = 4;  // digits
+  std::vector<Reached> ranges(std::min(most, sweep.columns.size()));
+  int runs = 0;
+  for_each_run(the_case, sweep, results, [&](const PlannedRun& planned, const StudyResult* result) {
+    if (result == nullptr) return;
+    ++runs;
+    const analysis::SweepRow row = sweep_row(the_case, planned, *result);
+    for (std::size_t i = 0; i < std::min(ranges.size(), row.values.size()); ++i) {
+      const double value = row.values[i];
+      if (!std::isfinite(value)) continue;
+      ranges[i].low = std::min(ranges[i].low, value);
+      ranges[i].high = std::max(ranges[i].high, value);
+      ++ranges[i].count;
+    }
+  });
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const Reached& range = ranges[i];
+    const std::string name = shown(sweep.columns[i]);
+    words.push_back(range.count == 0
+                        ? name + " in none of the runs"
+                        : name + " from " + rounded(range.low, outlined) + " to " +
+                              rounded(range.high, outlined) +
+                              (range.count < runs ? ", in " + std::to_string(range.count) + " of " +
+                                                        counted(runs, "run")
+                                                  : std::string{}));
+  }
+  return words;
 }
 
 }  // namespace springfold::io

@@ -26,4 +26,8 @@ struct SweepCounts {
 SweepCounts counts_of(const Case& the_case, const SweepTable& sweep,
                       const std::vector<analysis::StudyResult>& results);
 
+/// What the first columns run through: "F from 0.0012 to 0.07, in 90 of 100 runs". Two sentences at most.
+std::vector<std::string> sweep_words(const Case& the_case, const SweepTable& sweep,
+                                     const std::vector<analysis::StudyResult>& results);
+
 }  // namespace springfold::io

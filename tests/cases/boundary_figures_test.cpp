@@ -109,7 +109,7 @@ std::pair<double, double> across(const Polyline& outline) {
 /// A shallow truss on a post, pushed at an angle psi: mirrored about 90 degrees. Its first critical point is one curve
 /// over the whole range, whose ends are no round numbers.
 TEST(CriticalLoads, HaveNoPieceOfNoLengthAtTheEndOfTheRange) {
-  const std::string truss = R"([parameters]
+  const std::string truss = R"toml([parameters]
 psi = "90*deg"
 [[node]]
 name = "l"
@@ -143,7 +143,7 @@ control = "load"
 direction = ["cos(psi)", "-sin(psi)"]
 until = { apex.y = [-0.3, 0.44], lambda = [0, 1] }
 critical_load = { of = "loss_of_stability", parameter = "psi", range = ["30*deg", "150*deg"], values = 25 }
-)";
+)toml";
   const Ran ran = run(truss);
   const analysis::StudyResult& result = ran.results.at(0);
   ASSERT_THAT(result.branches, SizeIs(1));

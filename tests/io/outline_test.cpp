@@ -112,7 +112,8 @@ TEST(AlikeBranches, DoNotEndAtOtherEnergiesInAnyUnits) {
                                    [](const auto& quantity) { return quantity.name == "energy"; });
   ASSERT_NE(energy, result.quantities.end());
   const auto column = static_cast<std::size_t>(energy - result.quantities.begin());
-  result.branches[1].samples.back().values[column] += 1e-9;
+  result.branches[0].samples.back().values[column] = 0.2e-9;
+  result.branches[1].samples.back().values[column] = 0.3e-9;
   EXPECT_THAT(alike_branches(result), ElementsAre(ElementsAre(1), ElementsAre(2)));
 }
 

@@ -13,6 +13,7 @@
 #include "io/figure.hpp"
 #include "io/sample_results.hpp"
 #include "io/scratch_folder.hpp"
+#include "io/sweep_tables.hpp"
 #include "springfold/io/plots.hpp"
 #include "springfold/io/results.hpp"
 
@@ -67,6 +68,19 @@ class SweepPointsTest : public testing::Test {
   Case the_case{};
   std::vector<analysis::StudyResult> results{};
 };
+
+TEST_F(SweepPointsTest, TellsInWordsWhatTheColumnsOfATableRunThrough) {
+  const SweepTable sweep{.study = "push", .parameters = {"Kv"}, .columns = {"F", "none"}};
+  const double nan = std::nan("");
+  for (const double force : {0.25, nan, 0.125}) {
+    add_run(0.01);
+    analysis::SweepRow row;
+    row.values = {force, nan};
+    results.back().row = std::make_shared<const analysis::SweepRow>(row);
+  }
+  EXPECT_THAT(sweep_words(the_case, sweep, results),
+              ElementsAre("F from 0.125 to 0.25, in 2 of 3 runs", "none in none of the runs"));
+}
 
 TEST_F(SweepPointsTest, SaysThatRoundingIsZero) {
   add_run(0.01);
