@@ -75,6 +75,10 @@ async function curve() {
   const table = await tableOf(place), names = ["lambda", "deflection", "force", "crank.foot", "rod.slider", "knee.x", "energy"];
   expect(await disagreement(table, names, "knee") === "", "the first row shown has the values and the place of the CSV file");
   expect(await value("document.querySelectorAll('#mechanism *').length > 20"), "the mechanism is drawn");
+  expect(await value(`(() => { const box = s => document.querySelector(s).getBoundingClientRect(), sheet = box("#diagram rect.sheet");
+    const name = [...document.querySelectorAll("#diagram > text")].find(t => t.textContent.startsWith("force")).getBoundingClientRect();
+    const tick = [...document.querySelectorAll("#diagram .tick text")].map(t => t.getBoundingClientRect().height);
+    return name.bottom <= sheet.top - Math.max(...tick) / 2 + 1; })()`), "a number at the top of the upper axis would not touch its name");
   const before = await row(), beforePicture = await tab.picture("main");
   await mouse("mousePressed", await at("#diagram", 0.3, 0.5));
   const rows = new Set();
