@@ -126,7 +126,7 @@ TEST(TransitionText, HasEnergiesAndBarriersInItsFigure) {
   EXPECT_TRUE(has(dot, "\\nE = "));
   EXPECT_TRUE(has(dot, "\"S1\" -> \"S2\" [dir=none, style=dotted"));
   EXPECT_TRUE(has(dot, "taillabel=\"0.05\", headlabel=\"0.05\""));
-  EXPECT_TRUE(has(dot, "0.1162\\n(0.1502)"));  // its load and the energy released
+  EXPECT_TRUE(has(dot, "  0.1162  \\n  (0.1502)  "));  // its load and the energy released
   EXPECT_TRUE(has(dot, "\\ldotted: a barrier at lambda = 0"));
   EXPECT_TRUE(has(dot, "\"outside\""));
 }
