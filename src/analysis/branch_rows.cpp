@@ -195,7 +195,9 @@ Event hit_event(const Entry& entry, std::size_t row, const Entry* next, const Ev
   if (hit.kind == HitKind::unresolved) return event;  // its name says why; perhaps nothing switches
   event.detail = switching_detail(problem.system(entry.point.lambda), hit, entry.point.piece,
                                   next->point.piece);
-  if (turns_back(event, quantities)) {
+  // A fold that rounding does not tell from the kink belongs to it: the engine says what the whole passage is.
+  const bool fold_belongs = evaluator.force_is_lambda() && hit.kind == HitKind::kink;
+  if (!fold_belongs && turns_back(event, quantities)) {
     event.kind = EventKind::corner_limit_point;
     event.detail += ", the force turns back";
   }

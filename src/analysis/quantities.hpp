@@ -108,6 +108,8 @@ class Evaluator {
 
   /// d(force)/ds along the branch, dimensionless.
   RoundedRate force_rate(const continuation::CurvePoint& point) const;
+  /// Does the force turn only where lambda does, which the engine has judged?
+  bool force_is_lambda() const { return control_ == ControlMode::load; }
 
   /// d(displacement along the load)/ds under load control, dimensionless: what the rate of the load does
   /// work on.

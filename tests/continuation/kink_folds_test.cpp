@@ -69,19 +69,20 @@ TEST(KinkFold, HasTheNegativeEigenvaluesOfBothSides) {
 }
 
 TEST(KinkFold, NearTheSurfaceIsALimitPointBesideIt) {
-  for (const double gap : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-    SCOPED_TRACE(gap);
-    // lambda = -2 gap x - x^2: turns at x = -gap
-    for (const double after : {-2.0, 1.0}) {
-      const FoldPassage p{{.a = -2 * gap, .b = -1}, {.a = after}};
-      const Curve curve = follow_passage(p, -0.5, 0.5, {});
-      ASSERT_EQ(curve.hits.size(), 3u);
-      EXPECT_EQ(curve.hits[0].kind, HitKind::limit_point);
-      EXPECT_NEAR(curve.hits[0].point.x[0], -gap, 1e-10);
-      EXPECT_EQ(curve.hits[1].kind, after > 0 ? HitKind::corner : HitKind::kink);
-      EXPECT_NEAR(curve.hits[1].point.x[0], 0, 1e-12);
+  for (const double flatness : {1.0, 0.1, 0.01})
+    for (const double gap : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+      SCOPED_TRACE(std::to_string(gap) + " of a curvature of " + std::to_string(flatness));
+      // lambda = -flatness (2 gap x + x^2): turns at x = -gap
+      for (const double after : {-2.0, 1.0}) {
+        const FoldPassage p{{.a = -2 * gap * flatness, .b = -flatness}, {.a = after}};
+        const Curve curve = follow_passage(p, -0.5, 0.5, {});
+        ASSERT_EQ(curve.hits.size(), 3u);
+        EXPECT_EQ(curve.hits[0].kind, HitKind::limit_point);
+        EXPECT_NEAR(curve.hits[0].point.x[0], -gap, 1e-10);
+        EXPECT_EQ(curve.hits[1].kind, after > 0 ? HitKind::corner : HitKind::kink);
+        EXPECT_NEAR(curve.hits[1].point.x[0], 0, 1e-12);
+      }
     }
-  }
 }
 
 }  // namespace

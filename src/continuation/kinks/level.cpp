@@ -42,7 +42,12 @@ bool is_level(const Walker& walker, const CurvePoint& at, int direction, double 
   const double reach = direction * std::min(level_reach, 0.5 * room);
   const auto end = point_at(walker, at, reach),
              half = point_at(walker, at, uneven_share(4) * reach);
-  return end && half && same_level(walker, {&at, &*half, &*end});
+  if (!end || !half || !same_level(walker, {&at, &*half, &*end})) return false;
+  // A fold is level to the residual's tolerance on any way that is short enough: there its rate must be as small as one
+  // that leaves so much on the whole way.
+  constexpr double most_rate = 2 * residual_level / level_reach;
+  return std::abs(reach) >= level_reach ||
+         std::max(std::abs(half->tangent.dlambda), std::abs(end->tangent.dlambda)) <= most_rate;
 }
 
 }  // namespace springfold::continuation
