@@ -201,9 +201,8 @@ class Design {
         return;
       case DesignStatus::cannot_be_met:
         report_.message =
-            "no design within the bounds was found that meets all requirements; "
-            "at the nearest miss it is limited by: " +
-            limits;
+            "no design within the bounds was found that meets all requirements" +
+            (limits.empty() ? "" : "; at the nearest miss it is limited by: " + limits);
         return;
       case DesignStatus::unresolved:
         report_.message = found.why;

@@ -8,6 +8,7 @@
 #include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
 #include "first_unwanted.hpp"
+#include "springfold/continuation/options.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -198,6 +199,11 @@ bool Requirements::add_curve(const DesignPath& path, Sheet& sheet) const {
   const CurveRequirement& curve = *settings_.curve;
   const auto all = unknown();
   const std::size_t first = sheet.requirements.size();
+  // Rows are as exact as residuals: no finer than that is a requirement held, however narrow its tolerance.
+  constexpr double known = continuation::NewtonOptions{}.residual_tolerance;
+  double largest = 0;
+  for (const auto& [x, y] : curve.points) largest = std::max(largest, std::abs(y));
+  const double unit = std::max(curve.tolerance, largest * (known / design_tolerance));
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const auto& [x, y] = curve.points[i];
     const auto found = path.at_value(curve.y, curve.x, x);
@@ -207,8 +213,7 @@ bool Requirements::add_curve(const DesignPath& path, Sheet& sheet) const {
     }
     sheet.begin(all[first + i], found->value);
     for (const double side : {1.0, -1.0})
-      sheet.add((side * (found->value - y) - curve.tolerance) / curve.tolerance,
-                side * found->rates / curve.tolerance);
+      sheet.add((side * (found->value - y) - curve.tolerance) / unit, side * found->rates / unit);
   }
   return true;
 }

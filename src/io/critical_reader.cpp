@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "critical_draft.hpp"
 #include "study_reader.hpp"
 
@@ -51,6 +55,14 @@ std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, Numbe
   return ids;
 }
 
+/// Is this the label of a special point of a kind that is followed?
+bool is_followed(const std::string& label) {
+  constexpr std::array<std::string_view, 5> codes{"LP", "BP", "CL", "SA", "UZ"};
+  const std::string_view code = std::string_view{label}.substr(0, 2);
+  return std::find(codes.begin(), codes.end(), code) != codes.end() && label.size() > 2 &&
+         std::all_of(label.begin() + 2, label.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 }  // namespace
 
 std::vector<std::string> critical_keys() {
@@ -79,6 +91,12 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
     for (std::size_t i = 0; i < draft.parameters.size(); ++i)
       parameter_number(draft.parameters[i], table.find("parameters")->place,
                        table.key_of("parameters"), reading.book, reading.problems);
+    for (std::size_t i = 0; i < draft.parameters.size(); ++i)
+      if (std::count(draft.parameters.begin(), draft.parameters.begin() + static_cast<long>(i),
+                     draft.parameters[i]) == 1)
+        reading.problems.add(table.find("parameters")->items[i].place,
+                             table.key_of("parameters") + "[" + std::to_string(i + 1) + "]",
+                             "got \"" + draft.parameters[i] + "\" twice, need different names");
     return draft;
   }
   if (!usable) return draft;
@@ -90,6 +108,9 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   draft.range = read_range(kind, table, numbers, reading);
   if (kind == StudyKind::critical_curve) {
     draft.point = table.required_text("of", "a special point such as \"LP1\"").value_or("");
+    if (!draft.point.empty() && !is_followed(draft.point))
+      reading.problems.add(table.find("of")->place, table.key_of("of"),
+                           "got \"" + draft.point + "\", need LP, BP, CL, SA or UZ and a number");
     return draft;
   }
   table.require("of", "\"limit_point\" or \"loss_of_stability\"");

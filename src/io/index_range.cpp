@@ -46,13 +46,17 @@ class RangeReader {
     if (key.find(".elements[") != std::string::npos)
       return refuse(pattern.place, "elements of chains cannot be turned, need repeat");
     if (repeat) return refuse(pattern.place, "stands instead of repeat, need one of them");
-    const auto indices =
-        std::count_if(pattern.entries.begin(), pattern.entries.end(),
-                      [](const NodeEntry& entry) { return !is_pattern_key(entry.key); });
-    if (pattern.kind != Node::Kind::table || indices != 1)
-      return refuse(pattern.place, "got " + described(pattern) +
-                                       ", need a table with one index such as { i = [0, 5], "
-                                       "angle = \"60*deg\" }");
+    std::vector<std::string> indices;
+    for (const NodeEntry& entry : pattern.entries)
+      if (!is_pattern_key(entry.key)) indices.push_back(entry.key);
+    if (pattern.kind != Node::Kind::table || indices.size() != 1) {
+      std::string got = pattern.kind != Node::Kind::table ? described(pattern) : "no index";
+      if (indices.size() > 1) got = "the indices " + indices[0] + " and " + indices[1];
+      return refuse(pattern.place,
+                    "got " + got +
+                        ", need a table with one index such as { i = [0, 5], "
+                        "angle = \"60*deg\" }, and no other keys but axis and about");
+    }
     for (const NodeEntry& entry : pattern.entries) {
       if (is_pattern_key(entry.key)) continue;
       if (const auto range = range_of(entry, own + "." + entry.key))

@@ -141,6 +141,16 @@ std::string critical_words(const Case& the_case, const PlannedRun& planned,
          (points.empty() ? "" : "; " + points);
 }
 
+/// Where no critical point was found at all: an answer too, unless something is in doubt.
+std::string no_critical_words(const PlannedRun& planned, const StudyResult& result) {
+  const auto& asked = planned.plan.critical;
+  if (planned.plan.kind != StudyKind::critical_load || !complete(result)) return {};
+  const bool turns = asked.unwanted == analysis::Unwanted::limit_point;
+  return std::string{turns ? "no limit point" : "no loss of stability"} +
+         " on the path from the start at any of " + std::to_string(asked.values) + " values of " +
+         asked.parameter + " over the range";
+}
+
 /// The parameter that a per cent of which moves lambda most, of every point.
 std::string sensitivity_words(const PlannedRun& planned, const StudyResult& result) {
   std::string text;
@@ -247,7 +257,7 @@ std::vector<std::string> outline_of_kind(const Case& the_case, const PlannedRun&
   if (const auto* report = report_of(result)) return some(state_words(*report));
   if (result.design) return some(result.design->message);
   const bool has_rows = !result.branches.empty() && !result.branches.front().samples.empty();
-  if (!has_rows) return {};
+  if (!has_rows) return some(no_critical_words(planned, result));
   switch (planned.plan.kind) {
     case StudyKind::control:
       return some(control_words(result.branches.front()));

@@ -53,6 +53,26 @@ TEST_F(CriticalMessages, WantTheTableOfTheKind) {
   EXPECT_THAT(found[0], testing::HasSubstr("study[1].critical_curve: "));
 }
 
+TEST_F(CriticalMessages, WantALabelOfAPointThatIsFollowed) {
+  for (const std::string label : {"EP1", "BPx", "BP", "LP-1"}) {
+    const auto found = after("of = \"BP1\"", "of = \"" + label + "\"");
+    ASSERT_EQ(found.size(), 1U) << label;
+    EXPECT_THAT(found[0], testing::HasSubstr("critical_curve.of: got \"" + label +
+                                             "\", need LP, BP, CL, SA or UZ and a number"));
+  }
+}
+
+TEST_F(CriticalMessages, NameAParameterThatStandsTwiceOnce) {
+  const auto found = after(
+      "kind = \"critical_curve\"\ncontrol = \"load\"\ndirection = [-1, 0]\nmark = { k = [0.5] }\n"
+      "critical_curve = { of = \"BP1\", parameter = \"k\", range = [0.1, 2] }",
+      "kind = \"sensitivity\"\ncontrol = \"load\"\ndirection = [-1, 0]\n"
+      "sensitivity = { parameters = [\"k\", \"c\", \"k\"] }");
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found[0], testing::HasSubstr("sensitivity.parameters[3]: got \"k\" twice"));
+  EXPECT_EQ(found.size(), 1U);
+}
+
 TEST_F(CriticalMessages, WantAParameterOfTheCase) {
   const auto found = after("parameter = \"k\"", "parameter = \"kk\"");
   ASSERT_FALSE(found.empty());

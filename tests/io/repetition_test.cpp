@@ -298,8 +298,12 @@ TEST_F(Repetition, WantsPatternsThatCanBeTurned) {
                                 "is \"z\""));
   EXPECT_THAT(
       changed("{ i = [0, 3], angle = \"90*deg\" }", "{ angle = \"90*deg\" }"),
-      testing::Contains("case.toml:4:11: node[1].pattern: got a table, need a table with one "
-                        "index such as { i = [0, 5], angle = \"60*deg\" }"));
+      testing::Contains("case.toml:4:11: node[1].pattern: got no index, need a table with one "
+                        "index such as { i = [0, 5], angle = \"60*deg\" }, and no other keys but "
+                        "axis and about"));
+  EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"90*deg\", abuot = [1, 0] }\nname"),
+              testing::Contains(testing::HasSubstr(
+                  "node[1].pattern: got the indices i and abuot, need a table with one index")));
   EXPECT_THAT(changed("at = [\"R\", 0]\n", "at = [\"R\", 0]\nfixed = [\"x\"]\n"),
               testing::Contains(testing::HasSubstr(
                   "node[1, i = 0].fixed: directions are those of the base, which do not turn")));
