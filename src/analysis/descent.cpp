@@ -112,12 +112,18 @@ class Walk {
       const Vector step = step_at(*at, modes);
       const bool is_in_a_pit = modes.curvatures[0] > 0;
       if (is_in_a_pit && step.norm() < nearly_there && rests().end == Descent::End::rest &&
-          result_.state.energy <= energy + rounding(energy))
-        return result_;
-      if (is_at_an_end(*at, modes, step, energy)) return rests();
+          result_.state.energy <= energy + rounding(energy)) {
+        if (result_.state.is_clear || !falls_aside(*at, modes, energy)) return result_;
+        continue;
+      }
+      const Place place = place_at(*at, modes, step, energy);
+      if (place == Place::level && falls_aside(*at, modes, energy)) continue;
+      if (place != Place::slope) return rests();
       if (!advance(*at, step, energy)) return rests();
-      if (is_in_a_pit && before - energy <= rounding(energy) && step.norm() < nearly_there)
-        return rests();
+      if (is_in_a_pit && before - energy <= rounding(energy) && step.norm() < nearly_there) {
+        const bool is_clear = rests().end == Descent::End::rest && result_.state.is_clear;
+        if (is_clear || !falls_aside(*at, modes, energy)) return result_;
+      }
     }
     return result_;
   }
@@ -134,22 +140,42 @@ class Walk {
     return modes.directions * y;
   }
 
-  /// The step can gain nothing that rounding does not hide, and the state is in no pit. Either a saddle is so near that
-  /// it was met head on: rounding alone would choose the side, and who asked leaves it to both. Or nothing leads on, as
+  enum class Place { slope, saddle, level };
+
+  /// Where the step can gain nothing that rounding does not hide, and the state is in no pit: either a saddle is so near that
+  /// it was met head on; rounding alone would choose the side, and who asked leaves it to both. Or nothing leads on, as
   /// on a level floor: beside a ridge of any order the gain along what falls grows from step to step.
-  bool is_at_an_end(const Ground& at, const Modes& modes, const Vector& step, double energy) {
+  Place place_at(const Ground& at, const Modes& modes, const Vector& step, double energy) {
     const auto before = std::exchange(gain_on_ridge_, std::nullopt);
     if (modes.curvatures[0] > 0 || -at.slope.dot(step) > rounding(energy) ||
         step.norm() >= nearly_there)
-      return false;
+      return Place::slope;
     const auto state = rest_near(landscape_, at.x);
     if (state && state->index > 0 && state->is_clear && state->energy <= energy + rounding(energy))
-      return true;
+      return Place::saddle;
     double gain = 0;
     for (Index i = 0; i < modes.slopes.size() && modes.curvatures[i] <= 0; ++i)
       gain += modes.slopes[i] * modes.slopes[i] / std::max(modes.floor, -modes.curvatures[i]);
     gain_on_ridge_ = gain;
-    return before && gain <= *before;
+    return before && gain <= *before ? Place::level : Place::slope;
+  }
+
+  /// Slopes that are rounding may be those of a point of inflection, as at a limit point: a little way off along the softest
+  /// modes the energy falls clearly. Goes there.
+  bool falls_aside(const Ground& at, const Modes& modes, double& energy) {
+    const Index soft = std::max<Index>(1, (modes.curvatures.array() <= modes.floor).count());
+    for (Index i = 0; i < soft; ++i)
+      for (const double side : {-nearly_there, nearly_there}) {
+        const Vector step = side * modes.directions.col(i);
+        const auto x = landscape_.moved(at, step);
+        const double e = x ? landscape_.energy(*x) : std::numeric_limits<double>::quiet_NaN();
+        if (!(e < energy - rounding(energy)) || !stays_below(landscape_, at, step, energy))
+          continue;
+        energy = e;
+        result_.x = *x;
+        return true;
+      }
+    return false;
   }
 
   /// Shortens the step until the energy falls as it should.

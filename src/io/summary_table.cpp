@@ -321,6 +321,7 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
   for (std::size_t i = 0; i < files.size(); ++i) {
     const SweepTable& sweep = the_case.sweeps[i];
     const SweepCounts counts = counts_of(the_case, sweep, results);
+    if (counts.planned == 0) continue;  // not among the chosen studies
     text += (is_first && text.empty() ? "" : "\n") + sweep_heading(sweep, counts.planned) +
             sweep_lines(the_case, sweep, results);
     text +=

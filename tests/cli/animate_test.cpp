@@ -241,7 +241,7 @@ TEST(SymmetricFilm, ADeflectionThatIsZeroButForRoundingIsNoAxis) {
     const auto outcome = io::film_of(run, result, the_case.units, {});
     EXPECT_EQ(outcome.problem, "");
     EXPECT_EQ(outcome.film.diagram.x_name, "s");
-    EXPECT_EQ(outcome.film.diagram.y_name, "lambda");
+    EXPECT_EQ(outcome.film.diagram.y_name, "lambda (l0) [m]");
     return;
   }
   FAIL() << "no study \"swell\"";

@@ -127,14 +127,21 @@ std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
+  const ProblemView problem = walker_.problem;
+  WorkingMemory& memory = *walker_.memory;
+  const bool structured = problem.structured();
+  if (structured && !(problem.residual(point->x, point->lambda, point->piece, memory.F) &&
+                      is_on_curve(*point, memory.F)))
+    return std::nullopt;
   Place* const place =
-      place_with_residual(walker_.problem, *walker_.memory, point->x, point->lambda, point->piece);
-  if (!place || !is_on_curve(*point, place->F)) return std::nullopt;
+      structured ? place_at(problem, memory, point->x, point->lambda, point->piece)
+                 : place_with_residual(problem, memory, point->x, point->lambda, point->piece);
+  if (!place || !(structured || is_on_curve(*point, place->F))) return std::nullopt;
   const Direction expected = point->tangent;
-  if (!tangent_at(*walker_.memory, *place, walker_.weights, from_.tangent, point->tangent))
+  if (!tangent_at(memory, *place, walker_.weights, from_.tangent, point->tangent))
     return std::nullopt;
   if (length_of(walker_, difference(point->tangent, expected)) > told_apart) return std::nullopt;
-  if (walker_.problem.symmetric()) point->negative = place->factors.negative();
+  if (problem.symmetric()) point->negative = place->factors.negative();
   return point;
 }
 
