@@ -90,19 +90,47 @@ void WatchedStep::settle_model() const {
   }
   if (!go_through()) return;
   const double scale = size_of(from_);
-  CurvePoint expected;
   int compared = 0;
   for (const double share : {0.07, 0.4, 0.6, 0.93}) {
-    const auto point = corrected(share * length_);
-    if (!point) continue;
-    model_.point(walker_.weights, from_, share * length_, expected);
-    error_.place = std::max(error_.place, length_of(walker_, difference(*point, expected)));
-    error_.direction = std::max(error_.direction,
-                                length_of(walker_, difference(point->tangent, expected.tangent)));
+    const auto error = error_at(share * length_);
+    if (!error) continue;
+    error_.place = std::max(error_.place, error->place);
+    error_.direction = std::max(error_.direction, error->direction);
     ++compared;
   }
   exact_ = compared > 2 && is_exact(error_.place, scale) &&
            is_exact(error_.direction * length_, scale * between_samples);
+}
+
+/// The place of the model's own point, with its residual.
+Place* WatchedStep::place_on_model(const CurvePoint& point) const {
+  const ProblemView problem = walker_.problem;
+  WorkingMemory& memory = *walker_.memory;
+  if (!problem.structured())
+    return place_with_residual(problem, memory, point.x, point.lambda, point.piece);
+  Place* const place = place_at(problem, memory, point.x, point.lambda, point.piece);
+  if (!place) return nullptr;
+  place->knows_F = problem.residual(point.x, point.lambda, point.piece, place->F);
+  return place->knows_F ? place : nullptr;
+}
+
+/// Newton's first correction, and the angle to the tangent there: what is left after it is its square.
+std::optional<WatchedStep::ModelError> WatchedStep::error_at(double ds) const {
+  CurvePoint expected;
+  model_.point(walker_.weights, from_, ds, expected);
+  Place* const place = place_on_model(expected);
+  Direction tangent;
+  WorkingMemory& memory = *walker_.memory;
+  if (!place || !tangent_at(memory, *place, walker_.weights, from_.tangent, tangent))
+    return std::nullopt;
+  const Index n = expected.x.size();
+  Vector& step = memory.step;
+  step.resize(n + 1);
+  step.head(n) = -place->F;
+  step[n] = 0;
+  if (!place->factors.solve(step.data())) return std::nullopt;
+  return ModelError{length_of(walker_, {step.head(n), step[n]}),
+                    length_of(walker_, difference(tangent, expected.tangent))};
 }
 
 /// Does the model's own point satisfy F as corrected ones do?
@@ -127,28 +155,21 @@ std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  const ProblemView problem = walker_.problem;
-  WorkingMemory& memory = *walker_.memory;
-  const bool structured = problem.structured();
-  if (structured && !(problem.residual(point->x, point->lambda, point->piece, memory.F) &&
-                      is_on_curve(*point, memory.F)))
-    return std::nullopt;
-  Place* const place =
-      structured ? place_at(problem, memory, point->x, point->lambda, point->piece)
-                 : place_with_residual(problem, memory, point->x, point->lambda, point->piece);
-  if (!place || !(structured || is_on_curve(*point, place->F))) return std::nullopt;
+  Place* const place = place_on_model(*point);
+  if (!place || !is_on_curve(*point, place->F)) return std::nullopt;
   const Direction expected = point->tangent;
-  if (!tangent_at(memory, *place, walker_.weights, from_.tangent, point->tangent))
+  if (!tangent_at(*walker_.memory, *place, walker_.weights, from_.tangent, point->tangent))
     return std::nullopt;
   if (length_of(walker_, difference(point->tangent, expected)) > told_apart) return std::nullopt;
-  if (problem.symmetric()) point->negative = place->factors.negative();
+  if (walker_.problem.symmetric()) point->negative = place->factors.negative();
   return point;
 }
 
 std::optional<CurvePoint> WatchedStep::find(double ds) const {
   if (!settled_) settle_model();
   if (model_.empty()) return point_at(walker_, from_, ds);
-  auto point = corrected(ds);
+  auto point = exact_point(ds);
+  if (!point) point = corrected(ds);
   if (!exact_) return point ? point : point_at(walker_, from_, ds);
   CurvePoint expected;
   model_.point(walker_.weights, from_, ds, expected);

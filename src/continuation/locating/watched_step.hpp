@@ -72,6 +72,7 @@ class WatchedStep {
   std::optional<CurvePoint> find(double ds) const;
   std::optional<CurvePoint> corrected(double ds) const;
   bool model_of_samples() const;
+  Place* place_on_model(const CurvePoint& point) const;
   bool is_on_curve(const CurvePoint& point, const Vector& F) const;
   void settle_model() const;
 
@@ -79,6 +80,7 @@ class WatchedStep {
   struct ModelError {
     double place = 0, direction = 0;
   };
+  std::optional<ModelError> error_at(double ds) const;
   /// Of the step's ends and what is known between them; they outlive it. Most steps never ask for the model.
   std::array<const CurvePoint*, ArcModel::most_nodes> samples_{};
   std::size_t sample_count_ = 0;

@@ -77,6 +77,16 @@ Matrix polar(const Matrix& columns) {
   return svd.U * svd.V.transpose();
 }
 
+/// Positive along growing mu. Where mu is stationary rounding must not decide it twice: there the largest entry does, so that
+/// the two sides take one way each.
+double sense_of(const Direction& tangent) {
+  if (std::abs(tangent.dlambda) > root_of_rounding) return tangent.dlambda;
+  Index largest = 0;
+  for (Index i = 1; i < tangent.dx.size(); ++i)
+    if (std::abs(tangent.dx[i]) > (1 + poor) * std::abs(tangent.dx[largest])) largest = i;
+  return std::copysign(root_of_rounding, tangent.dx[largest]);
+}
+
 class Follower {
  public:
   Follower(const Family& family, CriticalStart start, const std::vector<CriticalEvent>& events,
@@ -152,9 +162,8 @@ class Follower {
     double largest = -infinity;
     for (const Ray& ray : rays) {
       const double forward = along ? metric_product(system.metric(), *along, ray.tangent)
-                                   : (growing ? ray.tangent.dlambda : -ray.tangent.dlambda);
-      // Where mu is stationary both ways are alike: the two sides take one each.
-      if (forward > largest || (!growing && forward == largest)) best = &ray;
+                                   : (growing ? sense_of(ray.tangent) : -sense_of(ray.tangent));
+      if (forward > largest) best = &ray;
       largest = std::max(largest, forward);
     }
     if (best != nullptr) return *best;
