@@ -96,7 +96,7 @@ point_style(code) = code eq 'start' ? 11 : code eq 'LP' ? 12 : code eq 'CL' ? 13
                     code eq 'SA' ? 14 : code eq 'BP' ? 15 : code eq 'KB' ? 16 : \
                     code eq 'KS' ? 17 : code eq 'TP' ? 18 : code eq 'UZ' ? 19 : \
                     code eq 'FM' ? 21 : code eq 'ES' ? 22 : code eq 'EU' ? 23 : code eq 'SC' ? 24 : \
-                    strstrt(' CP IC CX HT BB C2 FA CR TA AA PT TH ', ' '.code.' ') > 0 ? 25 : \
+                    strstrt(' CP IC CX HT BB C2 FA CR TA AA SB PT TH ', ' '.code.' ') > 0 ? 25 : \
                     code eq 'EX' || code eq 'JP' ? 26 : 20
 point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'LP' ? 'limit point (LP)' : \
@@ -121,6 +121,7 @@ point_name(code) = code eq 'start' ? 'start' : \
                    code eq 'CR' ? 'corner loses its reversal (CR)' : \
                    code eq 'TA' ? 'touch of an activation (TA)' : \
                    code eq 'AA' ? 'two activations (AA)' : \
+                   code eq 'SB' ? 'supercritical, subcritical (SB)' : \
                    code eq 'PT' ? 'turn of the parameter (PT)' : \
                    code eq 'EX' ? 'extremum (EX)' : \
                    code eq 'TH' ? 'threshold (TH)' : \

@@ -187,6 +187,8 @@ EventKind kind_of(Degeneracy kind, EventKind of) {
       return EventKind::touches_activation;
     case Degeneracy::two_switches:
       return EventKind::two_activations;
+    case Degeneracy::bends_other_way:
+      return EventKind::bends_other_way;
     case Degeneracy::turn:  // extrema of the force merge as limit points do
       return of == EventKind::limit_point ? EventKind::cusp : EventKind::parameter_turns;
     case Degeneracy::extremum:

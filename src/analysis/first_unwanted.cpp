@@ -59,6 +59,7 @@ bool ends_piece(continuation::Degeneracy kind) {
     case Degeneracy::two_switches:
     case Degeneracy::turn:
       return true;
+    case Degeneracy::bends_other_way:
     case Degeneracy::hilltop:
     case Degeneracy::corank_two:
     case Degeneracy::extremum:

@@ -52,6 +52,8 @@ std::string code_of(EventKind kind) {
       return "TA";
     case EventKind::two_activations:
       return "AA";
+    case EventKind::bends_other_way:
+      return "SB";
     case EventKind::parameter_turns:
       return "PT";
     case EventKind::extremum:

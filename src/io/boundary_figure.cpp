@@ -69,6 +69,7 @@ bool is_boundary_point(StudyKind kind, EventKind event) {
     case EventKind::corner_loses_reversal:
     case EventKind::touches_activation:
     case EventKind::two_activations:
+    case EventKind::bends_other_way:
     case EventKind::parameter_turns:
       return true;
     default:

@@ -250,9 +250,9 @@ std::vector<MatrixEntryName> matrix_entries(const model::Mechanism& mechanism) {
 }
 
 const std::vector<std::string>& event_codes() {
-  static const std::vector<std::string> codes{"LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ",
-                                              "EP", "SC", "UR", "EQ", "CP", "IC", "CX", "HT", "BB",
-                                              "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH", "JP"};
+  static const std::vector<std::string> codes{
+      "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR", "EQ", "CP",
+      "IC", "CX", "HT", "BB", "C2", "FA", "CR", "TA", "AA", "SB", "PT", "EX", "TH", "JP"};
   return codes;
 }
 

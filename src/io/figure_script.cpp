@@ -102,8 +102,8 @@ void send_curves(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
 void send_marks(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas) {
   std::string codes, codes_in_key;
   for (const std::string code :
-       {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "FM", "UZ", "SC", "UR", "ES", "EU",
-        "CP",    "IC", "CX", "HT", "BB", "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH", "JP"}) {
+       {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "FM", "UZ", "SC", "UR", "ES", "EU", "CP",
+        "IC",    "CX", "HT", "BB", "C2", "FA", "CR", "TA", "AA", "SB", "PT", "EX", "TH", "JP"}) {
     std::vector<PlotPoint> points;
     for (const auto& mark : figure.marks)
       if (mark.code == code) points.push_back(mark.at);

@@ -6,7 +6,7 @@
 namespace springfold::io {
 
 std::string point_name(const std::string& code) {
-  constexpr std::array<std::pair<const char*, const char*>, 28> names{{
+  constexpr std::array<std::pair<const char*, const char*>, 29> names{{
       {"start", "start"},
       {"LP", "limit point (LP)"},
       {"CL", "corner limit point (CL)"},
@@ -30,6 +30,7 @@ std::string point_name(const std::string& code) {
       {"CR", "corner loses its reversal (CR)"},
       {"TA", "touch of an activation (TA)"},
       {"AA", "two activations (AA)"},
+      {"SB", "supercritical, subcritical (SB)"},
       {"PT", "turn of the parameter (PT)"},
       {"EX", "extremum (EX)"},
       {"TH", "threshold (TH)"},

@@ -88,6 +88,9 @@ std::string explanation_of(EventKind kind, const Passage& passage, bool is_load)
       return "The path touches the threshold of a spring here.";
     case EventKind::two_activations:
       return "Two springs switch at the same point here.";
+    case EventKind::bends_other_way:
+      return "The branch that leaves here bends the other way from here on: a branch point that "
+             "was supercritical is subcritical, or the reverse.";
     case EventKind::parameter_turns:
       return "The second parameter turns back here.";
     case EventKind::extremum:

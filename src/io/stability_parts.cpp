@@ -48,6 +48,7 @@ Trust trust_at(EventKind kind) {
     case EventKind::corner_loses_reversal:
     case EventKind::touches_activation:
     case EventKind::two_activations:
+    case EventKind::bends_other_way:
     case EventKind::parameter_turns:
     case EventKind::extremum:
     case EventKind::threshold:

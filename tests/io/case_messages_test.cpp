@@ -279,7 +279,7 @@ TEST_F(CaseMessages, OfExpectationsHaveTheirOwnFile) {
           "\"KB\", \"KS\", "
           "\"TP\", \"FM\", \"UZ\", "
           "\"EP\", \"SC\", \"UR\", \"CP\", \"IC\", \"CX\", \"HT\", \"BB\", \"C2\", "
-          "\"FA\", \"CR\", \"TA\", \"AA\", \"PT\", \"EX\", \"TH\" or \"JP\"",
+          "\"FA\", \"CR\", \"TA\", \"AA\", \"SB\", \"PT\", \"EX\", \"TH\" or \"JP\"",
           "expected.toml:11:6: value[2].at: got \"LP0\", need \"start\", \"end\", "
           "an event such as \"LP1\", \"target 2\" of a study of commands, or the code of "
           "an event or \"row\" and `near`",

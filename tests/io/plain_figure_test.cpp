@@ -87,8 +87,8 @@ TEST(PlainFigure, PointsHaveTheNamesOfGnuplotsFigures) {
   const std::string style =
       text_in(std::filesystem::path{SPRINGFOLD_SOURCE_DIR} / "plots/style.gp");
   for (const char* code :
-       {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "FM", "UZ", "SC", "UR", "ES", "EU",
-        "CP",    "IC", "CX", "HT", "BB", "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH", "JP"})
+       {"start", "LP", "CL", "SA", "BP", "KB", "KS", "TP", "FM", "UZ", "SC", "UR", "ES", "EU", "CP",
+        "IC",    "CX", "HT", "BB", "C2", "FA", "CR", "TA", "AA", "SB", "PT", "EX", "TH", "JP"})
     EXPECT_THAT(style,
                 HasSubstr(std::string{"code eq '"} + code + "' ? '" + point_name(code) + "'"));
 }

@@ -62,6 +62,7 @@ enum class EventKind {
   corner_loses_reversal,  ///< CR: behind a corner the load no longer turns back
   touches_activation,     ///< TA: the path touches the threshold of a spring
   two_activations,        ///< AA: another spring switches at the same point
+  bends_other_way,        ///< SB: a supercritical branch point becomes subcritical
   parameter_turns,        ///< PT: the second parameter turns back on a curve of zeros
   extremum,               ///< EX: lambda is stationary along a critical curve
   threshold,              ///< TH: the value that a threshold study looks for
@@ -69,7 +70,7 @@ enum class EventKind {
 };
 
 /// "LP", "BP", "SA", "CL", "KB", "KS", "TP", "FM", "UZ", "EP", "SC", "UR", "CP", "IC", "CX", "HT", "BB",
-/// "C2", "FA", "CR", "TA", "AA", "PT", "EX", "TH", "JP".
+/// "C2", "FA", "CR", "TA", "AA", "SB", "PT", "EX", "TH", "JP".
 std::string code_of(EventKind kind);
 
 /// What a node of a map is.

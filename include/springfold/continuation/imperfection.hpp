@@ -32,6 +32,9 @@ struct ReducedForm {
 std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStart& start,
                                         const Direction& tangent);
 
+/// Is this the form of a symmetric branch point of one mode, lambda - lambda0 = -G/(6 B) xi^2 on the branch that leaves?
+bool is_symmetric_point(const ReducedForm& form);
+
 /// gamma = W^T dF/dm by six-point differences; nothing outside the domain. @param start  as above
 std::optional<Vector> imperfection_part(const Family& family, const CriticalStart& start,
                                         const ReducedForm& form);

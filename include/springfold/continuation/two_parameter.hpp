@@ -63,6 +63,7 @@ enum class Degeneracy {
   corner_loses_reversal,  ///< the slope of lambda behind the surface passes zero
   touches_surface,        ///< two crossings of the surface merge: mu turns back
   two_switches,           ///< another switch is zero at the same point
+  bends_other_way,        ///< a symmetric branch point: supercritical before, subcritical behind
   turn,                   ///< mu turns back on a curve of zeros
   extremum,               ///< lambda is stationary along the curve
   user,                   ///< an event of the caller

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/imperfection.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {
@@ -97,19 +98,55 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
   }
 }
 
+/// Zero where one more eigenvalue of dF/dx vanishes.
+double other_eigenvalue(const Augmented& s, const CurvePoint& p) {
+  BaseTerms base;
+  if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base))
+    return not_a_number;
+  const auto problem = s.family().at(p.lambda);
+  return signed_least(bordered_matrix(base, s.borders().left, s.borders().right),
+                      problem && problem->symmetric());
+}
+
 void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
-  watches.push_back(
-      {Degeneracy::corank_two, "",
-       [&system](const CurvePoint& p) {
-         BaseTerms base;
-         if (!base_terms(system.family(), system.state(p.x), system.lambda(p.x), p.lambda,
-                         system.start().piece, base))
-           return not_a_number;
-         const auto problem = system.family().at(p.lambda);
-         return signed_least(bordered_matrix(base, system.borders().left, system.borders().right),
-                             problem && problem->symmetric());
-       },
-       EventAction::record, [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
+  watches.push_back({Degeneracy::corank_two, "",
+                     [&system](const CurvePoint& p) { return other_eigenvalue(system, p); },
+                     EventAction::record,
+                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
+}
+
+/// The equations reduced to the modes at a point of the curve.
+std::optional<ReducedForm> form_at(const Augmented& s, const CurvePoint& p) {
+  CriticalStart at = s.start();
+  at.x = s.state(p.x);
+  at.lambda = s.lambda(p.x);
+  at.mu = p.lambda;
+  return reduced_form(s.family(), at, {Vector::Zero(s.n()), 1});
+}
+
+/// The cubic term of a symmetric branch point, with the borders' signs of the modes: where it changes sign, the branch
+/// that leaves bends the other way. Where another eigenvalue of dF/dx vanishes the term has a pole if its mode takes part:
+/// times that eigenvalue it is regular. If the mode takes no part, what vanishes there is known as the other mode.
+double bend_of_branch(const Augmented& s, const CurvePoint& p) {
+  const auto form = form_at(s, p);
+  if (!form || form->by_lambda.size() != 1) return not_a_number;
+  const double signs =
+      form->W.col(0).dot(s.borders().left.col(0)) * form->V.col(0).dot(s.borders().right.col(0));
+  const double cubic = signs < 0 ? -form->cubic[0](0, 0) : form->cubic[0](0, 0);
+  // Zero to rounding of the terms that it is made of all along: it has no zeros to be found.
+  const double noise =
+      between_samples * function_noise * std::max(1.0, std::abs(form->mixed(0, 0) * s.lambda(p.x)));
+  return (std::abs(cubic) < noise ? noise : cubic) * other_eigenvalue(s, p);
+}
+
+void watch_bend(const Augmented& system, const CurvePoint& start, std::vector<Watch>& watches) {
+  const auto form = form_at(system, start);
+  if (!form || !is_symmetric_point(*form)) return;
+  watches.push_back({Degeneracy::bends_other_way,
+                     "",
+                     [&system](const CurvePoint& p) { return bend_of_branch(system, p); },
+                     EventAction::record,
+                     {}});
 }
 
 void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
@@ -156,6 +193,10 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
                      {}});
   if (kind == CriticalKind::limit_point || kind == CriticalKind::branch_point)
     watch_bordered(system, watches);
+  if (kind == CriticalKind::branch_point && system.start().corank == 1) {
+    const CurvePoint start{.x = system.start_unknowns(), .lambda = system.start().mu};
+    watch_bend(system, start, watches);
+  }
   if (kind == CriticalKind::surface) watch_corner(system, watches);
   watch_surfaces(system, watches);
   for (const CriticalEvent& event : events)
@@ -190,6 +231,9 @@ std::string_view to_string(Degeneracy kind) {
       return "the path touches the activation";
     case Degeneracy::two_switches:
       return "two activations at once";
+    case Degeneracy::bends_other_way:
+      return "the branch that leaves bends the other way: supercritical before, subcritical "
+             "behind, or the reverse";
     case Degeneracy::turn:
       return "the parameter turns back";
     case Degeneracy::extremum:

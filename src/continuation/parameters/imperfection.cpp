@@ -220,6 +220,10 @@ std::optional<ImperfectionLaw> law_of_two_modes(const ReducedForm& form, const V
 
 }  // namespace
 
+bool is_symmetric_point(const ReducedForm& form) {
+  return form.by_lambda.size() == 1 && !has_lambda(form) && !is_quadratic(form);
+}
+
 std::optional<ImperfectionLaw> imperfection_law(const ReducedForm& form, const Vector& gamma) {
   if (!(gamma.norm() > 0)) return std::nullopt;
   if (gamma.size() == 1) return law_of_one_mode(form, gamma[0]);

@@ -273,6 +273,13 @@ class Follower {
     };
     const std::vector<CriticalHit> all = curve_.hits;
     std::erase_if(curve_.hits, [&](const CriticalHit& hit) {
+      // Another mode that takes no part in how the branch bends.
+      if (hit.kind == Degeneracy::bends_other_way &&
+          std::any_of(all.begin(), all.end(), [&](const CriticalHit& other) {
+            return (other.kind == Degeneracy::corank_two || other.kind == Degeneracy::hilltop) &&
+                   std::abs(other.point.s - hit.point.s) <= same_place;
+          }))
+        return true;
       const bool secondary = hit.kind == Degeneracy::extremum ||
                              hit.kind == Degeneracy::fold_meets_activation ||
                              hit.kind == Degeneracy::corner_loses_reversal;
