@@ -296,21 +296,23 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
          diagram_lines(result, plan_of(the_case, result));
 }
 
-/// What happened in the runs of a sweep, in words.
-std::string sweep_lines(const Case& the_case, const SweepTable& sweep,
-                        const std::vector<StudyResult>& results) {
-  std::string text;
-  for (const std::string& sentence : sweep_words(the_case, sweep, results))
-    for (const std::string& line : wrapped(sentence, table_width - summary_indent))
-      text += std::string(summary_indent, ' ') + line + "\n";
-  return text;
-}
-
 std::string sweep_heading(const SweepTable& sweep, int runs) {
   std::string parameters;
   for (const std::string& name : sweep.parameters)
     parameters += (parameters.empty() ? "" : ", ") + name;
   return shown(sweep.study) + ", " + counted(runs, "run") + " over " + parameters + "\n";
+}
+
+/// What happened in the runs of a sweep, in words; nothing of a study that was not chosen.
+/// @param planned  how many runs it has
+std::string sweep_lines(const Case& the_case, const SweepTable& sweep, int planned,
+                        const std::vector<StudyResult>& results) {
+  if (planned == 0) return {};
+  std::string text = sweep_heading(sweep, planned);
+  for (const std::string& sentence : sweep_words(the_case, sweep, results))
+    for (const std::string& line : wrapped(sentence, table_width - summary_indent))
+      text += std::string(summary_indent, ' ') + line + "\n";
+  return text;
 }
 
 /// One block for every table of many runs.
@@ -322,8 +324,8 @@ std::string sweep_blocks(const Case& the_case, const std::vector<StudyResult>& r
     const SweepTable& sweep = the_case.sweeps[i];
     const SweepCounts counts = counts_of(the_case, sweep, results);
     if (counts.planned == 0) continue;  // not among the chosen studies
-    text += (is_first && text.empty() ? "" : "\n") + sweep_heading(sweep, counts.planned) +
-            sweep_lines(the_case, sweep, results);
+    text += (is_first && text.empty() ? "" : "\n") +
+            sweep_lines(the_case, sweep, counts.planned, results);
     text +=
         summary_line("complete", std::to_string(counts.complete) + " of " +
                                      std::to_string(counts.planned) + ", table " + shown(files[i]));
@@ -364,8 +366,7 @@ std::string outline_text(const Case& the_case, const std::vector<StudyResult>& r
   for (const auto& result : results)
     if (!result.row) text += heading_of(result) + "\n" + outline_lines(the_case, result);
   for (const SweepTable& sweep : the_case.sweeps)
-    text += sweep_heading(sweep, counts_of(the_case, sweep, results).planned) +
-            sweep_lines(the_case, sweep, results);
+    text += sweep_lines(the_case, sweep, counts_of(the_case, sweep, results).planned, results);
   return text;
 }
 

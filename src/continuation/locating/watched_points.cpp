@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/determined.hpp"
@@ -48,19 +47,12 @@ bool WatchedStep::model_of_samples() const {
 }
 
 std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
-  constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
-  const CurvePoint& to = *samples_[sample_count_ - 1];
   if (model_.empty() && (settled_ || !model_of_samples()))
-    return point_between(walker_, from_, to, ds);
+    return point_between(walker_, from_, *samples_[sample_count_ - 1], ds);
+  auto point = corrected(ds);
+  if (!point) return {};
   CurvePoint expected;
   model_.point(walker_.weights, from_, ds, expected);
-  std::optional<CurvePoint> point(std::in_place);
-  point->x = expected.x;
-  point->lambda = expected.lambda;
-  point->s = expected.s;
-  StepMeasures measures;
-  std::string refusal;
-  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
   if (metric_product(walker_.weights, point->tangent, expected.tangent) < half_a_right_angle)
     return {};
   return point;

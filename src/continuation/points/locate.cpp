@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
@@ -28,7 +27,6 @@ std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from,
 
 std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
                                         const CurvePoint& to, double ds) {
-  constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
   const double h = to.s - from.s, t = ds / h;
   const double along = metric_product(walker.weights, to.tangent, from.tangent);
   if (!(h > 0) || !(along > 0)) return point_at(walker, from, ds);

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
+
+/// Cosine of the angle between a point's tangent and the expected one up to which the point is on its own branch.
+inline constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
 
 /// A point of the curve at distance ds from `from` along its tangent, without judging the step.
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
