@@ -52,23 +52,9 @@ TEST(BendingBranch, ThatBendsOneWayAllAlongDoesNotTurnAtAnotherMode) {
   EXPECT_EQ(hits_of(curve, Degeneracy::bends_other_way).size(), 0U);
 }
 
-/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: at the hilltop y = mu = 1 its bend is infinite.
-Given crest(double mu) {
-  return {
-      [=](const Vector& u, double l) {
-        return Vector{{u[0] * (mu - u[1]), l - u[1] + u[1] * u[1] * u[1] / 3 - u[0] * u[0] / 2}};
-      },
-      [=](const Vector& u, double) {
-        return Matrix{{mu - u[1], -u[0]}, {-u[0], -1 + u[1] * u[1]}};
-      },
-      [](const Vector&, double) {
-        return Vector{{0, 1}};
-      },
-      2};
-}
-
+/// At the hilltop y = mu = 1 the bend is infinite.
 TEST(BendingBranch, IsNotStraightAtAHilltop) {
-  const Family family = family_of<Given>(crest);
+  const Family family = family_of<Given>(hill);
   const double y = 0.5;
   const auto curve = follow_critical(
       family, start_at(CriticalKind::branch_point, Vector{{0, y}}, y - y * y * y / 3, y), true,

@@ -103,4 +103,19 @@ inline std::vector<CriticalHit> hits_of(const CriticalCurve& curve, Degeneracy k
   return list;
 }
 
+/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.
+inline Given hill(double mu) {
+  return {
+      [=](const Vector& u, double l) {
+        return Vector{{u[0] * (mu - u[1]), l - u[1] + u[1] * u[1] * u[1] / 3 - u[0] * u[0] / 2}};
+      },
+      [=](const Vector& u, double) {
+        return Matrix{{mu - u[1], -u[0]}, {-u[0], -1 + u[1] * u[1]}};
+      },
+      [](const Vector&, double) {
+        return Vector{{0, 1}};
+      },
+      2};
+}
+
 }  // namespace springfold::continuation

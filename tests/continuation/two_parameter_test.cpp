@@ -183,21 +183,6 @@ TEST(TwoParameters, TheFoldsOfTheButterflyColumnMeetAtOneLoad) {
   for (const double load : loads) EXPECT_NEAR(load, 2.9170348529388, 1e-9);
 }
 
-/// V = lambda y - y^2/2 + y^4/12 + x^2 (mu - y)/2: limit point at y = 1, branch point at y = mu.
-Given hill(double mu) {
-  return {
-      [=](const Vector& u, double l) {
-        return Vector{{u[0] * (mu - u[1]), l - u[1] + u[1] * u[1] * u[1] / 3 - u[0] * u[0] / 2}};
-      },
-      [=](const Vector& u, double) {
-        return Matrix{{mu - u[1], -u[0]}, {-u[0], -1 + u[1] * u[1]}};
-      },
-      [](const Vector&, double) {
-        return Vector{{0, 1}};
-      },
-      2};
-}
-
 TEST(TwoParameters, BranchPointOnALimitPointIsAHilltopSeenFromBothCurves) {
   const Family family = family_of<Given>(hill);
   const double y = 0.5;
