@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -29,8 +30,11 @@ std::uint64_t batch_of(Mode mode) { return mode == Mode::check ? 100 : mode == M
 
 /// CPU seconds after which a mutant has no end. On a machine that is busy with something else they last longer; what waits
 /// without working has `patience` times as many seconds.
-double limit_of(Mode mode) { return mode == Mode::uncapped ? 300 : 60; }
+double limit_of(Mode mode) { return mode == Mode::run ? 60 : 300; }
 constexpr double patience = 10;
+
+/// Seconds that executions may go on when the time is over: then they are given up, to be done again next time.
+constexpr double grace = 5;
 
 /// CPU seconds that a process has taken; 0 once it is gone.
 double cpu_seconds_of(pid_t process) {
@@ -142,6 +146,15 @@ class Worker {
 
   bool rests() const { return process_ == 0; }
 
+  /// Ends the process in the middle of an execution. @returns what of its batch is finished
+  Finished give_up() {
+    int status = 0;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, &status, 0);
+    process_ = 0;
+    return {first_, board_->done, *board_};
+  }
+
   /// Looks after the process. @returns the batch, once, when it is finished
   std::optional<Finished> look() {
     if (process_ == 0) return std::nullopt;
@@ -227,6 +240,10 @@ class Worker {
   pid_t process_ = 0;
 };
 
+bool has_found(const std::pair<const std::uint64_t, Finished>& batch) {
+  return batch.second.board.found > 0;
+}
+
 void add(const Board& board, Record& record) {
   record.accepted += board.accepted;
   record.found += board.found;
@@ -263,6 +280,10 @@ int run_all(const Settings& settings, std::ostream& out) {
     bool all_rest = true;
     for (auto& worker : workers) {
       if (const auto finished = worker->look()) waiting.insert({finished->first, *finished});
+      if (!worker->rests() && seconds() > settings.seconds + grace) {
+        const Finished part = worker->give_up();
+        waiting.insert({part.first, part});
+      }
       if (worker->rests() && next < settings.count && seconds() < settings.seconds) {
         const std::uint64_t last = std::min(next + batch_of(settings.mode), settings.count);
         worker->begin(next, last);
@@ -280,7 +301,8 @@ int run_all(const Settings& settings, std::ostream& out) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   print(settings, record, seconds(), out);
-  return record.found > 0 ? 1 : 0;
+  // Behind a batch that was given up they are done again next time, but what they found is told now.
+  return record.found > 0 || std::any_of(waiting.begin(), waiting.end(), has_found) ? 1 : 0;
 }
 
 int run_one(const Settings& settings, std::ostream& out) {
