@@ -103,6 +103,8 @@ Draw fold_ladder(Random& random) {
 Draw pitchfork(Random& random) {
   Draw draw{.family = "pitchfork"};
   enum { trivial, bent, main_branch, detached };
+  /// With a smaller imperfection the perfect branches meet F to the tolerance of residuals as well.
+  constexpr double taken_for_perfect = 1e-11;
   const double l0 = uniform(random, -0.5, 0.5);
   const int kind = choice(random, 4);
   const double eta =
@@ -130,8 +132,10 @@ Draw pitchfork(Random& random) {
       draw.on_curve = [=](const Vector& z, double lambda) {
         return std::abs(curve(z[0]) - lambda) < 1e-7;
       };
-    else
+    else if (std::abs(eta) > taken_for_perfect)
       draw.on_curve = [=](const Vector& z, double) { return z[0] * side > 0; };
+    else
+      draw.blurs = [](double) { return true; };
   }
   const double fold = std::cbrt(eta / 2);
   if (eta == 0)

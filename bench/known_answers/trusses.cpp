@@ -1,6 +1,7 @@
 // Springs to one point: the n-pod dome and the von Mises truss that can sway; and the trammel.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "families.hpp"
@@ -8,6 +9,8 @@
 
 namespace springfold::known_answers {
 namespace {
+
+using Complex = std::complex<double>;
 
 /// Springs of stiffness k and free length L0 from the anchors to the point z.
 Base springs_to_point(std::vector<Vector> anchors, double k, double L0, Vector load) {
@@ -33,6 +36,8 @@ Base springs_to_point(std::vector<Vector> anchors, double k, double L0, Vector l
 struct Lengths {
   double L0 = 1;
   std::vector<double> roots{};
+  std::optional<Complex>
+      missed{};  ///< where the roots are only just not there: one of the pair of complex ones
 };
 
 Lengths with_root(double L, double q) {
@@ -49,8 +54,10 @@ Lengths random_lengths(Random& random, double q, double meets_fold, double z_low
       return with_root(double_root * (1 + sign(random) * closeness(random)), q);
     case 1:
       return with_root(std::sqrt(meets_fold) * (1 + sign(random) * closeness(random)), q);
-    case 2:  // the roots are just not there: an eigenvalue comes near zero
-      return {smallest * (1 - log_uniform(random, 1e-8, 1e-1)), {}};
+    case 2: {  // the roots are just not there: an eigenvalue comes near zero
+      const double deficit = log_uniform(random, 1e-8, 1e-1);
+      return {smallest * (1 - deficit), {}, double_root * Complex(1, std::sqrt(deficit / 1.5))};
+    }
     default:
       break;
   }
@@ -82,6 +89,7 @@ void add_axis(Draw& draw, Index axis, double stiffness, const Lengths& lengths, 
   };
   add(AnswerKind::fold, std::cbrt(L0), 1);
   for (const double L : lengths.roots) add(AnswerKind::branch_point, L, corank);
+  const auto height = [](Complex L) { return std::sqrt((L - 1.0) * (L + 1.0)); };
   draw.z_start = Vector::Zero(axis + 1);
   draw.z_start[axis] = top;
   limit_unknown(draw, axis, -end, end);
@@ -91,6 +99,14 @@ void add_axis(Draw& draw, Index axis, double stiffness, const Lengths& lengths, 
   draw.on_curve = [=](const Vector& z, double) { return z.head(axis).norm() < 1e-6; };
   draw.parameter = [=](const Vector& z, double) { return z[axis]; };
   complete(draw);
+  // A pair of complex singular points, to first order in their distance, is as near to its neighbours as real ones are.
+  if (lengths.missed && std::abs(*lengths.missed) > 1)
+    for (Answer& a : draw.answers) {
+      const Complex missed = height(*lengths.missed);
+      const double distance = std::abs(missed - std::abs(a.z[axis])) / draw.size;
+      a.separation = std::min(a.separation, distance);
+      draw.gap = std::min(draw.gap, distance);
+    }
 }
 
 }  // namespace

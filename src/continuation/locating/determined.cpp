@@ -8,20 +8,46 @@
 namespace springfold::continuation {
 namespace {
 
+/// Patterns of signs with which rounding is tried.
+constexpr Index patterns = 3;
+double sign(Index pattern, Index row) {
+  return std::cos(2.1 * static_cast<double>((pattern + 1) * (row + 1))) > 0 ? 1 : -1;
+}
+
+/// Rounding of F, row by row: of the products with E; and what F shows when the point is moved by some units of rounding,
+/// as terms of F may be much larger than what they leave of it.
+std::optional<Vector> rounding_of(const WatchedStep& arc, const ExtendedMatrix& E,
+                                  const CurvePoint& point, const Vector& F) {
+  const ProblemView problem = arc.walker().problem;
+  const Index n = point.x.size();
+  Vector u(n + 1), moved(n), F_moved;
+  u << point.x, point.lambda;
+  Vector rounding = rounding_unit * magnitudes(E, u).col(0).head(n);
+  for (Index k = 0; k < patterns; ++k) {
+    Vector step = Vector::Zero(n + 1);
+    for (Index i = 0; i < n; ++i) {
+      moved[i] = point.x[i] * (1 + sign(k, i) * static_cast<double>(k + 1) * rounding_unit);
+      step[i] = moved[i] - point.x[i];
+    }
+    if (!problem.residual(moved, point.lambda, point.piece, F_moved)) return std::nullopt;
+    const Vector linear = product(E, step).col(0).head(n);
+    rounding = rounding.cwiseMax((F_moved - F - linear).cwiseAbs());
+  }
+  return rounding;
+}
+
 /// How far what is left of F, or its rounding with a few patterns of signs, may have moved a corrected point.
 double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   const Index n = point.x.size();
-  Vector F, u(n + 1);
+  Vector F;
   if (!arc.walker().problem.residual(point.x, point.lambda, point.piece, F)) return unknown;
-  u << point.x, point.lambda;
-  const Vector rounding_of_F = rounding_unit * magnitudes(E, u).col(0);
-  Matrix right = Matrix::Zero(n + 1, 4);
-  right.col(3).head(n) = F;
-  for (Index k = 0; k < 3; ++k)
-    for (Index i = 0; i < n; ++i)
-      right(i, k) =
-          rounding_of_F[i] * (std::cos(2.1 * static_cast<double>((k + 1) * (i + 1))) > 0 ? 1 : -1);
+  const auto rounding_of_F = rounding_of(arc, E, point, F);
+  if (!rounding_of_F) return unknown;
+  Matrix right = Matrix::Zero(n + 1, patterns + 1);
+  right.col(patterns).head(n) = F;
+  for (Index k = 0; k < patterns; ++k)
+    for (Index i = 0; i < n; ++i) right(i, k) = (*rounding_of_F)[i] * sign(k, i);
   const auto moved = solve_with(E, {}, right);
   if (!moved) return unknown;
   double worst = 0;
@@ -92,11 +118,11 @@ bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius
   return true;
 }
 
-bool is_determined(const WatchedStep& arc, const CurvePoint& point) {
+bool is_determined(const WatchedStep& arc, const CurvePoint& point, double most_blur) {
   const auto E = arc.matrix(point);
   if (!E) return false;
   const double blur = blur_of_point(arc, *E, point);
-  if (!(blur <= near_share * told_apart)) return false;
+  if (!(blur <= most_blur)) return false;
   const WeakestDirection weakest(arc, *E, point);
   const auto change = weakest.change(between_samples * blur);
   return change && *change <= stays_regular * weakest.here();

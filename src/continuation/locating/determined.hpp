@@ -2,13 +2,16 @@
 #pragma once
 
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/numerics/numerics.hpp"
 
 namespace springfold::continuation {
 
 /// A corrected point is off by what is left of F, at least its rounding, over the smallest singular value of E. Another branch
 /// is as far away as that singular value over the second derivative in the weakest direction. The first must be much
 /// smaller than the second: E may not change by more than a share of itself when the point is moved by it, both ways.
-bool is_determined(const WatchedStep& arc, const CurvePoint& point);
+/// @param most_blur  by which the point may be off
+bool is_determined(const WatchedStep& arc, const CurvePoint& point,
+                   double most_blur = near_share * told_apart);
 
 struct Separation {
   double blur = 0;  ///< how far rounding may have moved the point

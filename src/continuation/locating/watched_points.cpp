@@ -220,8 +220,9 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
       if (!(s > left && s < right)) break;
       const auto& point = step.point(s - from.s);
       if (!point || (walker.problem.symmetric() && !point->negative)) continue;
-      if (!is_determined(step, *point)) continue;
-      points.push_back(least_blurred(step, *point));
+      const CurvePoint kept = least_blurred(step, *point);
+      if (!is_determined(step, kept, same_point)) continue;
+      points.push_back(kept);
       break;
     }
   }

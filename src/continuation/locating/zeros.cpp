@@ -85,8 +85,8 @@ class ZeroFinder {
   static constexpr double touching = told_apart;
   /// Shares of an interval: features that lie closer are one, so much around them is examined, and more is no smaller interval.
   static constexpr double crowded = 0.15, margin = 0.07, most_of_it = 0.6;
-  /// Values this many times the noise have a sign beyond doubt.
-  static constexpr double clear = 10;
+  /// Values this many times the noise that was seen are hardly noise; so many times, they have a sign beyond doubt.
+  static constexpr double sure = 4, clear = 10;
   /// A function that needs more is noise.
   static constexpr int most_intervals = 200;
 
@@ -205,7 +205,6 @@ class ZeroFinder {
   /// The noise that was given is a bound. Where the polynomial is as good as that, more samples between its own, some
   /// of them beside the place in question, show what noise there is.
   double measured_noise(const Fit& fit, double t) const {
-    constexpr double sure = 4;
     if (fit.measured >= 0) return fit.measured;
     const Interpolant& p = *fit.polynomial;
     double worst = fit.error;
@@ -226,9 +225,13 @@ class ZeroFinder {
     return fit.measured;
   }
 
-  bool may_touch(const Fit& fit, double t, double value) const {
-    return noise_is_ == NoiseIs::doubt ? std::abs(value) <= std::max(noise_, 30 * fit.error)
-                                       : is_lost(fit, t, value);
+  /// Does an extremum reach zero? Rounding that is the same at neighbouring places is not seen as noise: one that stays on
+  /// its side of zero misses it only where its sign is beyond doubt.
+  bool may_touch(const Fit& fit, double t, double value, double before) const {
+    const bool within_bound = std::abs(value) <= std::max(noise_, 30 * fit.error);
+    if (noise_is_ == NoiseIs::doubt || !within_bound) return within_bound;
+    const bool stays = (value < 0) == (before < 0);
+    return std::abs(value) <= (stays ? clear / sure : 1) * measured_noise(fit, t);
   }
 
   /// Is the polynomial lost in its noise all the way from one place to another?
@@ -260,7 +263,7 @@ class ZeroFinder {
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const double here = knots[i], v = value(here);
       const bool extremum = i + 1 < knots.size();
-      if (extremum && may_touch(fit, here, v)) {
+      if (extremum && may_touch(fit, here, v, value(before))) {
         if (!accurate) return false;
         if (!touched) touch = here;
         touched = true;
