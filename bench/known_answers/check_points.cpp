@@ -29,6 +29,16 @@ bool is_unresolved_before(const continuation::Curve& curve, double s) {
   });
 }
 
+/// Does the curve say of the stretch around this place that lambda stands still or that it is unresolved? Nothing is told of
+/// the index there.
+bool is_said_to_be_flat(const continuation::Curve& curve, double s) {
+  return std::any_of(curve.hits.begin(), curve.hits.end(), [s](const continuation::Hit& hit) {
+    const bool stretch =
+        hit.kind == continuation::HitKind::family || hit.kind == continuation::HitKind::unresolved;
+    return stretch && hit.s_before <= s && s <= hit.s_after;
+  });
+}
+
 }  // namespace
 
 void check_points(const Embedded& problem, const Draw& draw, const continuation::Curve& curve,
@@ -46,7 +56,8 @@ void check_points(const Embedded& problem, const Draw& draw, const continuation:
     bool clearly = false;
     const Index count = negative_count(draw, z, p, clearly);
     if (count < 0) continue;
-    if (p.negative ? *p.negative != count + problem.negative_extra() : clearly)
+    if (p.negative ? *p.negative != count + problem.negative_extra()
+                   : clearly && !is_said_to_be_flat(curve, p.s))
       verdict.wrong_index = true;
   }
 }

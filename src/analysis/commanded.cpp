@@ -314,12 +314,13 @@ CommandedValues command_values(const CommandSetup& setup, const std::vector<Vect
 
 statics::KinematicInverse approach(const CommandSetup& setup, const Vector& target,
                                    const statics::KinematicInverse& from) {
-  constexpr double stride = 0.25;
+  // In the mechanism's own lengths and radians; poses that are very far away are out of reach, in whatever strides.
+  constexpr double stride = 0.25, most = 1000;
   Vector here(target.size());
   for (Index k = 0; k < here.size(); ++k)
     here[k] = from.z[setup.t + setup.task.prescribed[static_cast<std::size_t>(k)]];
   const Vector way = target - here;
-  const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / stride)));
+  const int steps = static_cast<int>(std::clamp(std::ceil(way.norm() / stride), 1.0, most));
   statics::KinematicInverse at = from;
   for (int i = 1; i <= steps; ++i) {
     const Vector next = i == steps ? target : Vector(here + way * (static_cast<double>(i) / steps));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "continuation/kinks/kink.hpp"
 #include "kink_problems.hpp"
 #include "tracing.hpp"
@@ -51,6 +53,24 @@ TEST(Kink, LiesExactlyOnItsBreakpointWithBothTangents) {
   }
   for (const CurvePoint& p : curve.points)
     EXPECT_NEAR(p.lambda, force_of(line, p.x[0]), 1e-12) << "x = " << p.x[0];
+}
+
+TEST(Kink, IsFoundWhereAStepEndsOnItToRounding) {
+  const PiecewiseLine plain{1, {{2, 1.9, 1}}};
+  const Curve curve = follow_line(plain);
+  int tried = 0;
+  for (const CurvePoint& p : curve.points) {
+    if (p.x[0] < -0.9 || p.x[0] > 1.5) continue;
+    for (int units = -4; units <= 4; ++units) {
+      const double place = p.x[0] * (1 + units * std::numeric_limits<double>::epsilon());
+      const Curve with_spring = follow_line({1, {{0.5, place, 1}, {2, 1.9, 1}}});
+      EXPECT_EQ(with_spring.stop, StopReason::event) << with_spring.stop_detail;
+      ASSERT_EQ(with_spring.hits.size(), 3u) << place << ", " << units << " units";
+      EXPECT_NEAR(with_spring.hits[0].point.x[0], place, 1e-13);
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 100);
 }
 
 TEST(Kink, IsACornerWhereLambdaTurnsBack) {

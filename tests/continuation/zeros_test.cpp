@@ -25,6 +25,23 @@ TEST(Zeros, ThatTouchAreFoundBesideALargerHump) {
   }
 }
 
+TEST(Zeros, ThatTouchRightBesideACrossingAreFound) {
+  // Wherever both lie between the places at which the function is looked at first.
+  for (const double apart : {1e-3, 3e-3, 6e-3, 9e-3, 1.3e-2, 1.8e-2, 2.5e-2})
+    for (double crossing = 0.3; crossing < 0.31; crossing += 0.0007) {
+      const auto f = [=](double t) -> std::optional<double> {
+        return (t - crossing) * std::pow(t - crossing - apart, 2);
+      };
+      const ZeroSearch found = find_zeros(f, 0, 1, 1e-15, 1e-7, NoiseIs::bound);
+      ASSERT_TRUE(found.resolved);
+      ASSERT_EQ(found.zeros.size(), 2u) << "from " << crossing << ", " << apart << " apart";
+      EXPECT_FALSE(found.zeros[0].touches);
+      EXPECT_NEAR(found.zeros[0].at, crossing, 1e-7);
+      EXPECT_TRUE(found.zeros[1].touches);
+      EXPECT_NEAR(found.zeros[1].at, crossing + apart, 1e-6);
+    }
+}
+
 TEST(Zeros, ThatTouchWithinNoiseOverAWideStretchAreOneTouch) {
   constexpr double noise = 1e-12;
   const auto f = [](double t) -> std::optional<double> {

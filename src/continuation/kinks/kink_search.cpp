@@ -195,11 +195,11 @@ std::optional<double> departure(const SwitchOnStep& f, double slack) {
 
 constexpr double steep = told_apart;
 
-/// The curve ends its step on a surface, or just before: take the surface into this step, or, where
-/// it is nearly tangential, let the step end elsewhere.
+/// The curve ends its step on a surface, to rounding on either side, or just before: take the surface into this step, or,
+/// where it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
   if (!(d1 < -steep)) return {.clear = false};
-  return crossing_in(f, 0.5 * f.h, f.h + 4 * f1 / -d1 + residual_level * f.h);
+  return crossing_in(f, 0.5 * f.h, f.h + 4 * std::abs(f1) / -d1 + residual_level * f.h);
 }
 
 /// @param cubic  values and rates at the ends of the step
@@ -207,7 +207,7 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
   double a = 0;
   if (!std::isfinite(cubic.d0) || !std::isfinite(cubic.d1)) return {.clear = false};
   const double within = cubic.d1 < -steep ? f.walker.options.simultaneous : f.noise;
-  const bool near_end = cubic.f1 >= 0 && cubic.f1 <= within;
+  const bool near_end = cubic.f1 >= -f.noise && cubic.f1 <= within;
   if (leaves || cubic.f0 <= f.noise) {
     const auto start = departure(f, leaves ? f.walker.options.simultaneous : f.noise);
     if (!start) return {.clear = false};

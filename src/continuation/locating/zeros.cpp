@@ -29,12 +29,34 @@ double bisect(Function g, double a, double b) {
 
 constexpr int grid = 200;
 
+double grid_place(const Interpolant& p, int i) {
+  return i == grid ? p.b : p.a + (p.b - p.a) * i / grid;
+}
+
+/// An extremum that reaches the level beside a cell of the grid in which the interpolant crosses zero: the values there do not
+/// show it, one being on the other side of zero, and the next one small already; the slopes do.
+void add_extrema_beside(const Interpolant& p, int crossed, double level,
+                        std::vector<double>& places) {
+  constexpr int hidden = 3;
+  const int first = std::max(0, crossed - hidden), last = std::min(grid, crossed + 1 + hidden);
+  double before = p.first_slope(grid_place(p, first));
+  for (int i = first; i < last; ++i) {
+    const double next = p.first_slope(grid_place(p, i + 1));
+    const double place =
+        grid_place(p, i) + (p.b - p.a) / grid * std::clamp(before / (before - next), 0.0, 1.0);
+    if (i != crossed && (before < 0) != (next < 0) && std::abs(p.first(place)) <= level)
+      places.push_back(place);
+    before = next;
+  }
+}
+
 /// Where the interpolant crosses zero, or has an extremum that reaches the level.
 std::vector<double> features_of(const Interpolant& p, double level) {
   std::vector<double> places;
-  const auto t = [&](int i) { return i == grid ? p.b : p.a + (p.b - p.a) * i / grid; };
+  std::vector<int> crossed;
+  const auto t = [&](int i) { return grid_place(p, i); };
   double before = p.first(t(0)), here = p.first(t(1));
-  if ((before < 0) != (here < 0)) places.push_back(t(0));
+  if ((before < 0) != (here < 0)) crossed.push_back(0);
   for (int i = 1; i < grid; ++i) {
     const double next = p.first(t(i + 1));
     const bool crosses = (here < 0) != (next < 0);
@@ -43,10 +65,17 @@ std::vector<double> features_of(const Interpolant& p, double level) {
     // A parabola that touches zero half-way between two points is an eighth of its second difference
     // off at them.
     const double reach = std::max(level, std::abs(before - 2 * here + next) / 4);
-    if (crosses || (turns && std::abs(here) <= reach)) places.push_back(t(i));
+    if (crosses) crossed.push_back(i);
+    if (turns && std::abs(here) <= reach) places.push_back(t(i));
     before = here;
     here = next;
   }
+  for (const int i : crossed) {
+    places.push_back(t(i));
+    add_extrema_beside(p, i, level, places);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   // A turn between an end and its neighbour does not show on the grid.
   if (places.empty() || places.front() > t(1))
     if (std::abs(p.first(t(0))) <= level) places.insert(places.begin(), t(0));
@@ -253,7 +282,8 @@ class ZeroFinder {
     const auto value = [&](double t) { return p.first(t); };
     const double scale = p.values.cwiseAbs().maxCoeff();
     const bool accurate = best || error <= std::max(noise_, one_place * scale);
-    double low = std::max(p.a, first - cell), high = std::min(p.b, end + cell);
+    // A crossing may lie at the far end of its cell, with an extremum right behind it.
+    double low = std::max(p.a, first - cell), high = std::min(p.b, end + 2 * cell);
     while (low > p.a && is_lost(fit, low, value(low))) low = std::max(p.a, low - cell);
     while (high < p.b && is_lost(fit, high, value(high))) high = std::min(p.b, high + cell);
     const std::vector<double> knots = extrema_of(p, low, high, cell / 12);
