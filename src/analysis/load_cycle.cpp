@@ -32,6 +32,10 @@ class Cycle {
         lambda_{column_of(Kind::lambda, t.quantities)} {}
 
   LoadCycle run(const std::vector<double>& levels) {
+    if (result_.branches.empty() || result_.branches.front().samples.empty()) {
+      cycle_.end = LoadCycle::End::out_of_range;
+      return cycle_;
+    }
     const Branch& first = result_.branches.front();
     const std::size_t last = first.samples.size() - 1;
     at_ = {0, std::min(first.start_row, last > 0 ? last - 1 : 0), state_of(0, first.start_row)};

@@ -71,6 +71,40 @@ cycle = { levels = [0.3, 0.8, 1.1] }
   EXPECT_NEAR(cycle.area, change, 1e-11);
 }
 
+/// A column whose body stands a light second beside it: its branches cannot be corrected there.
+TEST(LoadCycle, OfACurveWithoutBranchesEndsAtItsStart) {
+  const Ran ran = run(R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [2147483647, 1]
+[[chain]]
+name = "column"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", spring = { law = "linear", stiffness = 2 } },
+  { rigid = [0, 1] },
+]
+[[chain]]
+name = "spring"
+elements = [
+  { joint = "prismatic", axis = "x", name = "side", role = "virtual", stiffness = 1 },
+  { joint = "prismatic", axis = "y", name = "guide", initial = 1 },
+]
+[[study]]
+name = "press"
+kind = "load_cycle"
+control = "load"
+direction = [0, -1]
+until = { lambda = [0, 4], column.hinge = [-2, 2] }
+cycle = { levels = [3.2, 2.8], times = 2 }
+)toml");
+  const analysis::StudyResult& press = ran.of("press");
+  EXPECT_TRUE(press.branches.empty());
+  EXPECT_FALSE(press.doubts.empty());
+  EXPECT_EQ(press.snap->cycle->end, analysis::LoadCycle::End::out_of_range);
+  EXPECT_TRUE(press.snap->cycle->steps.empty());
+}
+
 /// A strut whose hinge softens at 0.4 rad to both sides: it snaps from corners, to either side and back.
 TEST(LoopsOfJumps, AreTheSameToBothSides) {
   const Ran ran = run(strut("1.3",
