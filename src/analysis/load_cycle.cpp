@@ -32,17 +32,17 @@ class Cycle {
         lambda_{column_of(Kind::lambda, t.quantities)} {}
 
   LoadCycle run(const std::vector<double>& levels) {
-    if (result_.branches.empty() || result_.branches.front().samples.empty()) {
+    if (result_.branches.empty() || result_.branches.front().samples.size() < 2) {
       cycle_.end = LoadCycle::End::out_of_range;
       return cycle_;
     }
     const Branch& first = result_.branches.front();
     const std::size_t last = first.samples.size() - 1;
-    at_ = {0, std::min(first.start_row, last > 0 ? last - 1 : 0), state_of(0, first.start_row)};
+    at_ = {0, std::min(first.start_row, last - 1), state_of(0, first.start_row)};
     const double index =
         first.samples[first.start_row].values[column_of(Kind::index, t_.quantities)];
-    if (index != 0 || last == 0) {
-      cycle_.end = index != 0 ? LoadCycle::End::not_stable : LoadCycle::End::out_of_range;
+    if (index != 0) {
+      cycle_.end = LoadCycle::End::not_stable;
       return cycle_;
     }
     begin_energy_ = path_energy(t_.problem, at_.state);

@@ -100,6 +100,10 @@ std::string motions_text(const StartReport& start) {
                                           ": give a joint that moves there a spring, or hold it";
 }
 
+std::string why_not_ordinary(const continuation::Rays& rays) {
+  return rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
+}
+
 /// Slopes at the start, on both sides.
 void report_rates(const Tracing& t, const CurvePoint& start, const continuation::Rays& rays,
                   StartReport& report) {
@@ -140,18 +144,14 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
     result.branches.push_back(trace_both_ways(t, start, rays));
     return;
   }
-  const std::string why =
-      rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
   const auto singular = kinematic_singularity(t.problem, start);
   if (outside || t.study.path == Path::davidenko) {
-    result.branches.push_back(not_traced(
-        t, start,
-        "the start is not an ordinary point of a curve: " + why + motions_text(result.start)));
+    result.branches.push_back(not_traced(t, start,
+                                         "the start is not an ordinary point of a curve: " +
+                                             why_not_ordinary(rays) + motions_text(result.start)));
   } else {
     trace_branches(t, start, result);
-    if (result.branches.empty())
-      result.branches.push_back(not_traced(
-          t, start, "no curve was found to leave the start: " + why + motions_text(result.start)));
+    if (result.branches.empty()) add_branch_of_start(t, start, result);
   }
   if (singular) result.start.situation = "a " + *singular;
 }
@@ -223,6 +223,14 @@ RedundantClosures redundant_closures(const Setup& setup) {
 }
 
 }  // namespace
+
+void add_branch_of_start(const Tracing& t, const CurvePoint& start, StudyResult& result) {
+  const auto rays =
+      rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
+  result.branches.push_back(not_traced(t, start,
+                                       "no curve was found to leave the start: " +
+                                           why_not_ordinary(rays) + motions_text(result.start)));
+}
 
 void require_usable(const model::Mechanism& mechanism, const Study& study) {
   std::vector<std::string> problems = model::problems_in(mechanism);

@@ -45,6 +45,7 @@ void trace_with_jumps(const Tracing& tracing, const Scales& scales,
   for (int k = 0; k < rounds; ++k) {
     result = before;
     trace_branches(tracing, start, result, landings);
+    if (result.branches.empty()) add_branch_of_start(tracing, start, result);
     std::vector<int> from_landings;
     const int count = static_cast<int>(landings.size());
     for (std::size_t b = 0; b < result.branches.size(); ++b) {

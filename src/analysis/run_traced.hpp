@@ -20,4 +20,8 @@ StudyResult run_from_start(const model::Mechanism& mechanism, const Study& study
                            const ParameterFamily* family, const Observer& observer,
                            const TraceBy& trace_by);
 
+/// Where no curve leaves the start: a branch of this one point that says why.
+void add_branch_of_start(const Tracing& tracing, const continuation::CurvePoint& start,
+                         StudyResult& result);
+
 }  // namespace springfold::analysis

@@ -99,10 +99,31 @@ until = { lambda = [0, 4], column.hinge = [-2, 2] }
 cycle = { levels = [3.2, 2.8], times = 2 }
 )toml");
   const analysis::StudyResult& press = ran.of("press");
-  EXPECT_TRUE(press.branches.empty());
-  EXPECT_FALSE(press.doubts.empty());
+  ASSERT_EQ(press.branches.size(), 1u);
+  EXPECT_FALSE(press.branches[0].forward.complete);
   EXPECT_EQ(press.snap->cycle->end, analysis::LoadCycle::End::out_of_range);
   EXPECT_TRUE(press.snap->cycle->steps.empty());
+}
+
+/// A link turns freely about its end, without length: no curve is determined, and a search for jumps says so too.
+TEST(Jumps, OfACurveThatNothingDeterminesAreNotSilentlyNone) {
+  const Ran ran = run(strut("1", "law = \"linear\", stiffness = 2",
+                            "direction = [0, -1, 0]\nuntil = { lambda = [0, 4] }\n") +
+                      R"toml(
+[[chain]]
+name = "spring"
+elements = [
+  { joint = "prismatic", axis = "x", name = "side", role = "virtual", stiffness = 1 },
+  { joint = "revolute", axis = "z", name = "idle" },
+  { joint = "prismatic", axis = "y", name = "guide", initial = 1 },
+  { joint = "revolute", axis = "z", name = "pin" },
+  { joint = "revolute", axis = "z", name = "twin" },
+]
+)toml");
+  const analysis::StudyResult& press = ran.of("press");
+  ASSERT_EQ(press.branches.size(), 1u);
+  EXPECT_FALSE(press.branches[0].forward.complete);
+  EXPECT_NE(press.branches[0].forward.reason.find("no curve was found"), std::string::npos);
 }
 
 /// A strut whose hinge softens at 0.4 rad to both sides: it snaps from corners, to either side and back.
