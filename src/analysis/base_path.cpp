@@ -18,6 +18,7 @@ using continuation::CriticalKind;
 using continuation::CriticalStart;
 using continuation::Curve;
 using continuation::CurvePoint;
+using continuation::Direction;
 using continuation::Hit;
 
 /// The special point of the engine that became this event: the same arc length on the same side.
@@ -27,21 +28,45 @@ const Hit* hit_at(const Curve& curve, double s) {
   return nullptr;
 }
 
-/// d(force)/ds on the curve through a state, the other way round where lambda falls.
-continuation::StateFunction force_rate_of(const CaseCurves& curves, Piece piece) {
-  return [&curves, piece = std::move(piece)](const Vector& x, double lambda,
-                                             double mu) -> std::optional<double> {
+/// A rate along the curve through a state, whose tangent has the sense of one at the special point.
+using RateAt = std::function<double(const Member&, const CurvePoint&)>;
+continuation::StateFunction rate_of(const CaseCurves& curves, Piece piece, Direction sense,
+                                    RateAt rate) {
+  return [&curves, piece = std::move(piece), sense = std::move(sense), rate = std::move(rate)](
+             const Vector& x, double lambda, double mu) -> std::optional<double> {
     const Member* member = curves.at(mu);
     if (member == nullptr) return std::nullopt;
     continuation::Linearisation at;
     const PathProblem& problem = *member->problem;
     if (!linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
-    const auto tangent = tangent_at(at, problem.metric(), {Vector::Zero(x.size()), 1});
+    const auto tangent = tangent_at(at, problem.metric(), sense);
     if (!tangent) return std::nullopt;
-    return member->evaluator()
-        .force_rate({.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece})
-        .value;
+    return rate(*member, {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
   };
+}
+
+/// d(force)/ds, the other way round where lambda falls.
+continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurvePoint& at) {
+  return rate_of(curves, at.piece, {Vector::Zero(at.x.size()), 1},
+                 [](const Member& member, const CurvePoint& point) {
+                   return member.evaluator().force_rate(point).value;
+                 });
+}
+
+/// The rate of the column whose extremum the point is. Its curve may turn back in lambda: the tangent's sense is the one there.
+continuation::StateFunction column_rate_of(const CaseCurves& curves, const CurvePoint& at,
+                                           const std::string& column) {
+  return rate_of(curves, at.piece, at.tangent,
+                 [column](const Member& member, const CurvePoint& point) {
+                   return member.evaluator().rate(*member.quantity(column), point);
+                 });
+}
+
+/// Which of the study's extrema is this?
+std::string column_of_extremum(const Study& study, const Hit& hit) {
+  for (const std::string& name : study.extrema)
+    if (hit.name == extremum_name(name)) return name;
+  return {};
 }
 
 /// A column less its value at the special point.
@@ -145,7 +170,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::limit_point:
       if (hit.kind == continuation::HitKind::limit_point) return start;
       start.kind = CriticalKind::zero;
-      start.value = force_rate_of(curves, start.piece);
+      start.value = force_rate_of(curves, hit.point);
       return start;
     case EventKind::branch_point:
       start.kind = CriticalKind::branch_point;
@@ -163,7 +188,9 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return start;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;
-      start.value = column_of(curves, member, point);
+      start.value = hit.tag == column_extremum
+                        ? column_rate_of(curves, hit.point, column_of_extremum(member.study, hit))
+                        : column_of(curves, member, point);
       if (start.value) return start;
       break;
     default:
@@ -171,7 +198,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
   }
   why = point.label +
         " is of a kind that is not followed: need a limit point, branch point, corner, " +
-        "activation or marked value";
+        "activation, marked value or extremum";
   return std::nullopt;
 }
 

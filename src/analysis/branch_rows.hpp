@@ -15,6 +15,7 @@ enum EventTag : int {
   whole_turn,        ///< a rotation comes near a whole turn: the branch ends there, incomplete
   dead_load_change,  ///< the count of modes that dead loads would make unstable changes
   driven_change,     ///< under load control: the displacement along the load turns back
+  column_extremum,   ///< a quantity of `extrema` is stationary
 };
 
 /// How the names of places begin at which only that count changes (stability_changes.hpp).

@@ -235,6 +235,11 @@ std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quan
   return rates;
 }
 
+double Evaluator::rate(const QuantityDefinition& quantity,
+                       const continuation::CurvePoint& point) const {
+  return rates({quantity}, point).front() / quantity.scale;
+}
+
 RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
   const continuation::CurvePoint& known = force_rate_.point;
   const bool is_known = known.x.size() > 0 && known.lambda == point.lambda &&

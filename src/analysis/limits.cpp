@@ -118,6 +118,16 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   }
   for (const Mark& mark : study.marks)
     add(mark.quantity, mark.value, continuation::EventAction::record, mark.quantity);
+  for (const std::string& name : study.extrema) {
+    const auto q = std::find_if(quantities.begin(), quantities.end(),
+                                [&](const auto& d) { return d.name == name; });
+    assert(q != quantities.end());
+    events.push_back({extremum_name(name),
+                      [&evaluator, definition = *q](const continuation::CurvePoint& point) {
+                        return evaluator.rate(definition, point);
+                      },
+                      continuation::EventAction::record, column_extremum});
+  }
   return events;
 }
 

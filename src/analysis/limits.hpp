@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "quantities.hpp"
 #include "springfold/continuation/ray.hpp"
 
 namespace springfold::analysis {
+
+/// How the point is called at which a column of `extrema` is stationary.
+inline std::string extremum_name(const std::string& column) { return "extremum of " + column; }
 
 /// Limits and marks as events of the engine; under displacement control also the extrema of the
 /// force. The evaluator must outlive them.

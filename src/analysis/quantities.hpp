@@ -107,6 +107,8 @@ class Evaluator {
                             const Turns* turns = nullptr) const;
 
   /// d(force)/ds along the branch, dimensionless.
+  /// Of one column, in the units of the computation.
+  double rate(const QuantityDefinition& quantity, const continuation::CurvePoint& point) const;
   RoundedRate force_rate(const continuation::CurvePoint& point) const;
   /// Does the force turn only where lambda does, which the engine has judged?
   bool force_is_lambda() const { return control_ == ControlMode::load; }

@@ -120,6 +120,15 @@ void check_quantities(const Study& study, const model::Mechanism& mechanism,
     if (!(limit.low < limit.high))
       problems.push_back("until." + limit.quantity + ": need low < high");
   }
+  for (const std::string& name : study.extrema) {
+    check("extrema", name);
+    if (name == "lambda" || name == "force" || name == "s")
+      problems.push_back("extrema: \"" + name +
+                         (name == "s"
+                              ? "\" only grows"
+                              : "\" has its extrema at limit points, which are told anyway") +
+                         ", need other quantities");
+  }
   for (const Mark& mark : study.marks) {
     check("mark", mark.quantity);
     if (!std::isfinite(mark.value))

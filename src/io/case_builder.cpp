@@ -226,6 +226,8 @@ class Builder {
       check_quantity(limit.quantity, names, study, problems_);
     for (const MarkDraft& mark : study.marks)
       check_quantity(mark.quantity, names, study, problems_);
+    for (const NamedPlace& quantity : study.extrema)
+      check_quantity(quantity, names, study, problems_);
     for (const LimitDraft& side : study.box) check_quantity(side.quantity, names, study, problems_);
   }
 

@@ -68,6 +68,7 @@ std::vector<NamedOption> listed(const analysis::Study& study, const std::string&
           {"start.maximum_move", study.start.maximum_move},
           {"until", list_of(study.until)},
           {"marks", list_of(study.marks)},
+          {"extrema", study.extrema},
           {"trace.initial_step", initial},
           {"trace.minimum_step", minimum},
           {"trace.maximum_step", maximum},

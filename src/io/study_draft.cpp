@@ -86,6 +86,7 @@ analysis::Study build_study(const StudyDraft& draft, model::TaskSpace space,
     study.until.push_back({limit.quantity.name, numbers[limit.low], numbers[limit.high]});
   for (const MarkDraft& mark : draft.marks)
     study.marks.push_back({mark.quantity.name, numbers[mark.value]});
+  for (const NamedPlace& quantity : draft.extrema) study.extrema.push_back(quantity.name);
   study.path = draft.path;
   study.trace = trace_of(draft, numbers);
   study.branches = {.depth = static_cast<int>(numbers[draft.depth]),

@@ -81,6 +81,7 @@ struct StudyDraft {
   std::vector<LimitDraft> box{};
   std::vector<LimitDraft> until{};
   std::vector<MarkDraft> marks{};
+  std::vector<NamedPlace> extrema{};
   SnapDraft snap{};
   CommandDraft commands{};        ///< kinds control, map and workspace
   CriticalPointDraft critical{};  ///< kinds critical_curve, threshold, sensitivity, critical_load

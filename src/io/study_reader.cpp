@@ -37,7 +37,7 @@ const std::vector<std::string> study_keys{
     "loads",      "start",          "until",     "mark",        "actuators", "parameter",
     "set",        "vary",           "path",      "trace",       "branches",  "search",
     "prescribed", "critical_curve", "threshold", "sensitivity", "snap",      "critical_load",
-    "cycle",      "transitions",    "design"};
+    "cycle",      "transitions",    "design",    "extrema"};
 
 /// Studies of commands have keys of their own.
 std::vector<std::string> keys_of(const Node& study) {
@@ -104,6 +104,7 @@ class StudyReader {
     read_start();
     read_until();
     read_marks();
+    read_extrema();
     draft_.set = read_set(table_, reading_);
     draft_.vary = read_vary(table_, draft_.set, reading_);
     draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
@@ -135,8 +136,8 @@ class StudyReader {
   void refuse_what_is_not_used() {
     const bool single = draft_.kind == StudyKind::equilibrium;
     if (!single && draft_.kind != StudyKind::equilibria) return;
-    std::vector<std::string> keys{"control", "actuators", "parameter", "prescribed",
-                                  "mark",    "path",      "trace",     "snap"};
+    std::vector<std::string> keys{"control", "actuators", "parameter", "prescribed", "mark",
+                                  "path",    "trace",     "snap",      "extrema"};
     if (single) keys.emplace_back("until");
     for (const std::string& key : keys)
       if (const Node* node = table_.find(key))
@@ -287,6 +288,19 @@ class StudyReader {
         items = list_items(value, "a list of numbers", reading_);
       for (const NumberId id : read_numbers(items, {}, draft_.numbers, reading_))
         draft_.marks.push_back({item.name, id});
+    }
+  }
+
+  void read_extrema() {
+    const Node* node = table_.find("extrema");
+    if (node == nullptr) return;
+    const Item list{node, table_.key_of("extrema")};
+    for (const Item& item : list_items(list, "a list of quantities", reading_)) {
+      if (item.node->kind == Node::Kind::text)
+        draft_.extrema.push_back({item.node->text, item.node->place, item.key});
+      else
+        reading_.problems.add(item.node->place, item.key,
+                              "got " + described(*item.node) + ", need the name of a quantity");
     }
   }
 

@@ -48,7 +48,7 @@ enum class EventKind {
   kinematic_singularity,  ///< KS: closure loses rank
   touch,                  ///< TP: an eigenvalue touches zero without changing sign
   family,                 ///< FM: lambda stands still: a continuum of equilibria begins here
-  user_value,             ///< UZ: a marked value
+  user_value,             ///< UZ: a marked value, or an extremum that was asked for
   end_of_range,           ///< EP: a limit of the study, or where tracing stopped
   stability_change,       ///< SC: stability under dead load changes while commands or poses hold
   unresolved,             ///< UR: something happens here that could not be resolved

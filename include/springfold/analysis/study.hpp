@@ -156,6 +156,8 @@ struct Study {
   StartOptions start{};
   std::vector<Limit> until{};
   std::vector<Mark> marks{};
+  std::vector<std::string>
+      extrema{};  ///< quantities; where the curve is smooth and one is stationary, a point UZ
   Path path = Path::arc_length;
   TraceSettings trace{};
   BranchSettings branches{};
