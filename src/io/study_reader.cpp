@@ -5,6 +5,7 @@
 #include <set>
 
 #include "command_reader.hpp"
+#include "mark_reader.hpp"
 #include "mechanism_reader.hpp"
 #include "text.hpp"
 
@@ -103,8 +104,7 @@ class StudyReader {
     read_control(traces);
     read_start();
     read_until();
-    read_marks();
-    read_extrema();
+    read_marks(table_, draft_, reading_);
     draft_.set = read_set(table_, reading_);
     draft_.vary = read_vary(table_, draft_.set, reading_);
     draft_.runs_known = draft_.vary || !(table_.has("vary") || table_.is_misspelt("vary"));
@@ -277,31 +277,6 @@ class StudyReader {
   void read_until() {
     draft_.until = read_ranges(table_, "until", "a table such as { deflection = [0, 1] }",
                                Range::maybe_infinite);
-  }
-
-  void read_marks() {
-    for (const NamedItem& item :
-         named_items(table_, "mark", "a table such as { deflection = [0.1] }", reading_)) {
-      const Item value{item.value, item.name.key};
-      std::vector<Item> items{value};
-      if (item.value->kind == Node::Kind::array)
-        items = list_items(value, "a list of numbers", reading_);
-      for (const NumberId id : read_numbers(items, {}, draft_.numbers, reading_))
-        draft_.marks.push_back({item.name, id});
-    }
-  }
-
-  void read_extrema() {
-    const Node* node = table_.find("extrema");
-    if (node == nullptr) return;
-    const Item list{node, table_.key_of("extrema")};
-    for (const Item& item : list_items(list, "a list of quantities", reading_)) {
-      if (item.node->kind == Node::Kind::text)
-        draft_.extrema.push_back({item.node->text, item.node->place, item.key});
-      else
-        reading_.problems.add(item.node->place, item.key,
-                              "got " + described(*item.node) + ", need the name of a quantity");
-    }
   }
 
   /// A table of the study; nothing where it is missing or no table.
