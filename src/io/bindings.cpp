@@ -138,6 +138,22 @@ std::vector<std::string> names_of(const Bindings& bindings) {
   return names;
 }
 
+/// Calls seen(word, binding) for every piece of a formula; the binding is null where it is no bound name.
+template <typename Seen>
+void for_words(std::string_view text, const Bindings& bindings, const Seen& seen) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    const bool name = is_letter(rest.front());
+    std::size_t length = name ? word_length(rest) : number_length(rest);
+    length = std::max<std::size_t>(length, 1);
+    const std::string_view word = rest.substr(0, length);
+    const std::size_t next = rest.find_first_not_of(' ', length);
+    const bool calls = next != std::string_view::npos && rest[next] == '(';
+    seen(word, name && !calls ? bindings.find(word) : nullptr);
+    at += length;
+  }
+}
+
 }  // namespace
 
 const Binding* Bindings::find(std::string_view name) const {
@@ -157,21 +173,21 @@ bool mentions(std::string_view text, std::string_view name) {
 }
 
 std::string with_bindings(const std::string& formula, const Bindings& bindings) {
-  const std::string_view text{formula};
   std::string result;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::string_view rest = text.substr(at);
-    const bool name = is_letter(rest.front());
-    std::size_t length = name ? word_length(rest) : number_length(rest);
-    length = std::max<std::size_t>(length, 1);
-    const std::string_view word = rest.substr(0, length);
-    const std::size_t next = rest.find_first_not_of(' ', length);
-    const bool calls = next != std::string_view::npos && rest[next] == '(';
-    const Binding* binding = name && !calls ? bindings.find(word) : nullptr;
+  for_words(formula, bindings, [&result](std::string_view word, const Binding* binding) {
     result += binding ? "(" + binding->text + ")" : std::string{word};
-    at += length;
-  }
+  });
   return result;
+}
+
+std::vector<WrittenPart> written_parts(const Node& node) {
+  if (node.parts) return *node.parts;
+  std::vector<WrittenPart> parts;
+  if (!node.bindings) return parts;
+  for_words(node.text, *node.bindings, [&parts](std::string_view, const Binding* binding) {
+    if (binding) parts.insert(parts.end(), binding->parts.begin(), binding->parts.end());
+  });
+  return parts;
 }
 
 FilledText filled(const std::string& text, const Bindings& bindings) {

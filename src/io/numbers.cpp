@@ -110,6 +110,10 @@ Values NumberTable::values(const FormulaBook& book, const Values& parameters) co
     if (usable)
       value = definition.formula ? book.value(*definition.formula, parameters.values)
                                  : definition.constant;
+    if (usable && !std::isfinite(value))
+      for (std::size_t i = definition.parts.size(); i-- > 0;)
+        if (!std::isfinite(book.value(definition.parts[i].formula, parameters.values)))
+          result.part_at_fault[result.values.size()] = i;
     result.values.push_back(value);
     result.usable.push_back(usable);
   }
@@ -145,6 +149,11 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
     const auto& [definition, rule] = entries_[id];
     if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
     reported[id] = true;
+    if (const auto part = values.part_at_fault.find(id); part != values.part_at_fault.end()) {
+      const auto& [formula, shown, place, key, need] = definition.parts[part->second];
+      problems.add(place, key, "got " + shown + ", which has no finite value, need " + need, when);
+      continue;
+    }
     problems.add(definition.place, definition.key,
                  "got " + shown_definition(definition, values.values[id]) + ", need " +
                      need_of(rule) + rule.hint,

@@ -99,6 +99,17 @@ Definition read_definition(const Node& node, const std::string& key, const std::
     problems.add(node.place, key, "got " + described(node) + ", need " + need + " or a formula");
     return definition;
   }
+  for (const WrittenPart& part : written_parts(node)) {
+    const FormulaBook::Added added = book.add(part.formula);
+    const std::string& part_key = part.key.empty() ? key : part.key;
+    const std::string& part_need = part.need.empty() ? need : part.need;
+    if (!added.id) {
+      problems.add(part.place, part_key,
+                   "got " + part.shown + ", need " + part_need + " or a formula: " + added.problem);
+      return definition;
+    }
+    definition.parts.push_back({*added.id, part.shown, part.place, part_key, part_need});
+  }
   const FormulaBook::Added added =
       book.add(node.bindings ? with_bindings(node.text, *node.bindings) : node.text);
   if (!added.id) {

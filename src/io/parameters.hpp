@@ -11,6 +11,15 @@
 
 namespace springfold::io {
 
+/// A formula of the file of which a number is made.
+struct DefinitionPart {
+  FormulaId formula = 0;
+  std::string shown{};
+  Place place{};
+  std::string key{};
+  std::string need{};
+};
+
 /// The right-hand side of a number: a constant or a formula.
 struct Definition {
   std::optional<FormulaId> formula{};
@@ -19,6 +28,7 @@ struct Definition {
   std::string shown{};  ///< as written
   Place place{};
   std::string key{};
+  std::vector<DefinitionPart> parts{};  ///< of a formula that was made of others
 };
 
 struct Parameter {
@@ -31,6 +41,8 @@ struct Parameter {
 struct Values {
   std::vector<double> values{};
   std::vector<bool> usable{};
+  /// Of numbers without a finite value that are made of other formulas: which of these has none.
+  std::map<std::size_t, std::size_t> part_at_fault{};
 };
 
 /// Other right-hand sides, by number of the parameter.

@@ -18,10 +18,25 @@ std::string formula_of(const Node& node, const Bindings& bindings) {
 }
 
 Node text_node(std::string text, const Place& place) {
-  Node node;
-  node.kind = Node::Kind::text;
-  node.place = place;
-  node.text = std::move(text);
+  return plain_node(Node::Kind::text, place, 0, std::move(text));
+}
+
+using Parts = std::vector<WrittenPart>;
+
+/// Adds the formula that stands in the file, and those that it is made of.
+void add_part(Parts& parts, const Node& node, const Bindings& bindings, const std::string& key,
+              const std::string& need) {
+  if (node.kind != Node::Kind::text) return;
+  const Parts inner = written_parts(node);
+  parts.insert(parts.end(), inner.begin(), inner.end());
+  if (node.parts) return;
+  parts.push_back({with_bindings(node.text, node.bindings ? *node.bindings : bindings),
+                   described(node), node.place, key, need});
+}
+
+Node made_of(Parts parts, std::string text, const Place& place) {
+  Node node = text_node(std::move(text), place);
+  node.parts = std::make_shared<const Parts>(std::move(parts));
   return node;
 }
 
@@ -37,6 +52,8 @@ class Turner {
       report(angle ? angle->place : pattern.place, "pattern.angle",
              (angle ? "got " + described(*angle) : std::string{"missing"}) +
                  ", need the angle from one copy to the next [rad]");
+    else
+      add_part(parts_, *angle, bindings, key + ".pattern.angle", "a finite number [rad]");
     const Binding* number = bindings.find(index);
     angle_ = each + "*(" + (number ? number->text : "0") + ")";
     if (const Node* about = pattern.find("about")) read_centre(*about);
@@ -45,7 +62,7 @@ class Turner {
   bool usable() const { return usable_; }
 
   /// [x, y] or [x, y, z] about the axis. @param free  a direction: the axis goes through its beginning
-  void turn_vector(Node& list, bool free) {
+  void turn_vector(Node& list, const std::string& key, bool free) {
     const std::size_t size = list.items.size();
     if (list.kind != Node::Kind::array || (size != 2 && size != 3)) return;  // reported elsewhere
     if (size == 2 && axis_ != 2)
@@ -61,9 +78,14 @@ class Turner {
     Formulas to = from;
     to[first] = from[first] + "*" + c + (negative_ ? "+" : "-") + from[second] + "*" + s;
     to[second] = (negative_ ? "-" : "") + from[first] + "*" + s + "+" + from[second] + "*" + c;
+    Parts parts = parts_;
+    parts.insert(parts.end(), centre_parts_.begin(),
+                 centre_parts_.end());  // judged even where unused
+    for (std::size_t i = 0; i < size; ++i)
+      add_part(parts, list.items[i], bindings_, item_key(key, i), "");
     for (std::size_t i = 0; i < size; ++i) {
       if (!free && !centre_.empty()) to[i] += "+" + centre_[i];
-      list.items[i] = text_node(std::move(to[i]), list.items[i].place);
+      list.items[i] = made_of(parts, std::move(to[i]), list.items[i].place);
     }
   }
 
@@ -86,7 +108,7 @@ class Turner {
     }
     if (frame->kind != Node::Kind::table) return;
     if (Node* at = frame->find("at"))
-      turn_vector(*at, false);
+      turn_vector(*at, key + ".at", false);
     else if (!centre_.empty())
       return report(frame->place, key, "need at = [...] beside rotate: the pattern has about");
     const std::string axis = std::string(negative_ ? "-" : "") + "xyz"[axis_];
@@ -95,7 +117,7 @@ class Turner {
       Node turn;
       turn.place = frame->place;
       turn.entries.push_back({"axis", frame->place, text_node(axis, frame->place)});
-      turn.entries.push_back({"angle", frame->place, text_node(angle_, frame->place)});
+      turn.entries.push_back({"angle", frame->place, made_of(parts_, angle_, frame->place)});
       frame->entries.push_back({"rotate", frame->place, std::move(turn)});
       return;
     }
@@ -106,7 +128,9 @@ class Turner {
       return report(rotate->place, key + ".rotate.axis",
                     "got " + described(*own) + ", need \"" + axis +
                         "\", the axis of the pattern: other turns belong into the elements");
-    *angle = text_node(formula_of(*angle, bindings_) + "+" + angle_, angle->place);
+    Parts parts = parts_;
+    add_part(parts, *angle, bindings_, "", "");
+    *angle = made_of(std::move(parts), formula_of(*angle, bindings_) + "+" + angle_, angle->place);
   }
 
   /// Position of a point; of a planar body its angle too.
@@ -118,14 +142,17 @@ class Turner {
       return report(table.place, "pattern",
                     "cannot turn bodies in space, need pose with the index of repeat");
     if (pose == nullptr || pose->kind != Node::Kind::array) return;
-    if (word != "planar") return turn_vector(*pose, false);
+    if (word != "planar") return turn_vector(*pose, "pose", false);
     if (pose->items.size() != 3) return;
     Node place = *pose;
     place.items.pop_back();
-    turn_vector(place, false);
-    const std::string turned = formula_of(pose->items[2], bindings_);
-    place.items.push_back(
-        text_node(turned + (negative_ ? "-" : "+") + angle_, pose->items[2].place));
+    turn_vector(place, "pose", false);
+    const Node& own = pose->items[2];
+    Parts parts = parts_;
+    add_part(parts, own, bindings_, "", "");
+    place.items.push_back(made_of(std::move(parts),
+                                  formula_of(own, bindings_) + (negative_ ? "-" : "+") + angle_,
+                                  own.place));
     *pose = std::move(place);
   }
 
@@ -135,6 +162,10 @@ class Turner {
   }
 
  private:
+  std::string item_key(const std::string& key, std::size_t i) const {
+    return key_ + "." + key + "[" + std::to_string(i + 1) + "]";
+  }
+
   void read_axis(const Node& pattern) {
     const Node* axis = pattern.find("axis");
     if (axis == nullptr) return;
@@ -150,7 +181,11 @@ class Turner {
 
   void read_centre(const Node& about) {
     const bool list = about.kind == Node::Kind::array && about.items.size() >= 2;
-    for (const Node& item : about.items) centre_.push_back(formula_of(item, bindings_));
+    for (std::size_t i = 0; i < about.items.size(); ++i) {
+      centre_.push_back(formula_of(about.items[i], bindings_));
+      add_part(centre_parts_, about.items[i], bindings_, item_key("pattern.about", i),
+               "a finite number");
+    }
     centre_.resize(3, "(0)");
     if (!list || about.items.size() > 3 ||
         std::any_of(centre_.begin(), centre_.end(), [](const auto& f) { return f.empty(); }))
@@ -165,16 +200,19 @@ class Turner {
   bool negative_ = false, usable_ = true;
   std::string angle_{};
   Formulas centre_{};  ///< empty: the origin
+  Parts parts_{};      ///< of the angle
+  Parts centre_parts_{};
 };
 
 void turn_places(Node& table, Turner& turner) {
   for (const char* key : {"at", "from_at", "to_at"})
-    if (Node* at = table.find(key)) turner.turn_vector(*at, false);
+    if (Node* at = table.find(key)) turner.turn_vector(*at, key, false);
   Node* of = table.find("of");
   if (of == nullptr) return;
-  for (Node& point : of->items)
-    if (point.kind == Node::Kind::table)
-      if (Node* at = point.find("at")) turner.turn_vector(*at, false);
+  for (std::size_t i = 0; i < of->items.size(); ++i)
+    if (Node& point = of->items[i]; point.kind == Node::Kind::table)
+      if (Node* at = point.find("at"))
+        turner.turn_vector(*at, "of[" + std::to_string(i + 1) + "].at", false);
 }
 
 }  // namespace
@@ -200,7 +238,7 @@ void turn_copy(Node& copy, const std::string& part, const Node& pattern, const s
                          "in a pattern");
   turn_places(copy, turner);
   for (const char* name : {"force", "moment"})
-    if (Node* vector = copy.find(name)) turner.turn_vector(*vector, true);
+    if (Node* vector = copy.find(name)) turner.turn_vector(*vector, name, true);
 }
 
 }  // namespace springfold::io

@@ -289,7 +289,7 @@ class Expander {
         problems_.add(entry.place, entry_key,
                       "stands nowhere in the template, need a name that it uses");
       else {
-        own.list.push_back(binding_of(entry, outer));
+        own.list.push_back(binding_of(entry, entry_key, outer));
         continue;
       }
       good = false;
@@ -303,11 +303,13 @@ class Expander {
     return keys;
   }
 
-  static Binding binding_of(const NodeEntry& entry, const Shared& outer) {
+  static Binding binding_of(const NodeEntry& entry, const std::string& key, const Shared& outer) {
     Binding binding{.name = entry.key};
     const Node& value = entry.value;
     if (value.kind == Node::Kind::text) {
       binding.text = outer ? with_bindings(value.text, *outer) : value.text;
+      binding.parts = written_parts(value);
+      binding.parts.push_back({binding.text, described(value), value.place, key, ""});
       return binding;
     }
     binding.text = shortest(value.number);

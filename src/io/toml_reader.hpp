@@ -13,7 +13,8 @@
 namespace springfold::io {
 
 struct NodeEntry;
-struct Bindings;  // bindings.hpp
+struct Bindings;     // bindings.hpp
+struct WrittenPart;  // bindings.hpp
 
 /// A value of a TOML file.
 struct Node {
@@ -27,6 +28,8 @@ struct Node {
   /// Names that formulas here may use beside parameters: indices of repetitions, parameters of
   /// templates. Null: none.
   std::shared_ptr<const Bindings> bindings{};
+  /// Of a formula that was made of others: these. Null: it stands in the file.
+  std::shared_ptr<const std::vector<WrittenPart>> parts{};
   /// Of an element of a list in which some are repeated: its number in the file and the indices,
   /// "2, i = 3". Otherwise empty.
   std::string number_text{};

@@ -311,6 +311,55 @@ TEST_F(Repetition, WantsPatternsThatCanBeTurned) {
               testing::Contains(testing::HasSubstr("pattern.axis: got \"q\", need \"x\"")));
 }
 
+// Numbers that are turned are made of several formulas of the file: each is judged where it stands, alone and once.
+TEST_F(Repetition, MistakesInWhatANumberIsMadeOfAreReportedWhereTheyStand) {
+  const auto changed = [this](const std::string& old, const std::string& with) {
+    return messages(replaced(turned, old, with));
+  };
+  EXPECT_THAT(
+      changed("angle = \"90*deg\" }\nname", "angle = \"90deg\" }\nname"),
+      testing::ElementsAre(testing::HasSubstr(
+          "case.toml:4:33: node[1, i = 0].pattern.angle: got \"90deg\", need a finite number "
+          "[rad] or a formula: angles are in radians")));
+  EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"90)*(2\" }\nname"),
+              testing::ElementsAre(testing::HasSubstr(
+                  "case.toml:4:33: node[1, i = 0].pattern.angle: got \"90)*(2\"")))
+      << "brackets that close only what they are put into";
+  EXPECT_THAT(changed("angle = \"90*deg\" }\nname", "angle = \"1/0\" }\nname"),
+              testing::ElementsAre(testing::HasSubstr(
+                  "case.toml:4:33: node[1, i = 0].pattern.angle: got \"1/0\", which has no "
+                  "finite value, need a finite number [rad]")));
+  EXPECT_THAT(
+      changed("angle = \"90*deg\" }\nname", "angle = \"90*deg\", about = [0, \"2R\"] }\nname"),
+      testing::ElementsAre(testing::HasSubstr(
+          "case.toml:4:55: node[1, i = 0].pattern.about[2]: got \"2R\", need a finite")));
+  EXPECT_THAT(changed("at = [\"R\", 0]\n", "at = [\"2R\", 0]\n"),
+              testing::ElementsAre(testing::HasSubstr(
+                  "case.toml:6:7: node[1, i = 0].at[1]: got \"2R\", need a finite number [m]")));
+}
+
+TEST_F(Repetition, MistakesInWhatATemplateIsGivenAreReportedWhereTheyStand) {
+  const auto with_stiffness = [this](const std::string& k) {
+    return messages(
+        "[[node]]\nname = \"a\"\nat = [1, 0]\n"
+        "[template.t]\nstiffness = \"k + 1\"\n"
+        "[[bar]]\nuse = \"t\"\nwith = { k = \"" +
+        k +
+        "\" }\nfrom = \"base\"\nto = \"a\"\n"
+        "[[study]]\nname = \"s\"\nkind = \"equilibrium\"\n");
+  };
+  EXPECT_THAT(
+      with_stiffness("2 3"),
+      testing::ElementsAre(testing::HasSubstr(
+          "case.toml:8:14: bar[1].with.k: got \"2 3\", need a number >= 0 [N/m] or a formula: ")));
+  EXPECT_THAT(
+      with_stiffness("2)*(3"),
+      testing::ElementsAre(testing::HasSubstr("case.toml:8:14: bar[1].with.k: got \"2)*(3\"")));
+  EXPECT_THAT(with_stiffness("1/0"),
+              testing::ElementsAre(testing::HasSubstr(
+                  "case.toml:8:14: bar[1].with.k: got \"1/0\", which has no finite value")));
+}
+
 TEST(Bindings, StandInFormulasForNamesAlone) {
   const Bindings bindings{{{"e", "2", 2}, {"k", "a + b", {}}}};
   EXPECT_EQ(with_bindings("2e3*e + sin(e) + ke + k(1)", bindings),
