@@ -215,5 +215,62 @@ TEST(AnglesOfNodes, EndHalfATurnFromNearWhereTheyAreNot) {
   EXPECT_FALSE(analysis::complete(result));
 }
 
+// A tool that is pressed on the deck between two roofs, whose line moves and turns. The truths: the energy of the four
+// coordinates of the roofs, with gradients by complex steps and Newton on fold and touch in 40 digits, written apart
+// from the program.
+TEST(ContactsWithMovingLines, HaveTheTouchAndLimitPointsOfTheirEnergy) {
+  const auto pressed = [](const std::string& exponent) {
+    return run(R"toml([[node]]
+repeat = { i = [0, 1] }
+name = "p{i}"
+at = ["2*i", "0.5 + 0.1*i"]
+[[bar]]
+repeat = { i = [0, 1], s = [-1, 1, 2] }
+name = "b{i}{(s + 1) % 4}"
+from = "p{i}"
+to = "base"
+to_at = ["2*i + s", 0]
+stiffness = 10
+[[bar]]
+name = "deck"
+from = "p0"
+to = "p1"
+stiffness = 5
+[[node]]
+name = "tool"
+at = [0.7, 1]
+fixed = ["x"]
+[[spring]]
+name = "touch"
+shape = "line"
+of = ["tool", "p0", "p1"]
+law = { law = "power", force = 4, depth = 0.2, exponent = )toml" +
+               exponent + R"toml(, from = 0.05, side = "below" }
+[[study]]
+name = "push"
+body = "tool"
+control = "mixed"
+direction = [0, -1]
+until = { lambda = [0, 2.2] }
+)toml");
+  };
+  const auto first = [](const Ran& ran, EventKind kind, const std::string& quantity) {
+    for (const auto& event : ran.results[0].branches.at(0).events)
+      if (event.kind == kind) return analysis::value(ran.results[0], event.row, quantity);
+    return std::nan("");
+  };
+  constexpr double digits = 1e-11;
+  const Ran cubic = pressed("3");
+  EXPECT_NEAR(first(cubic, EventKind::switching, "lambda"), 0.41493753901375, digits);
+  const auto limits = lambdas(cubic.results[0], EventKind::limit_point);
+  ASSERT_GE(limits.size(), 2U);
+  EXPECT_NEAR(limits[0], 0.69078681507761, digits) << "of the force";
+  EXPECT_NEAR(first(cubic, EventKind::limit_point, "force"), 0.66457784799880, digits);
+  EXPECT_NEAR(limits[1], 0.81042913768846, digits) << "of the way";
+  const Ran linear = pressed("1");
+  EXPECT_NEAR(first(linear, EventKind::limit_point, "lambda"), 0.61451109634302, digits);
+  EXPECT_NEAR(first(linear, EventKind::limit_point, "force"), 0.66986628653641, digits);
+}
+
 }  // namespace
 }  // namespace springfold::io
