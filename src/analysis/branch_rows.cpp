@@ -253,8 +253,8 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
 
 BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
-  const Curve backward = with_hits_merged(std::move(source.backward));
-  const Curve forward = with_hits_merged(std::move(source.forward));
+  const Curve backward = with_hits_merged(std::move(source.backward), evaluator);
+  const Curve forward = with_hits_merged(std::move(source.forward), evaluator);
   std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
   BranchRows rows;
   Branch& branch = rows.branch;

@@ -26,6 +26,28 @@ bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test)
   });
 }
 
+/// Does the force stand still on a side of a switching? It then has no extremum there: where a contact with a power
+/// above 1 that carries alone lets go, the force's rate falls to zero and stays there. A point beside it may be too near
+/// to tell, two are not.
+bool stands_still_beside(const Hit& place, const continuation::Curve& curve,
+                         const Evaluator& evaluator) {
+  const auto is_still = [&](const auto& first, const auto& last) {
+    constexpr std::ptrdiff_t looked_at = 2;
+    return last - first >= looked_at &&
+           std::all_of(first, first + looked_at, [&](const continuation::CurvePoint& point) {
+             return evaluator.force_rate(point).is_zero();
+           });
+  };
+  const auto& points = curve.points;
+  const auto behind = std::find_if(points.begin(), points.end(), [&](const auto& point) {
+    return point.s > place.point.s + same_hit;
+  });
+  const auto before = std::find_if(points.rbegin(), points.rend(), [&](const auto& point) {
+    return point.s < place.point.s - same_hit;
+  });
+  return is_still(behind, points.end()) || is_still(before, points.rend());
+}
+
 }  // namespace
 
 continuation::Event dead_load_event(const Evaluator& evaluator) {
@@ -53,8 +75,15 @@ continuation::Event dead_load_event(const Evaluator& evaluator) {
   return {dead_load_change_name, value, continuation::EventAction::record, dead_load_change};
 }
 
-continuation::Curve with_merged_force_events(continuation::Curve curve) {
+continuation::Curve with_merged_force_events(continuation::Curve curve,
+                                             const Evaluator& evaluator) {
   const auto is_force_limit = [](const Hit& hit) { return has_tag(hit, force_limit); };
+  const auto is_switching = [](const Hit& hit) { return hit.kind == HitKind::kink; };
+  const std::vector<Hit> found = curve.hits;
+  std::erase_if(curve.hits, [&](const Hit& hit) {
+    return is_force_limit(hit) && is_met_at(hit, found, is_switching) &&
+           stands_still_beside(hit, curve, evaluator);
+  });
   for (Hit& hit : curve.hits)
     if (hit.kind == HitKind::branch_point && is_met_at(hit, curve.hits, is_force_limit))
       hit.name += ", the force turns back";

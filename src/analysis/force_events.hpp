@@ -20,7 +20,8 @@ continuation::Event dead_load_event(const Evaluator& evaluator);
 
 /// Where a curve crosses another one at its tip, force and lambda turn back at the branch point itself: it says so, and
 /// the extremum of the force is no point of its own. Neither is a change of stability under dead load where the
-/// force has its extremum, or where another special point lies.
-continuation::Curve with_merged_force_events(continuation::Curve curve);
+/// force has its extremum, or where another special point lies. A switching on one side of which the force stands still is
+/// no extremum.
+continuation::Curve with_merged_force_events(continuation::Curve curve, const Evaluator& evaluator);
 
 }  // namespace springfold::analysis

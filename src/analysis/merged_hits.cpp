@@ -28,8 +28,8 @@ Curve with_remarks_joined(Curve curve) {
 
 }  // namespace
 
-Curve with_hits_merged(Curve curve) {
-  return with_remarks_joined(with_merged_force_events(std::move(curve)));
+Curve with_hits_merged(Curve curve, const Evaluator& evaluator) {
+  return with_remarks_joined(with_merged_force_events(std::move(curve), evaluator));
 }
 
 }  // namespace springfold::analysis
