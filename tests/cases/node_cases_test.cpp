@@ -268,9 +268,9 @@ until = { lambda = [0, 2.2] }
   EXPECT_NEAR(first(cubic, EventKind::limit_point, "force"), 0.66457784799880, digits);
   EXPECT_NEAR(limits[1], 0.81042913768846, digits) << "of the way";
   EXPECT_EQ(lambdas(pressed("2").results[0], EventKind::limit_point).size(), 2U);
-  const Ran linear = pressed("1");
-  EXPECT_NEAR(first(linear, EventKind::limit_point, "lambda"), 0.61451109634302, digits);
-  EXPECT_NEAR(first(linear, EventKind::limit_point, "force"), 0.66986628653641, digits);
+  const Ran of_power_one = pressed("1");
+  EXPECT_NEAR(first(of_power_one, EventKind::limit_point, "lambda"), 0.61451109634302, digits);
+  EXPECT_NEAR(first(of_power_one, EventKind::limit_point, "force"), 0.66986628653641, digits);
 }
 
 }  // namespace
