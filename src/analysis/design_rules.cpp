@@ -45,9 +45,8 @@ class Checker {
   }
 
   void check_column(const std::string& key, const std::string& name, bool continuous) {
-    const auto at = std::find_if(columns_.begin(), columns_.end(),
-                                 [&](const QuantityDefinition& q) { return q.name == name; });
-    if (at == columns_.end())
+    const QuantityDefinition* at = find_quantity(columns_, name);
+    if (at == nullptr)
       add(key, "\"" + name + "\" is no quantity of this study");
     else if (continuous && !is_continuous(*at))
       add(key,

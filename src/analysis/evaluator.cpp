@@ -241,12 +241,7 @@ double Evaluator::rate(const QuantityDefinition& quantity,
 }
 
 RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
-  const continuation::CurvePoint& known = force_rate_.point;
-  const bool is_known = known.x.size() > 0 && known.lambda == point.lambda &&
-                        known.tangent.dlambda == point.tangent.dlambda &&
-                        known.piece == point.piece && known.x == point.x &&
-                        known.tangent.dx == point.tangent.dx;
-  if (!is_known) {
+  if (!is_same(force_rate_.point, point)) {
     force_rate_.rate = computed_force_rate(point);
     force_rate_.point = point;
   }

@@ -73,9 +73,8 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   std::vector<continuation::Event> events;
   const auto add = [&](const std::string& name, double value, continuation::EventAction action,
                        std::string label) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == name; });
-    assert(q != quantities.end());
+    const QuantityDefinition* q = find_quantity(quantities, name);
+    assert(q != nullptr);
     events.push_back({std::move(label),
                       [&evaluator, definition = *q, value](const continuation::CurvePoint& point) {
                         return evaluator.value(definition, point) - value;
@@ -119,9 +118,8 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
   for (const Mark& mark : study.marks)
     add(mark.quantity, mark.value, continuation::EventAction::record, mark.quantity);
   for (const std::string& name : study.extrema) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == name; });
-    assert(q != quantities.end());
+    const QuantityDefinition* q = find_quantity(quantities, name);
+    assert(q != nullptr);
     events.push_back({extremum_name(name),
                       [&evaluator, definition = *q](const continuation::CurvePoint& point) {
                         return evaluator.rate(definition, point);
@@ -147,8 +145,7 @@ std::optional<OutsideStart> outside_start(const Study& study, const Evaluator& e
     Study one = study;
     one.until = {limit};
     if (!limit_passed(one, evaluator, quantities, start)) continue;
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == limit.quantity; });
+    const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
     return OutsideStart{limit.quantity, outside_text(limit, evaluator.value(*q, start))};
   }
   return std::nullopt;
@@ -166,8 +163,7 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
   ahead.x += 1e-6 * ray.tangent.dx;
   ahead.lambda += 1e-6 * ray.tangent.dlambda;
   for (const Limit& limit : study.until) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == limit.quantity; });
+    const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
     const double here = evaluator.value(*q, start) / q->scale;
     const double change = evaluator.value(*q, ahead) / q->scale - here;
     for (const auto& [edge, outwards, name] :
@@ -190,8 +186,7 @@ std::optional<std::string> limit_passed(const Study& study, const Evaluator& eva
                                         const std::vector<QuantityDefinition>& quantities,
                                         const continuation::CurvePoint& point) {
   for (const Limit& limit : study.until) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == limit.quantity; });
+    const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
     const double here = evaluator.value(*q, point) / q->scale;
     const auto beyond = [here](double edge, double outwards) {
       return std::isfinite(edge) && outwards * (here - edge) > 1e-9 * std::max(1.0, std::abs(edge));

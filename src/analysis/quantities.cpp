@@ -112,6 +112,13 @@ Unit lambda_unit_of(const Study& study, const statics::System& system) {
   return Unit::none;
 }
 
+const QuantityDefinition* find_quantity(const std::vector<QuantityDefinition>& quantities,
+                                        const std::string& name) {
+  const auto q = std::find_if(quantities.begin(), quantities.end(),
+                              [&](const QuantityDefinition& d) { return d.name == name; });
+  return q == quantities.end() ? nullptr : &*q;
+}
+
 std::vector<QuantityDefinition> quantities_of(const Study& study, const statics::System& system,
                                               const Scales& scales, double lambda_scale,
                                               Unit lambda_unit) {

@@ -72,6 +72,10 @@ std::vector<QuantityDefinition> quantities_of(const Study& study, const statics:
                                               const Scales& scales, double lambda_scale,
                                               Unit lambda_unit);
 
+/// The quantity of that name; nullptr if there is none.
+const QuantityDefinition* find_quantity(const std::vector<QuantityDefinition>& quantities,
+                                        const std::string& name);
+
 /// Places of study.prescribed among the pose coordinates, increasing; unknown names are left out.
 std::vector<Index> prescribed_coordinates(const Study& study, model::TaskSpace space);
 

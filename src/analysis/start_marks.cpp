@@ -12,10 +12,9 @@ void add_marks_at_start(const Study& study, const Evaluator& evaluator,
   Branch& branch = rows.branch;
   const std::size_t row = branch.start_row;
   for (const Mark& mark : study.marks) {
-    const auto q = std::find_if(quantities.begin(), quantities.end(),
-                                [&](const auto& d) { return d.name == mark.quantity; });
-    const auto column = static_cast<std::size_t>(q - quantities.begin());
-    if (q == quantities.end()) continue;
+    const QuantityDefinition* q = find_quantity(quantities, mark.quantity);
+    if (q == nullptr) continue;
+    const auto column = static_cast<std::size_t>(q - quantities.data());
     const double value = branch.samples[row].values[column] / q->scale;
     const double wanted = mark.value / q->scale;
     if (!(std::abs(value - wanted) <= same * std::max(1.0, std::abs(wanted)))) continue;

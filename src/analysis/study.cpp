@@ -106,9 +106,8 @@ void check_quantities(const Study& study, const model::Mechanism& mechanism,
                       std::vector<std::string>& problems) {
   const auto list = quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none);
   const auto check = [&](const std::string& key, const std::string& name) {
-    const auto q = std::find_if(list.begin(), list.end(),
-                                [&](const QuantityDefinition& d) { return d.name == name; });
-    if (q == list.end())
+    const QuantityDefinition* q = find_quantity(list, name);
+    if (q == nullptr)
       problems.push_back(key + ": no quantity \"" + name + "\" in this study");
     else if (!is_continuous(*q))
       problems.push_back(key + ": \"" + name +

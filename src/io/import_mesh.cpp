@@ -131,16 +131,15 @@ std::vector<std::string> import_report(const Mesh& mesh, const MeshParts& parts)
                    "; put supports where they belong");
   report.push_back("stiffnesses are placeholders: put in your own, and loads");
   report.insert(report.end(), parts.report.begin(), parts.report.end());
-  if (std::find(mesh.left_out.begin(), mesh.left_out.end(), "edges_foldAngle") !=
-      mesh.left_out.end())
-    report.emplace_back(
-        "left out: the angles of edges_foldAngle; folds rest as drawn, put other angles into "
-        "`free`");
-  if (!mesh.left_out.empty()) {
-    std::string words;
-    for (const std::string& word : mesh.left_out) words += (words.empty() ? "" : ", ") + word;
-    report.push_back("left out, having no meaning here: " + words);
-  }
+  std::string others;
+  for (const std::string& word : mesh.left_out)
+    if (word == "edges_foldAngle")
+      report.emplace_back(
+          "left out: the angles of edges_foldAngle; folds rest as drawn, put other angles into "
+          "`free`");
+    else
+      others += (others.empty() ? "" : ", ") + word;
+  if (!others.empty()) report.push_back("left out, having no meaning here: " + others);
   return report;
 }
 

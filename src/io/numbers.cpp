@@ -11,6 +11,11 @@ namespace {
 
 constexpr double largest_whole = 9007199254740992.0;  // 2^53: every whole number below is exact
 constexpr double largest_count = 1e6, most_segments = 5000;
+constexpr double largest_size = 1e100;  // an energy has three factors: their product must be finite
+
+bool is_too_large(Range range, double value) {
+  return range != Range::maybe_infinite && std::isfinite(value) && std::abs(value) > largest_size;
+}
 
 bool holds(Range range, double value) {
   const bool whole = std::floor(value) == value && value <= largest_whole;
@@ -147,17 +152,21 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
   reported.resize(entries_.size() + relations_.size(), false);
   for (NumberId id = 0; id < entries_.size(); ++id) {
     const auto& [definition, rule] = entries_[id];
-    if (reported[id] || !values.usable[id] || holds(rule.range, values.values[id])) continue;
+    const double value = values.values[id];
+    const bool too_large = is_too_large(rule.range, value);
+    if (reported[id] || !values.usable[id] || (holds(rule.range, value) && !too_large)) continue;
     reported[id] = true;
     if (const auto part = values.part_at_fault.find(id); part != values.part_at_fault.end()) {
       const auto& [formula, shown, place, key, need] = definition.parts[part->second];
       problems.add(place, key, "got " + shown + ", which has no finite value, need " + need, when);
       continue;
     }
-    problems.add(definition.place, definition.key,
-                 "got " + shown_definition(definition, values.values[id]) + ", need " +
-                     need_of(rule) + rule.hint,
-                 definition.formula ? when : "");
+    problems.add(
+        definition.place, definition.key,
+        "got " + shown_definition(definition, value) + ", need " +
+            (too_large ? "at most 1e100 in size, as products of larger numbers are infinite"
+                       : need_of(rule) + rule.hint),
+        definition.formula ? when : "");
   }
   for (std::size_t i = 0; i < relations_.size(); ++i) {
     const std::string problem = broken(relations_[i], values);

@@ -71,7 +71,7 @@ cycle = { levels = [0.3, 0.8, 1.1] }
   EXPECT_NEAR(cycle.area, change, 1e-11);
 }
 
-/// A column whose body stands a light second beside it: its branches cannot be corrected there.
+/// A column whose body stands 2^31 lengths beside it: nothing can be corrected there, so its branch is its start alone.
 TEST(LoadCycle, OfACurveWithoutBranchesEndsAtItsStart) {
   const Ran ran = run(R"toml(
 [[body]]

@@ -79,5 +79,16 @@ TEST(AWalk, OverwritesThePlaceThatHasNotBeenAskedForTheLongest) {
   EXPECT_EQ(ask(0), first);
 }
 
+TEST(APoint, ThatIsNotSetYetIsNotTheSameAsOneAtTheOrigin) {
+  const CurvePoint none{};
+  CurvePoint origin{};
+  origin.x = Vector::Zero(3);
+  EXPECT_FALSE(is_same(none, origin));
+  CurvePoint with_tangent = origin;
+  with_tangent.tangent.dx = Vector::Zero(3);
+  EXPECT_FALSE(is_same(origin, with_tangent));
+  EXPECT_TRUE(is_same(with_tangent, CurvePoint{with_tangent}));
+}
+
 }  // namespace
 }  // namespace springfold::continuation

@@ -88,6 +88,10 @@ TEST_F(CaseMessages, SayWhatWasGotAndWhatIsNeeded) {
               ElementsAre("case.toml:12:9: body[1].pose[1]: got nan, need a finite number [mm]",
                           "case.toml:12:14: body[1].pose[2]: got a date or time, need a finite "
                           "number [mm] or a formula"));
+  EXPECT_THAT(after("pose = [0, 0]", "pose = [1.7e308, 0]"),
+              ElementsAre("case.toml:12:9: body[1].pose[1]: got 1.7e+308, need at most 1e100 in "
+                          "size, as products of "
+                          "larger numbers are infinite"));
   EXPECT_THAT(after("rigid = [\"-L\", 0]", "rigid = \"L\""),
               ElementsAre("case.toml:18:13: chain[1].elements[3].rigid: got \"L\", need [x, y, z] "
                           "or { at = [...], rotate = {...} }"));

@@ -36,6 +36,10 @@ struct CurvePoint {
                                     ///< empty at a point where one is zero
 };
 
+/// Whether two points are the same to the last bit: place, tangent and piece, whatever was counted there. Points of
+/// different sizes are not, and neither is a point without tangent like one that has it.
+bool is_same(const CurvePoint& a, const CurvePoint& b);
+
 enum class HitKind {
   limit_point,     ///< lambda turns back
   branch_point,    ///< the extended Jacobian loses rank: branches cross

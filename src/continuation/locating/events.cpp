@@ -56,11 +56,6 @@ EventValue value_of(const Event& event, const CurvePoint& point) {
   return {event.value(point), event.noise ? event.noise(point) : 0};
 }
 
-bool is_same(const CurvePoint& a, const CurvePoint& b) {
-  return a.lambda == b.lambda && a.piece == b.piece && a.tangent.dlambda == b.tangent.dlambda &&
-         a.s == b.s && a.x == b.x && a.tangent.dx == b.tangent.dx;
-}
-
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr

@@ -2,6 +2,12 @@
 
 namespace springfold::continuation {
 
+bool is_same(const CurvePoint& a, const CurvePoint& b) {
+  const auto same = [](const Vector& p, const Vector& q) { return p.size() == q.size() && p == q; };
+  return a.s == b.s && a.lambda == b.lambda && a.tangent.dlambda == b.tangent.dlambda &&
+         a.piece == b.piece && same(a.x, b.x) && same(a.tangent.dx, b.tangent.dx);
+}
+
 std::string_view to_string(StopReason reason) {
   switch (reason) {
     case StopReason::event:
