@@ -278,7 +278,11 @@ FilmOutcome jump(const RowScenes& scenes, const StudyResult& result, const UnitL
       .diagram = {.x_name = "length of way",
                   .y_name = "energy" + (energy.empty() ? "" : " [" + shown_in_line(energy) + "]")}};
   constexpr std::size_t held = 7;
-  for (const analysis::SnapMoment& moment : found->motion) {
+  auto moments = found->motion;
+  // It only comes near its landing within a finite time: the last picture is the landing itself.
+  if (!found->landing.values.empty())
+    moments.push_back({moments.back().time, moments.back().way, found->landing});
+  for (const analysis::SnapMoment& moment : moments) {
     film.diagram.points.push_back({.x = moment.way, .y = moment.state.energy});
     const analysis::Sample row{.values = moment.state.values, .piece = moment.state.piece};
     auto panel = scenes.panel_of(row, wish.jump + " from " + found->from, units);

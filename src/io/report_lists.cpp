@@ -88,7 +88,7 @@ std::string sentence_of(const StudyResult& result, const analysis::Jump& jump,
          to_string(jump.verdict) + ".";
 }
 
-/// The rows of a jump: its motion where it was kept, otherwise where it begins and where it ends.
+/// The rows of a jump: its motion where it was kept, otherwise where it begins; then where it comes to rest.
 void add_jumps(const StudyResult& result, const UnitLabels& units, PageLists& page) {
   if (!result.snap) return;
   for (const analysis::Jump& jump : result.snap->jumps) {
@@ -96,12 +96,11 @@ void add_jumps(const StudyResult& result, const UnitLabels& units, PageLists& pa
     PageRows list{.name = "jump " + jump.label + " from " + jump.from,
                   .file = jump.motion.empty() ? "jumps.csv" : "motions.csv",
                   .form = RowsForm::jump};
-    if (jump.motion.empty()) {
-      list.rows.push_back(keep(jump.critical, page));
-      if (!jump.landing.values.empty()) list.rows.push_back(keep(jump.landing, page));
-    }
+    if (jump.motion.empty()) list.rows.push_back(keep(jump.critical, page));
     for (const analysis::SnapMoment& moment : jump.motion)
       list.rows.push_back(keep(moment.state, page));
+    // A motion only comes near its landing within a finite time.
+    if (!jump.landing.values.empty()) list.rows.push_back(keep(jump.landing, page));
     const std::string towards = jump.towards.empty() ? "" : ", towards " + jump.towards;
     list.points.push_back({jump.label, "J", "jumps from " + jump.from + towards,
                            sentence_of(result, jump, units), list.rows.size() - 1});

@@ -11,7 +11,10 @@
 
 #include "io/case_files.hpp"
 #include "io/report_data.hpp"
+#include "io/report_lists.hpp"
 #include "springfold/analysis/run.hpp"
+#include "springfold/analysis/snap.hpp"
+#include "springfold/io/film.hpp"
 #include "springfold/io/postures.hpp"
 
 namespace springfold::io {
@@ -177,6 +180,31 @@ TEST_F(Report, AreasOnWhichSpringsActHaveOutlines) {
   ASSERT_FALSE(outlines.empty());
   for (const auto& outline : outlines)
     for (const auto& corner : outline["corners"]) EXPECT_LT(corner.get<std::size_t>(), points);
+}
+
+TEST_F(Report, JumpsEndAtTheirLandingAlsoWhereTheirMotionWasKept) {
+  read = load_case(SPRINGFOLD_SOURCE_DIR "/cases/snap-through/case-toggle.toml");
+  const PlannedRun& planned = read.runs.front();
+  const auto result = analysis::run_study(planned.mechanism, planned.plan);
+  ASSERT_TRUE(result.snap);
+  const PageLists page = page_lists_of(planned, result, {}, "", read.units);
+  std::size_t judged = 0;
+  for (const analysis::Jump& jump : result.snap->jumps) {
+    ASSERT_FALSE(jump.motion.empty());
+    for (const PageRows& list : page.lists) {
+      if (list.form != RowsForm::jump || list.points.front().label != jump.label) continue;
+      EXPECT_THAT(list.rows.back()->values,
+                  testing::Pointwise(testing::NanSensitiveDoubleEq(), jump.landing.values));
+      EXPECT_EQ(list.points.front().row, list.rows.size() - 1);
+      ++judged;
+    }
+    const FilmOutcome outcome = film_of(planned, result, read.units, {.jump = jump.label});
+    const auto landing = RowScenes{planned, result}.scene_of(
+        {.values = jump.landing.values, .piece = jump.landing.piece});
+    EXPECT_EQ(outcome.film.frames.back().panel.scene.points, landing.value().points);
+  }
+  EXPECT_EQ(judged, result.snap->jumps.size());
+  EXPECT_GE(judged, 1U);
 }
 
 }  // namespace
