@@ -6,7 +6,7 @@
  * @typedef {{label: string, code: string, row: number, detail: string, sentence: string, motion?: string, modes?: string[],
  *            stiffness?: number[][]}} SpecialPoint
  * @typedef {{name: string, form: string, file: string, rows: number, start: number, values: string, points: string,
- *            springs: string, loads: string, layout: number[] | null, status: {texts: string[], of: number[]} | null,
+ *            springs: string, loads: string, outlines: string, layout: number[] | null, status: {texts: string[], of: number[]} | null,
  *            events: SpecialPoint[]}} WrittenBranch
  * @typedef {{dimension: number, points: number, right: number[], up: number[], chains: string[],
  *            links: {from: number, to: number, chain: number, rail: boolean}[],
@@ -24,7 +24,7 @@
  *            axes: string[], map: WrittenMap | null, quantities: Quantity[],
  *            branches: WrittenBranch[], mechanisms: Parts[]}} Run
  * @typedef {{version: string, title: string, case: string, hash: string, units: Object<string, string>, runs: Run[]}} Page
- * @typedef {{values: Float64Array, points: Float64Array, springs: Float64Array, loads: Float64Array}} Numbers
+ * @typedef {{values: Float64Array, points: Float64Array, springs: Float64Array, loads: Float64Array, outlines: Float64Array}} Numbers
  */
 
 const isLittleEndian = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
@@ -47,7 +47,7 @@ function numbersIn(branch) {
   let numbers = decoded.get(branch);
   if (!numbers) {
     numbers = {values: numbersOf(branch.values), points: numbersOf(branch.points),
-               springs: numbersOf(branch.springs), loads: numbersOf(branch.loads)};
+               springs: numbersOf(branch.springs), loads: numbersOf(branch.loads), outlines: numbersOf(branch.outlines)};
     decoded.set(branch, numbers);
   }
   return numbers;
@@ -55,7 +55,7 @@ function numbersIn(branch) {
 
 /**
  * Which parts a row has (-1: no posture is known), and where its numbers begin in each array.
- * @typedef {{layout: number[], points: number[], springs: number[], loads: number[]}} Offsets
+ * @typedef {{layout: number[], points: number[], springs: number[], loads: number[], outlines: number[]}} Offsets
  * @type {WeakMap<WrittenBranch, Offsets>} */
 const offsetsOf = new WeakMap();
 
@@ -64,17 +64,19 @@ function offsetsIn(run, branch) {
   const known = offsetsOf.get(branch);
   if (known) return known;
   const layout = branch.layout || Array(branch.rows).fill(0);
-  /** @type {Offsets} */ const offsets = {layout, points: [], springs: [], loads: []};
-  let points = 0, springs = 0, loads = 0;
+  /** @type {Offsets} */ const offsets = {layout, points: [], springs: [], loads: [], outlines: []};
+  let points = 0, springs = 0, loads = 0, outlines = 0;
   for (const number of layout) {
     offsets.points.push(points);
     offsets.springs.push(springs);
     offsets.loads.push(loads);
+    offsets.outlines.push(outlines);
     if (number < 0) continue;
     const parts = run.mechanisms[number];
     points += parts.dimension * parts.points;
     springs += 2 * parts.springs.length;
     loads += 3 * parts.loads.length;
+    outlines += parts.outlines.length;
   }
   offsetsOf.set(branch, offsets);
   return offsets;

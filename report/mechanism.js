@@ -28,7 +28,7 @@ class MechanismView {
     this.isPerspective = false;
     this.largestLoad = 0;
     /** @type {Spot[][]} */ this.arrows = [];
-    /** Is there a spring that does not act in some row? */ this.hasIdle = false;
+    /** Is there a spring, or what is on an outline, that does not act in some row? */ this.hasIdle = false;
     svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.measure(run);
     this.fit();
@@ -48,8 +48,9 @@ class MechanismView {
     });
     const forces = run.mechanisms.map(parts => parts.loads.flatMap((load, i) => load.direction ? [] : [3 * i]));
     for (const branch of run.branches) {
-      const {points, loads, springs} = numbersIn(branch), offsets = offsetsIn(run, branch);
+      const {points, loads, springs, outlines} = numbersIn(branch), offsets = offsetsIn(run, branch);
       for (let i = 0; i < springs.length && !this.hasIdle; i += 2) this.hasIdle = springs[i] === 0;
+      this.hasIdle ||= outlines.includes(0);
       for (let row = 0; row < branch.rows; ++row) {
         if (offsets.layout[row] < 0) continue;
         for (const offset of used[offsets.layout[row]])
@@ -169,11 +170,14 @@ class MechanismView {
         ? {stroke: "var(--grey)", "stroke-dasharray": "5 3"}
         : {stroke: `var(--${hasColour(stability) ? stability : "ink"})`, "stroke-width": 3, "stroke-linecap": "round"},
                 "chain " + parts.chains[link.chain]);
-    for (const outline of parts.outlines)
+    parts.outlines.forEach((outline, i) => {
+      // No numbers at all: what is on outlines acts in every row.
+      const acts = numbers.outlines.length === 0 || numbers.outlines[offsets.outlines[row] + i] > 0;
       this.add(outline.corners.length > 2 ? "polygon" : "polyline",
                {points: outline.corners.map(at).map(s => `${s.x.toFixed(2)},${s.y.toFixed(2)}`).join(" "), class: "outline",
-                fill: "none", stroke: "var(--spring)", "stroke-width": 1.2, "stroke-dasharray": "5 3"},
-               "spring or pressure " + outline.name);
+                fill: "none", stroke: acts ? "var(--spring)" : "var(--grey)", "stroke-width": 1.2, "stroke-dasharray": acts ? "5 3" : "3 2"},
+               `spring or pressure ${outline.name}${acts ? "" : ", does not act"}`);
+    });
     parts.springs.forEach((spring, i) => {
       const k = springs + 2 * i;
       const acts = numbers.springs[k] > 0, force = numbers.springs[k + 1];

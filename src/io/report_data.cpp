@@ -127,7 +127,8 @@ void add(const model::Vec3<double>& v, Index dimension, std::vector<double>& lis
 /// Numbers of the rows of a list, row after row.
 struct RowNumbers {
   std::vector<double> values{}, points{}, springs{}, loads{};
-  std::vector<int> layout{};  ///< which parts each row has; -1: no posture is known
+  std::vector<double> outlines{};  ///< of each outline 1 where what is on it acts, otherwise 0
+  std::vector<int> layout{};       ///< which parts each row has; -1: no posture is known
 };
 
 /// Are they the same parts, of which some may be elsewhere? A spring whose stiffness a parameter makes 0 is none.
@@ -165,6 +166,7 @@ void add_row(const StudyResult& result, const Sample& row,
   for (const auto& s : scene->springs)
     rows.springs.insert(rows.springs.end(), {s.acts ? 1.0 : 0.0, s.force});
   for (const auto& load : scene->loads) add(load.vector, 3, rows.loads);
+  for (const auto& outline : scene->outlines) rows.outlines.push_back(outline.acts ? 1.0 : 0.0);
 }
 
 std::vector<double> motion_at(const RowScenes& scenes, const Sample& row,
@@ -253,6 +255,8 @@ Json json_of(const PageRun& run, const PageRows& list, const RowScenes& scenes, 
   for (const PagePoint& point : list.points) points.push_back(json_of(point, list, scenes, run));
   const bool is_usual =
       std::all_of(rows.layout.begin(), rows.layout.end(), [](int number) { return number == 0; });
+  if (std::all_of(rows.outlines.begin(), rows.outlines.end(), [](double acts) { return acts > 0; }))
+    rows.outlines.clear();  // the usual thing needs no room
   return {{"name", list.name},
           {"form", word_of(list.form)},
           {"file", list.file},
@@ -262,6 +266,7 @@ Json json_of(const PageRun& run, const PageRows& list, const RowScenes& scenes, 
           {"points", base64_of(rows.points)},
           {"springs", base64_of(rows.springs)},
           {"loads", base64_of(rows.loads)},
+          {"outlines", base64_of(rows.outlines)},
           {"layout", is_usual ? Json(nullptr) : Json(rows.layout)},
           {"status", status_of(list)},
           {"events", std::move(points)}};

@@ -182,6 +182,42 @@ TEST_F(Report, AreasOnWhichSpringsActHaveOutlines) {
     for (const auto& corner : outline["corners"]) EXPECT_LT(corner.get<std::size_t>(), points);
 }
 
+/// A roller is lifted from y = 0; the area of the triangle (0, 5), (6, 5), (3, y) is 3 (5 - y). A bladder pushes where
+/// it is below 12: y > 1.
+TEST_F(Report, TellsInWhichRowsAnAreaActs) {
+  page_of(R"toml([[body]]
+name = "tip"
+task_space = "xy"
+pose = [3, 3]
+[[chain]]
+name = "post"
+elements = [
+  { rigid = [3, 0] },
+  { joint = "prismatic", axis = "y", name = "slide", role = "virtual", stiffness = 1, initial = 3 },
+  { joint = "prismatic", axis = "x", name = "side", role = "virtual", stiffness = 1 },
+]
+[[spring]]
+name = "bladder"
+shape = "area"
+of = [{ on = "base", at = [0, 5] }, "tip", { on = "base", at = [6, 5] }]
+law = { law = "one_sided", stiffness = 1, from = 12, side = "below" }
+[[study]]
+name = "push"
+control = "pose"
+direction = [0, 1]
+until = { deflection = [0, 2.5] }
+)toml");
+  const auto list = nlohmann::json::parse(report_data(read, results))["runs"][0]["branches"][0];
+  std::vector<double> acts;
+  for (const analysis::Sample& row : results[0].branches[0].samples) {
+    const RowScenes scenes{read.runs[0], results[0]};
+    acts.push_back(scenes.scene_of(row).value().outlines.at(0).acts ? 1.0 : 0.0);
+  }
+  EXPECT_THAT(acts, testing::Contains(1.0));
+  EXPECT_THAT(acts, testing::Contains(0.0));
+  EXPECT_EQ(list["outlines"], base64_of(acts));
+}
+
 TEST_F(Report, JumpsEndAtTheirLandingAlsoWhereTheirMotionWasKept) {
   read = load_case(SPRINGFOLD_SOURCE_DIR "/cases/snap-through/case-toggle.toml");
   const PlannedRun& planned = read.runs.front();
