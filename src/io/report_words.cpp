@@ -14,8 +14,9 @@ std::string turn_words(EventKind kind, const Passage& passage, bool is_load) {
   const Stability a = *passage.before, b = *passage.behind;
   if (a == Stability::unknown || b == Stability::unknown)
     return " Whether the mechanism snaps beyond it is not known.";
-  if (loses_hold(kind, a, b, is_load) || loses_hold(kind, b, a, is_load))
-    return " Beyond it the mechanism snaps.";
+  if (loses_hold(kind, a, b, is_load)) return " Beyond it the mechanism snaps.";
+  if (loses_hold(kind, b, a, is_load))
+    return " From here on the mechanism stands; where it comes back to this point it snaps.";
   if (a == b && a == Stability::stable) return " The mechanism is stable on both sides.";
   if (!stands(a, is_load) && !stands(b, is_load))
     return " The mechanism is unstable on both sides: it does not come here by itself.";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "result_access.hpp"
 
@@ -107,6 +108,7 @@ Passage passage_at(const std::vector<Stability>& steps, const analysis::Branch& 
   Passage passage;
   if (event.row > 0 && event.row <= steps.size()) passage.before = steps[event.row - 1];
   if (last < steps.size()) passage.behind = steps[last];
+  if (event.row < branch.start_row) std::swap(passage.before, passage.behind);
   return passage;
 }
 

@@ -13,9 +13,10 @@ namespace springfold::io {
 std::vector<Stability> stability_of_steps(const analysis::StudyResult& result,
                                           const analysis::Branch& branch);
 
-/// How the mechanism stands on both sides of a special point; nothing beyond an end of the branch.
+/// How the mechanism stands on both sides of a special point, as it is passed on the way from the start of the branch:
+/// rows above the start are passed upwards, those below it downwards. Nothing beyond an end of the branch.
 struct Passage {
-  std::optional<Stability> before{}, behind{};  ///< in the order of rows
+  std::optional<Stability> before{}, behind{};
 };
 /// @param steps  of the branch: stability_of_steps
 Passage passage_at(const std::vector<Stability>& steps, const analysis::Branch& branch,

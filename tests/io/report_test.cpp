@@ -53,7 +53,8 @@ TEST(Explanation, OfALimitPointSaysWhetherTheMechanismSnapsThere) {
   const auto stable = Stability::stable, driven = Stability::driven, lost = Stability::unstable;
   const auto snaps = HasSubstr("Beyond it the mechanism snaps.");
   EXPECT_THAT(said(stable, lost, true), snaps);
-  EXPECT_THAT(said(lost, stable, true), snaps) << "followed the other way";
+  EXPECT_THAT(said(lost, stable, true), Not(snaps)) << "stability begins here";
+  EXPECT_THAT(said(lost, stable, true), HasSubstr("From here on the mechanism stands"));
   EXPECT_THAT(said(stable, driven, true), snaps) << "a load does not drive";
   EXPECT_THAT(said(driven, lost, false), snaps) << "the way turns back";
   EXPECT_THAT(said(stable, driven, false), HasSubstr("as it is driven it goes on"));
