@@ -40,9 +40,10 @@ std::vector<std::string> differing_parameters(const std::vector<RunCurves>& runs
   return names;
 }
 
-bool all_differ(std::vector<double> values) {
+std::size_t different(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  return std::adjacent_find(values.begin(), values.end()) == values.end();
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values.size();
 }
 
 /// What the colours of runs say.
@@ -51,19 +52,21 @@ struct ColourScale {
   std::vector<double> values{};  ///< one per run
 };
 
-/// The one parameter that differs, or of several the first that tells all runs apart. Where none does, as on a grid,
-/// the numbers of the runs. No values where nothing differs.
+/// The parameter that differs; of several the one that has the most values, and of these the first. Where it does not
+/// tell all runs apart, as on a grid, the title says what their numbers run over. No values where nothing differs.
 ColourScale colour_scale(const std::vector<RunCurves>& runs, const UnitLabels& units) {
   const std::vector<std::string> names = differing_parameters(runs);
   std::string list;
+  ColourScale scale;
+  std::size_t most = 0;
   for (const std::string& name : names) {
     const std::vector<double> values = values_of(runs, name);
-    if (names.size() == 1 || all_differ(values)) return {parameter_title(name, units), values};
     list += (list.empty() ? "" : ", ") + name;
+    if (different(values) <= most) continue;
+    most = different(values);
+    scale = {parameter_title(name, units), values};
   }
-  ColourScale scale{.title = "number of the run over " + list};
-  for (const RunCurves& run : runs)
-    if (!names.empty()) scale.values.push_back(run.planned->run);
+  if (names.size() > 1 && most < runs.size()) scale.title += "; numbers: runs over " + list;
   return scale;
 }
 
@@ -105,9 +108,8 @@ void colour_by_value(const std::vector<RunCurves>& runs, const UnitLabels& units
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (std::size_t c = runs[i].first; c < runs[i].first + runs[i].count; ++c)
       figure.curves[c].colour = sweep_colour((values[i] - bar.low) / (bar.high - bar.low));
-  if (runs.size() <= most_labels) return;
-  number_runs(runs, figure);
   figure.bar = bar;
+  if (runs.size() > most_labels) number_runs(runs, figure);
 }
 
 }  // namespace springfold::io

@@ -101,16 +101,27 @@ TEST(SweepColours, OfSeveralParametersAreThoseOfOneThatTellsAllRunsApart) {
   EXPECT_EQ(figure.curves[3].colour, sweep_colour(0.4));
 }
 
-TEST(SweepColours, OfAGridAreThoseOfTheRunsNumbers) {
+TEST(SweepColours, OfAGridAreThoseOfTheParameterWithMostValuesAndNumbersTellTheRest) {
   const auto planned =
       grid_runs({{1, 2}, {2, 2}, {3, 2}, {1, 4}, {2, 4}, {3, 4}, {1, 8}, {2, 8}, {3, 8}});
   Figure figure;
   colour_by_value(sweep_of(planned, figure), {}, figure);
   ASSERT_TRUE(figure.bar);
-  EXPECT_EQ(figure.bar->title, "number of the run over k, L");
-  EXPECT_EQ(figure.curves[8].colour, sweep_colour(1));
-  EXPECT_EQ(figure.curves[4].colour, sweep_colour(0.5));
+  EXPECT_EQ(figure.bar->title, "k; numbers: runs over k, L");  // of as many the first
+  for (std::size_t run : {0U, 3U, 6U}) EXPECT_EQ(figure.curves[run].colour, sweep_colour(0));
+  for (std::size_t run : {1U, 4U, 7U}) EXPECT_EQ(figure.curves[run].colour, sweep_colour(0.5));
+  for (std::size_t run : {2U, 5U, 8U}) EXPECT_EQ(figure.curves[run].colour, sweep_colour(1));
   EXPECT_EQ(figure.curves[4].label.text, "5");
+}
+
+TEST(SweepColours, OfFewRunsHaveABarTooAndKeepTheirLabels) {
+  const auto planned = grid_runs({{1, 2}, {1, 4}, {1, 6}, {1, 10}});
+  Figure figure;
+  colour_by_value(sweep_of(planned, figure), {}, figure);
+  ASSERT_TRUE(figure.bar);
+  EXPECT_EQ(figure.bar->title, "L");
+  EXPECT_EQ(figure.curves[1].colour, sweep_colour(0.25));
+  EXPECT_EQ(figure.curves[1].label.text, "run 2");
 }
 
 TEST(SweepColours, LeaveTheLabelsThatTheFigureGives) {
