@@ -58,16 +58,31 @@ bool leads_through(const LabelBox& box, const PlotPoint& from, const PlotPoint& 
   return false;
 }
 
+constexpr double dot_radius = 3;  // of the end of a line on a curve [pixel]
+
+/// Its own line through the dots and marks of others, or theirs through its dot, would name the wrong thing.
+double misleading_dots(const LabelScene& scene, const PlotPoint& anchor, const PlotPoint& text) {
+  constexpr double misleading = 100;
+  const auto dot_at = [](const PlotPoint& at) { return LabelBox{at, dot_radius, dot_radius}; };
+  double sum = 0;
+  for (const LabelBox& mark : scene.marks)
+    if (!mark.holds(anchor, 0) && leads_through(mark, anchor, text)) sum += misleading;
+  for (const auto& [from, to] : scene.leaders)
+    if (leads_through(dot_at(from), anchor, text) || leads_through(dot_at(anchor), from, to))
+      sum += misleading;
+  return sum;
+}
+
 /// Lines to what texts name: those of others through this one, and its own through others.
 double crossed_by_leaders(const LabelScene& scene, const LabelBox& box, const PlotPoint& anchor) {
   constexpr double crossed = 100;
   double sum = 0;
   for (const auto& [from, to] : scene.leaders)
     if (leads_through(box, from, to)) sum += crossed;
-  if (needs_leader(box, anchor))
-    for (const LabelBox& label : scene.labels)
-      if (leads_through(label, anchor, box.nearest(anchor))) sum += crossed;
-  return sum;
+  if (!needs_leader(box, anchor)) return sum;
+  for (const LabelBox& label : scene.labels)
+    if (leads_through(label, anchor, box.nearest(anchor))) sum += crossed;
+  return sum + misleading_dots(scene, anchor, box.nearest(anchor));
 }
 
 /// How bad it would be to have a text there: hidden curve points, marks, texts and lines to what texts name.

@@ -1,6 +1,7 @@
 // Names of curves, and colours of the runs of a sweep.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/canvas.hpp"
@@ -58,6 +59,29 @@ TEST(PlaceLabels, OfCurvesStandAtNoOtherCurveThanTheirOwn) {
       EXPECT_LT(to_own, to_others) << label.text.text;
     }
   }
+}
+
+double from_line(const PlotPoint& at, const PlacedLabel& label) {
+  const double x = label.leader_to.first - label.leader_from.first;
+  const double y = label.leader_to.second - label.leader_from.second;
+  const double u = at.first - label.leader_from.first, v = at.second - label.leader_from.second;
+  const double t = std::clamp((u * x + v * y) / (x * x + y * y), 0.0, 1.0);
+  return std::hypot(u - t * x, v - t * y);
+}
+
+TEST(PlaceLabels, LeadNoLineThroughTheDotOfAnother) {
+  Figure figure{.low = {-0.1, -0.1}, .high = {1.1, 1.1}};
+  for (int i = 0; i < 12; ++i)
+    figure.curves.push_back(arch("a long name " + std::to_string(i), 0.3 + 0.03 * i, 0.1));
+  std::vector<PlacedLabel> led;
+  for (const PlacedLabel& label : place_labels(figure, {}))
+    if (label.has_leader) led.push_back(label);
+  ASSERT_GE(led.size(), 3U);
+  for (const PlacedLabel& one : led)
+    for (const PlacedLabel& other : led) {
+      if (one.text.text == other.text.text) continue;
+      EXPECT_GT(from_line(one.leader_from, other), 3) << one.text.text << ", " << other.text.text;
+    }
 }
 
 TEST(PlaceLabels, NameCurvesThatLieOnEachOtherTogether) {
