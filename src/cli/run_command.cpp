@@ -21,6 +21,7 @@
 #include "springfold/io/result_folder.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
+#include "springfold/io/summary_detail.hpp"
 
 namespace springfold::cli {
 
@@ -125,8 +126,9 @@ bool print(const Arguments& arguments, const Case& the_case,
   if (arguments.prints_json) {
     session.out << io::summary_json(the_case, results);
   } else {
-    session.out << (arguments.is_quiet ? io::outline_text(the_case, results)
-                                       : io::summary_table(the_case, results));
+    session.out << (arguments.is_quiet     ? io::outline_text(the_case, results)
+                    : arguments.is_verbose ? io::detailed_summary_table(the_case, results)
+                                           : io::summary_table(the_case, results));
     if (arguments.is_verbose) session.out << io::steps_table(results);
     const std::string table = io::comparison_table(comparisons, the_case.expected);
     if (!table.empty() && !arguments.is_quiet) session.out << "\n" << table;

@@ -7,6 +7,7 @@
 #include "outline_kinds.hpp"
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "stability_parts.hpp"
 #include "summary_line.hpp"
 #include "text.hpp"
@@ -62,6 +63,7 @@ struct Told {
   const StudyResult& result;
   bool is_load = false;         ///< controlled by its load
   std::vector<double> sizes{};  ///< of its quantities
+  bool has_values = true;       ///< otherwise special points have their labels only
 };
 
 /// "0.02701 N" along the study's direction; lambda where there is no force.
@@ -82,8 +84,8 @@ std::string value_text(const Told& told, const Branch& branch, std::size_t row) 
 
 std::string point_text(const Told& told, const Branch& branch, std::size_t row) {
   const Event* event = event_at(branch, row);
-  const std::string value = value_text(told, branch, row);
-  if (event == nullptr || event->label.empty()) return value;
+  const std::string value = told.has_values ? value_text(told, branch, row) : std::string{};
+  if (event == nullptr || event->label.empty()) return value.empty() ? "where it changes" : value;
   return event->label + (value.empty() ? "" : " at " + value);
 }
 
@@ -173,10 +175,16 @@ std::vector<std::string> curve_outline(const Told& told, std::size_t most) {
   } else {
     const std::string onward = way_text(told, first, true, most);
     const std::string back = way_text(told, first, false, most);
-    if (!onward.empty()) lines.push_back("forward: " + onward);
-    if (!back.empty()) lines.push_back("backward: " + back);
+    const bool is_one_story = !told.has_values && onward == back && !onward.empty();
+    if (is_one_story) lines.push_back("both ways: " + onward);
+    if (!onward.empty() && !is_one_story) lines.push_back("forward: " + onward);
+    if (!back.empty() && !is_one_story) lines.push_back("backward: " + back);
   }
-  const std::string branches = branches_text(result), jumps = jump_words(told.the_case, result);
+  const std::string branches = branches_text(result);
+  const std::string jumps = told.has_values ? jump_words(told.the_case, result)
+                            : result.snap && !result.snap->jumps.empty()
+                                ? counted(static_cast<int>(result.snap->jumps.size()), "jump")
+                                : std::string{};
   const std::string others = branches + (branches.empty() || jumps.empty() ? "" : "; ") + jumps;
   if (!others.empty()) lines.push_back(others);
   return lines;
@@ -244,6 +252,19 @@ std::string numbers_text(const std::vector<std::size_t>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i)
     text += (i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ") + std::to_string(numbers[i]);
   return text;
+}
+
+std::vector<std::string> story_of(const Case& the_case, const StudyResult& result,
+                                  std::size_t most) {
+  const PlannedRun* planned = plan_of(the_case, result);
+  if (planned == nullptr) return {};
+  if (!result.start.found) return {"no start point was found"};
+  const std::vector<std::string> of_kind = outline_of_kind(the_case, *planned, result);
+  const bool is_traced = !result.branches.empty() && !result.branches.front().samples.empty() &&
+                         !has_summary_of_its_own(planned->plan.kind);
+  if (!of_kind.empty() || !is_traced) return of_kind;
+  return curve_outline({the_case, result, planned->plan.control == ControlMode::load, {}, false},
+                       most);
 }
 
 std::vector<std::string> outline_of(const Case& the_case, const StudyResult& result) {

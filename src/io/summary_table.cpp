@@ -12,6 +12,7 @@
 #include "springfold/analysis/snap.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
+#include "springfold/io/summary_detail.hpp"
 #include "summary_line.hpp"
 #include "summary_start.hpp"
 #include "sweep_points.hpp"
@@ -270,8 +271,10 @@ std::string outline_lines(const Case& the_case, const StudyResult& result) {
   return text;
 }
 
-std::string run_block(const Case& the_case, const StudyResult& result) {
-  std::string text = heading_of(result) + "\n" + outline_lines(the_case, result);
+/// @param has_words  what happened comes first
+std::string run_block(const Case& the_case, const StudyResult& result, bool has_words) {
+  std::string text =
+      heading_of(result) + "\n" + (has_words ? outline_lines(the_case, result) : std::string{});
   if (const PlannedRun* planned = plan_of(the_case, result);
       planned != nullptr && has_summary_of_its_own(planned->plan.kind))
     return text + command_lines(the_case, *planned, result);
@@ -296,11 +299,34 @@ std::string run_block(const Case& the_case, const StudyResult& result) {
          diagram_lines(result, plan_of(the_case, result));
 }
 
-std::string sweep_heading(const SweepTable& sweep, int runs) {
-  std::string parameters;
-  for (const std::string& name : sweep.parameters)
-    parameters += (parameters.empty() ? "" : ", ") + name;
-  return shown(sweep.study) + ", " + counted(runs, "run") + " over " + parameters + "\n";
+std::string sweep_heading(const std::string& study, const std::vector<std::string>& parameters,
+                          std::size_t runs) {
+  std::string list;
+  for (const std::string& name : parameters) list += (list.empty() ? "" : ", ") + name;
+  return shown(study) + ", " + counted(static_cast<int>(runs), "run") +
+         (list.empty() ? "" : " over " + list) + "\n";
+}
+
+/// The results of the same study that follow each other, without those that are rows of a table.
+std::vector<std::vector<const StudyResult*>> studies_of(const std::vector<StudyResult>& results) {
+  std::vector<std::vector<const StudyResult*>> studies;
+  for (const StudyResult& result : results) {
+    if (result.row) continue;
+    if (studies.empty() || studies.back().front()->study != result.study) studies.emplace_back();
+    studies.back().push_back(&result);
+  }
+  return studies;
+}
+
+/// What happened in all runs of a study, in words.
+std::string study_lines(const Case& the_case, const std::vector<const StudyResult*>& runs) {
+  const PlannedRun* planned = plan_of(the_case, *runs.front());
+  std::string text =
+      sweep_heading(runs.front()->study,
+                    planned == nullptr ? std::vector<std::string>{} : planned->varied, runs.size());
+  for (const std::string& line : study_outline(the_case, runs))
+    text += std::string(summary_indent, ' ') + shown(line) + "\n";
+  return text;
 }
 
 /// What happened in the runs of a sweep, in words; nothing of a study that was not chosen.
@@ -308,7 +334,8 @@ std::string sweep_heading(const SweepTable& sweep, int runs) {
 std::string sweep_lines(const Case& the_case, const SweepTable& sweep, int planned,
                         const std::vector<StudyResult>& results) {
   if (planned == 0) return {};
-  std::string text = sweep_heading(sweep, planned);
+  std::string text =
+      sweep_heading(sweep.study, sweep.parameters, static_cast<std::size_t>(planned));
   for (const std::string& sentence : sweep_words(the_case, sweep, results))
     for (const std::string& line : wrapped(sentence, table_width - summary_indent))
       text += std::string(summary_indent, ' ') + line + "\n";
@@ -363,18 +390,28 @@ std::string steps_table(const std::vector<StudyResult>& results) {
 
 std::string outline_text(const Case& the_case, const std::vector<StudyResult>& results) {
   std::string text;
-  for (const auto& result : results)
-    if (!result.row) text += heading_of(result) + "\n" + outline_lines(the_case, result);
+  for (const auto& runs : studies_of(results))
+    text += runs.size() > 1
+                ? study_lines(the_case, runs)
+                : heading_of(*runs.front()) + "\n" + outline_lines(the_case, *runs.front());
   for (const SweepTable& sweep : the_case.sweeps)
     text += sweep_lines(the_case, sweep, counts_of(the_case, sweep, results).planned, results);
   return text;
 }
 
-std::string summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
+namespace {
+
+/// @param is_detailed  every run has its own words
+std::string table_of(const Case& the_case, const std::vector<StudyResult>& results,
+                     bool is_detailed) {
   std::string text;
   if (!the_case.title.empty()) text += shown(the_case.title) + "\n";
-  for (const auto& result : results)
-    if (!result.row) text += (text.empty() ? "" : "\n") + run_block(the_case, result);
+  for (const auto& runs : studies_of(results)) {
+    const bool has_words = is_detailed || runs.size() == 1;
+    if (!has_words) text += (text.empty() ? "" : "\n") + study_lines(the_case, runs);
+    for (const StudyResult* result : runs)
+      text += (text.empty() ? "" : "\n") + run_block(the_case, *result, has_words);
+  }
   text += point_blocks(the_case, results);
   text += sweep_blocks(the_case, results, text.empty());
   for (const auto& planned : the_case.runs)
@@ -382,6 +419,16 @@ std::string summary_table(const Case& the_case, const std::vector<StudyResult>& 
       text += "\n" + shown(planned.study) + ", run " + std::to_string(planned.run) + "\n" +
               summary_line("NOT RUN", "interrupted before");
   return text;
+}
+
+}  // namespace
+
+std::string summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
+  return table_of(the_case, results, false);
+}
+
+std::string detailed_summary_table(const Case& the_case, const std::vector<StudyResult>& results) {
+  return table_of(the_case, results, true);
 }
 
 }  // namespace springfold::io

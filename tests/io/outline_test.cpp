@@ -7,7 +7,9 @@
 #include "io/outline_kinds.hpp"
 #include "io/result_access.hpp"
 #include "io/sample_results.hpp"
+#include "springfold/analysis/snap.hpp"
 #include "springfold/io/results.hpp"
+#include "springfold/io/summary_detail.hpp"
 
 namespace springfold::io {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(Outline, SaysAtWhichPointsStabilityChangesAndWithWhichForce) {
   const Case the_case = sample::two_runs();
@@ -24,6 +27,55 @@ TEST(Outline, SaysAtWhichPointsStabilityChangesAndWithWhichForce) {
   EXPECT_THAT(text, testing::MatchesRegex("forward: stable up to LP1 at 0.02701 N, where it snaps; "
                                           "unstable up to LP2 at [0-9.e-]+ N; stable again to the "
                                           "end backward: stable to the end "));
+}
+
+std::size_t times(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(StudyOutline, TellsRunsWithTheSameStoryTogetherAndWithoutValues) {
+  const Case the_case = sample::two_runs();
+  const auto results = sample::two_results();
+  const auto lines = study_outline(the_case, {&results[0], &results[1]});
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : " ") + line;
+  EXPECT_EQ(text,
+            "runs 1 and 2 (Kv = 0 to Kv = 0.01): forward: stable up to LP1, where it snaps; "
+            "unstable up to LP2; stable again to the end; backward: stable to the end");
+  EXPECT_LE(lines.size(), 3U);
+  EXPECT_EQ(times(summary_table(the_case, results), "where it snaps"), 1U);
+  EXPECT_EQ(times(outline_text(the_case, results), "where it snaps"), 1U);
+  EXPECT_EQ(times(detailed_summary_table(the_case, results), "where it snaps"), 2U);
+}
+
+TEST(StudyOutline, HasThreeLinesHoweverManyStoriesThereAre) {
+  Case the_case = sample::two_runs();
+  the_case.runs.clear();
+  std::vector<analysis::StudyResult> results;
+  for (int run = 1; run <= 5; ++run) {
+    the_case.runs.push_back(sample::planned("push from Q2", run, ""));
+    results.push_back(sample::two_results()[0]);
+    results.back().run = run;
+    results.back().branches.resize(static_cast<std::size_t>(run), results.back().branches[0]);
+  }
+  std::vector<const analysis::StudyResult*> runs;
+  for (const auto& result : results) runs.push_back(&result);
+  const auto lines = study_outline(the_case, runs);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0], testing::StartsWith("run 1 (Kv = 0): forward: stable up to LP1"));
+  EXPECT_EQ(lines[1], "otherwise in 3 runs: see below");
+  EXPECT_THAT(lines[2], testing::StartsWith("run 5 (Kv = 0): forward: "));
+  for (const std::string& line : lines) EXPECT_LE(line.size(), table_width);
+}
+
+TEST(StudyOutline, SaysWhichRunsHaveNoStart) {
+  auto results = sample::two_results();
+  results[1].start.found = false;
+  const auto lines = study_outline(sample::two_runs(), {&results[0], &results[1]});
+  EXPECT_EQ(lines.back(), "run 2 (Kv = 0.01): no start point was found");
 }
 
 TEST(Outline, ClaimsNothingWithoutAStart) {
