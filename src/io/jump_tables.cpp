@@ -200,6 +200,17 @@ Json json_of(const StudyResult& result, const Jump& jump) {
           {"loop", jump.loop}};
 }
 
+/// What is not followed may jump: nothing is claimed of it.
+std::string no_jump_line(const StudyResult& result) {
+  const bool has_begun =
+      std::any_of(result.branches.begin(), result.branches.end(),
+                  [](const analysis::Branch& branch) { return branch.samples.size() > 1; });
+  if (!has_begun) return {};
+  return summary_line("jumps", analysis::complete(result)
+                                   ? "none: stability is nowhere lost to a jump"
+                                   : "none on what was followed, which is not all");
+}
+
 }  // namespace
 
 std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
@@ -209,8 +220,7 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
   std::string text;
   for (const std::string& refusal : report.refusals)
     text += summary_line("jumps", "REFUSED: " + refusal);
-  if (report.jumps.empty() && report.refusals.empty())
-    text += summary_line("jumps", "none: stability is nowhere lost to a jump");
+  if (report.jumps.empty() && report.refusals.empty()) text += no_jump_line(result);
   const Sized sized{result, report.jumps.empty() ? std::vector<double>{} : quantity_sizes(result)};
   for (const Jump& jump : report.jumps) text += lines_of(sized, jump, energy);
   for (const auto& handover : report.handovers)

@@ -78,6 +78,25 @@ TEST(StudyOutline, SaysWhichRunsHaveNoStart) {
   EXPECT_EQ(lines.back(), "run 2 (Kv = 0.01): no start point was found");
 }
 
+/// A study of jumps that found none.
+std::string jumps_of(analysis::StudyResult result) {
+  result.snap = std::make_shared<analysis::SnapReport>();
+  return summary_table(sample::two_runs(), {result});
+}
+
+TEST(JumpLines, ClaimNothingOfWhatWasNotFollowed) {
+  auto result = sample::two_results()[0];
+  EXPECT_THAT(jumps_of(result), HasSubstr("none: stability is nowhere lost to a jump"));
+  result.branches[0].forward = {.reason = "step too small", .complete = false};
+  EXPECT_THAT(jumps_of(result), Not(HasSubstr("nowhere lost")));
+  EXPECT_THAT(jumps_of(result), HasSubstr("none on what was followed, which is not all"));
+  auto& branch = result.branches[0];
+  branch.samples.resize(1);
+  branch.events.clear();
+  branch.start_row = 0;
+  EXPECT_THAT(jumps_of(result), Not(HasSubstr("    jumps  "))) << "nothing was followed";
+}
+
 TEST(Outline, ClaimsNothingWithoutAStart) {
   auto result = sample::two_results()[0];
   result.start.found = false;
