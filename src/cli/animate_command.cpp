@@ -79,6 +79,9 @@ int animate_command(const Arguments& arguments, const Session& session) {
     say(session.err, "there is no run " + std::to_string(arguments.run_number) + " to animate");
     return wrong_usage;
   }
+  for (const auto& remark :
+       settings_without_effect(with_studies(the_case, {run->study}), arguments.overrides))
+    say(session.err, remark);
   const io::FilmOutcome outcome = film_of(the_case, *run, wish_of(arguments), session);
   if (const int signal = session.signal(); signal != 0) return interrupted_by(signal);
   if (!outcome.problem.empty()) {

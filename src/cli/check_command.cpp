@@ -73,6 +73,8 @@ int check_command(const Arguments& arguments, const Session& session) {
   const io::Case the_case =
       io::load_case(arguments.case_file, arguments.overrides, stop_request_of(session));
   session.out << description_of(the_case);
+  for (const auto& remark : settings_without_effect(the_case, arguments.overrides))
+    say(session.err, remark);
   for (const auto& hint : the_case.hints) session.out << "  hint      " << io::shown(hint) << "\n";
   int code = all_done;
   if (arguments.draws) code = draw_guess(arguments, the_case, session);

@@ -143,6 +143,9 @@ int draw_command(const Arguments& arguments, const Session& session) {
     say(session.err, "there is no run " + std::to_string(arguments.run_number) + " to draw");
     return wrong_usage;
   }
+  for (const auto& remark :
+       settings_without_effect(with_studies(the_case, {run->study}), arguments.overrides))
+    say(session.err, remark);
   Wanted wanted;
   if (arguments.draws_guess)
     wanted.panels = {io::guess_panel(*run, io::posture_title(*run, "guess"))};

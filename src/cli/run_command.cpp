@@ -305,6 +305,8 @@ int run_command(const Arguments& arguments, const Session& given) {
   const auto the_case =
       std::make_shared<const Case>(with_studies(std::move(*loaded), arguments.studies));
   if (is_helper(session)) return help(arguments, the_case, session);
+  for (const auto& remark : settings_without_effect(*the_case, arguments.overrides))
+    say(session, remark);
   const fs::path folder = arguments.folder.value_or(default_folder(arguments.case_file));
   const std::string problem = problem_with_folder(folder);
   if (!problem.empty()) say(session, problem);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <system_error>
 
 namespace springfold::cli {
@@ -60,6 +62,43 @@ std::string unknown_study(const io::Case& the_case, const std::vector<std::strin
     return message;
   }
   return "";
+}
+
+namespace {
+
+/// A plain number; of a formula nobody but the reader knows the value.
+std::optional<double> number_in(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// Does the study give this parameter values of its own? They come before --set.
+bool has_own_values(const io::PlannedRun& run, const std::string& name, const std::string& given) {
+  if (contains(run.varied, name)) return true;
+  const auto used = run.parameters.find(name);
+  const auto number = number_in(given);
+  return number && used != run.parameters.end() && used->second != *number;
+}
+
+}  // namespace
+
+std::vector<std::string> settings_without_effect(
+    const io::Case& the_case, const std::map<std::string, std::string>& overrides) {
+  std::vector<std::string> messages;
+  for (const auto& [name, given] : overrides) {
+    std::vector<std::string> studies;
+    for (const io::PlannedRun& run : the_case.runs)
+      if (!contains(studies, run.study) && has_own_values(run, name, given))
+        studies.push_back(run.study);
+    if (studies.empty()) continue;
+    std::string list;
+    for (const std::string& study : studies) list += (list.empty() ? "\"" : ", \"") + study + "\"";
+    messages.push_back("--set " + name + "=" + given + " has no effect in " + list +
+                       ": the study's own values of " + name + " (vary or set) come first");
+  }
+  return messages;
 }
 
 io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ std::vector<std::string> study_names(const io::Case& the_case);
 /// For the first name that no study has: what is wrong, the nearest name and all names. Empty if
 /// all are known.
 std::string unknown_study(const io::Case& the_case, const std::vector<std::string>& wanted);
+
+/// Of every value given with --set what is said where a study does not use it, since it varies or sets that parameter
+/// itself: one message per value.
+std::vector<std::string> settings_without_effect(
+    const io::Case& the_case, const std::map<std::string, std::string>& overrides);
 
 /// The case with these studies only: their runs, figures and expected values. Empty: all.
 io::Case with_studies(io::Case the_case, const std::vector<std::string>& wanted);

@@ -101,6 +101,18 @@ TEST_F(SweepProgram, HasTheCriticalLoadOfEveryRunInOneTable) {
   EXPECT_THAT(text("out.txt"), HasSubstr("18 of 18, table sweeps/press.csv"));
 }
 
+TEST_F(SweepProgram, SaysThatASetValueIsNotUsedWhereTheStudyVariesIt) {
+  put(varied_strut(R"(parameter = "k", values = [1, 2])"));
+  ASSERT_EQ(run("--out out --quiet --set k=3"), 0) << text("err.txt");
+  EXPECT_THAT(text("err.txt"),
+              HasSubstr("--set k=3 has no effect in \"press\": the study's own values of k"));
+  ASSERT_EQ(run("--out out --quiet --set c=12"), 0);
+  EXPECT_EQ(text("err.txt"), "");
+  put(varied_strut(R"(parameter = "k", values = [1, 2])", "set = { c = 11 }\n"));
+  ASSERT_EQ(run("--out out --quiet --set c=12"), 0) << text("err.txt");
+  EXPECT_THAT(text("err.txt"), HasSubstr("--set c=12 has no effect in \"press\""));
+}
+
 TEST_F(SweepProgram, WritesTheSameBytesWithAnyNumberOfThreads) {
   put(varied_strut(grid + table));
   ASSERT_EQ(run("--out one --threads 1"), 0);
