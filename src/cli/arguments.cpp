@@ -83,7 +83,7 @@ void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
   for (CLI::App* command : {&draw, &check})
     command
         ->add_option(
-            "--output", arguments.picture_file,
+            "-o,--output", arguments.picture_file,
             "File for the picture, .svg, .png or .pdf (drawing.svg in the results' folder)")
         ->type_name("FILE")
         ->check(picture_problem);
@@ -110,7 +110,7 @@ void add_drawing(CLI::App& draw, CLI::App& check, Arguments& arguments) {
 /// Options of movies.
 void add_animation(CLI::App& animate, Arguments& arguments) {
   animate
-      .add_option("--output", arguments.picture_file,
+      .add_option("-o,--output", arguments.picture_file,
                   "File for the movie, .svg (animation.svg in the results' folder)")
       ->type_name("FILE")
       ->check([](const std::string& name) {
@@ -162,7 +162,7 @@ void add_import(CLI::App& import, Arguments& arguments) {
       .add_option("MESH", arguments.mesh, "Mesh: Wavefront .obj, or .fold of origami; robot: .urdf")
       ->required();
   import
-      .add_option("--output", arguments.new_case,
+      .add_option("-o,--output", arguments.new_case,
                   "Case file to be written; it must not exist (standard output when not given)")
       ->type_name("FILE");
 }
@@ -215,7 +215,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
   run->add_option("--study", arguments.studies, "Run this study only; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  run->add_option("--out", arguments.folder,
+  run->add_option("-o,--out", arguments.folder,
                   "Folder for results (results/<name of the case> when not given)")
       ->type_name("DIR");
   run->add_option("--threads", arguments.threads,

@@ -28,6 +28,13 @@ TEST(Arguments, OfRunAreAllRead) {
   EXPECT_TRUE(a.prints_json);
 }
 
+TEST(Arguments, HaveAShortNameForWhereThingsAreWritten) {
+  EXPECT_EQ(parse({"run", "case.toml", "-o", "there"}).arguments.value().folder, "there");
+  for (const char* command : {"draw", "animate"})
+    EXPECT_EQ(parse({command, "case.toml", "-o", "a.svg"}).arguments.value().picture_file, "a.svg");
+  EXPECT_EQ(parse({"import", "mesh.obj", "-o", "a.toml"}).arguments.value().new_case, "a.toml");
+}
+
 TEST(Arguments, HaveDefaults) {
   const auto parsed = parse({"run", "case.toml"});
   ASSERT_TRUE(parsed.arguments.has_value()) << parsed.error;
