@@ -164,7 +164,7 @@ class MechanismView {
     for (const body of parts.bodies)
       this.add("polygon", {points: hullOf(body.corners.map(at)).map(s => `${s.x.toFixed(2)},${s.y.toFixed(2)}`).join(" "),
                            fill: "var(--body)", stroke: `var(--${hasColour(stability) ? stability : "ink"})`, "stroke-width": 2}, body.name);
-    for (const base of parts.base) this.drawBase(at(base.at), at(base.towards));
+    for (const base of parts.base) this.drawBase(at(base.at), at(base.towards), reachOf(parts, at, at(base.at)));
     for (const link of parts.links)
       this.line([at(link.from), at(link.to)], link.rail
         ? {stroke: "var(--grey)", "stroke-dasharray": "5 3"}
@@ -247,11 +247,11 @@ class MechanismView {
     }
   }
 
-  /** @param {Spot} at @param {Spot} towards */
-  drawBase(at, towards) {
+  /** @param {Spot} at @param {Spot} towards @param {number} reach of what is drawn at the place, beyond which it is seen */
+  drawBase(at, towards, reach) {
     const dx = at.x - towards.x, dy = at.y - towards.y;
     const away = Math.abs(dx) > Math.abs(dy) ? {x: Math.sign(dx), y: 0} : {x: 0, y: Math.sign(dy) || 1};
-    const c = {x: at.x + 7 * away.x, y: at.y + 7 * away.y}, along = {x: -away.y, y: away.x};
+    const c = {x: at.x + reach * away.x, y: at.y + reach * away.y}, along = {x: -away.y, y: away.x};
     this.line([-10, 10].map(s => ({x: c.x + s * along.x, y: c.y + s * along.y})), {stroke: "var(--grey)", "stroke-width": 1.5});
     for (let s = -8; s <= 10; s += 5)
       this.line([{x: c.x + s * along.x, y: c.y + s * along.y},
@@ -317,6 +317,18 @@ function unit(v) {
   return v.map(c => c / long);
 }
 
+/** How far joints and spirals at a place reach, with their lines [pixel].
+ * @param {Parts} parts @param {(point: number) => Spot} at @param {Spot} place */
+function reachOf(parts, at, place) {
+  const isThere = (/** @type {number} */ point) => Math.hypot(at(point).x - place.x, at(point).y - place.y) < 1;
+  const springs = parts.springs.filter(spring => !spring.line && isThere(spring.at)).map(() => spiralRadius + 2);
+  const slides = parts.joints.filter(joint => joint.shape === "prismatic" && isThere(joint.at)).map(() => 10);
+  return Math.max(7, ...springs, ...slides);
+}
+
+/** Of the outer end of a spiral [pixel]. */
+const spiralRadius = 13;
+
 /** Pixels: below it a coil is a blot, and a ring stands for it. */
 const shortestCoil = 8;
 
@@ -339,7 +351,7 @@ function spiralOf(centre, begin, end) {
   let sweep = Math.atan2(Math.sin(to - from), Math.cos(to - from));
   sweep += sweep < 0 ? -2 * Math.PI : 2 * Math.PI;
   return Array.from({length: 41}, (_, i) => {
-    const t = i / 40, r = 7 + 6 * t, a = from + t * sweep;
+    const t = i / 40, r = 7 + (spiralRadius - 7) * t, a = from + t * sweep;
     return {x: centre.x + r * Math.cos(a), y: centre.y - r * Math.sin(a)};
   });
 }
