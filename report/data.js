@@ -20,7 +20,7 @@
  * @typedef {{name: string, from: number, to: number, points: number}} MapAxis
  * @typedef {{axes: MapAxis[], quantity: string}} WrittenMap
  * @typedef {{study: string, run: number, label: string, kind: string, along: string, control: string,
- *            parameters: Object<string, number>, varied: string[], start: string, doubts: string[],
+ *            parameters: Object<string, number>, varied: string[], start: string, table: string, doubts: string[],
  *            axes: string[], map: WrittenMap | null, quantities: Quantity[],
  *            branches: WrittenBranch[], mechanisms: Parts[]}} Run
  * @typedef {{version: string, title: string, case: string, hash: string, units: Object<string, string>, runs: Run[]}} Page

@@ -214,7 +214,7 @@ class ReportPage {
       append(line, "td", this.withUnit(name));
       append(line, "td", String(run.parameters[name]));
     }
-    for (const file of new Set([...run.branches.map(b => b.file), "events.csv", "summary.json"])) {
+    for (const file of new Set([...run.branches.map(b => b.file), run.table, "events.csv", "summary.json"])) {
       if (!file) continue;
       const link = append(append(files, "li"), "a", file);
       link.href = file.split("/").map(encodeURIComponent).join("/");
@@ -264,6 +264,7 @@ class ReportPage {
   go(branch, row) {
     const run = this.run;
     this.moves = -1;
+    document.body.classList.toggle("no-rows", !run.branches.length);
     if (!run.branches.length) {
       byId("point").textContent = run.start ? `No start point: ${run.start}` : "Of this run the table of its study has a row, and no curve was kept.";
       byId("values").textContent = byId("posture").textContent = byId("key").textContent = "";

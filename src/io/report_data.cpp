@@ -18,6 +18,7 @@
 #include "springfold/io/postures.hpp"
 #include "springfold/io/shown_text.hpp"
 #include "springfold/version.hpp"
+#include "sweep_tables.hpp"
 
 namespace springfold::io {
 namespace {
@@ -285,6 +286,10 @@ Json map_of(const PlannedRun& planned) {
 
 Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& planned,
              const std::vector<std::string>& files, const std::string& equilibria) {
+  std::string table;  // of many runs
+  const std::vector<std::string> tables = sweep_files(the_case);
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    if (the_case.sweeps[i].study == result.study) table = tables[i];
   const bool is_traced = planned.plan.kind == StudyKind::force_deflection;
   const bool is_commanded = planned.plan.kind == StudyKind::control;
   const PageAxes axes = page_axes_of(planned, result);
@@ -297,6 +302,7 @@ Json json_of(const Case& the_case, const StudyResult& result, const PlannedRun& 
                {"parameters", planned.parameters},
                {"varied", planned.varied},
                {"start", result.start.found ? "" : result.start.message},
+               {"table", table},
                {"doubts", result.doubts},
                {"axes", {axes.x, axes.y}},
                {"map", map_of(planned)},

@@ -219,6 +219,24 @@ until = { deflection = [0, 2.5] }
   EXPECT_EQ(list["outlines"], base64_of(acts));
 }
 
+TEST_F(Report, RunsWithoutCurvesNameTheTableOfTheirStudy) {
+  read = load(upright_bar_text(R"toml(control = "load"
+direction = [0, -1]
+until = { lambda = [0, 1.2] }
+vary = { parameter = "k", values = [1, 2], table = [{ name = "P", at = "BP1", quantity = "lambda" }], curves = false }
+[parameters]
+k = 1
+)toml"));
+  for (const PlannedRun& run : read.runs) {
+    analysis::StudyResult& result = results.emplace_back();
+    result.study = run.study;
+    result.run = run.run;
+  }
+  const auto runs = nlohmann::json::parse(report_data(read, results))["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  for (const auto& run : runs) EXPECT_EQ(run["table"], "sweeps/study.csv");
+}
+
 TEST_F(Report, JumpsEndAtTheirLandingAlsoWhereTheirMotionWasKept) {
   read = load_case(SPRINGFOLD_SOURCE_DIR "/cases/snap-through/case-toggle.toml");
   const PlannedRun& planned = read.runs.front();
