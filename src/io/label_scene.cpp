@@ -58,11 +58,21 @@ bool leads_through(const LabelBox& box, const PlotPoint& from, const PlotPoint& 
   return false;
 }
 
-constexpr double dot_radius = 3;  // of the end of a line on a curve [pixel]
+constexpr double dot_radius = 5;  // of the end of a line on a curve, with room around it [pixel]
 
-/// Its own line through the dots and marks of others, or theirs through its dot, would name the wrong thing.
+/// Do two lines cross?
+bool cross(const std::pair<PlotPoint, PlotPoint>& a, const std::pair<PlotPoint, PlotPoint>& b) {
+  const auto side = [](const PlotPoint& p, const std::pair<PlotPoint, PlotPoint>& of) {
+    return (of.second.first - of.first.first) * (p.second - of.first.second) -
+           (of.second.second - of.first.second) * (p.first - of.first.first);
+  };
+  return side(a.first, b) * side(a.second, b) < 0 && side(b.first, a) * side(b.second, a) < 0;
+}
+
+/// Its own line through the dots and marks of others, or theirs through its dot, would name the wrong thing; lines that
+/// cross have to be looked at twice.
 double misleading_dots(const LabelScene& scene, const PlotPoint& anchor, const PlotPoint& text) {
-  constexpr double misleading = 100;
+  constexpr double misleading = 100, tangled = 40;
   const auto dot_at = [](const PlotPoint& at) { return LabelBox{at, dot_radius, dot_radius}; };
   double sum = 0;
   for (const LabelBox& mark : scene.marks)
@@ -70,6 +80,8 @@ double misleading_dots(const LabelScene& scene, const PlotPoint& anchor, const P
   for (const auto& [from, to] : scene.leaders)
     if (leads_through(dot_at(from), anchor, text) || leads_through(dot_at(anchor), from, to))
       sum += misleading;
+    else if (cross({anchor, text}, {from, to}))
+      sum += tangled;
   return sum;
 }
 
