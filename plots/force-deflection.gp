@@ -99,6 +99,8 @@ plot for [k = 1:regions] region_block(k) with filledcurves closed fillcolor rgb 
      for [code in point_codes] '$point_'.code with points linestyle point_style(code) \
          title (strstrt(' '.key_codes.' ', ' '.code.' ') > 0 ? point_name(code) : ''), \
      for [k = 1:has_bar] bar_block using 1:2:(bar_value) with dots palette notitle
+# A minus as gnuplot writes it at the axes.
+tick_text(t) = (figure_format ne 'tikz' && substr(t, 1, 1) eq '-') ? "−" . substr(t, 2, strlen(t)) : t
 do for [k = 1:insets] {
   unset title
   unset xlabel
@@ -120,10 +122,10 @@ do for [k = 1:insets] {
   set border 15
   inset_x_ticks = value(sprintf('inset_x_ticks_%d', k))
   inset_y_ticks = value(sprintf('inset_y_ticks_%d', k))
-  set xtics (word(inset_x_ticks, 1) real(word(inset_x_ticks, 1))) font key_font
-  set ytics (word(inset_y_ticks, 1) real(word(inset_y_ticks, 1))) font key_font
-  do for [tick in inset_x_ticks] { set xtics add (tick real(tick)) }
-  do for [tick in inset_y_ticks] { set ytics add (tick real(tick)) }
+  set xtics (tick_text(word(inset_x_ticks, 1)) real(word(inset_x_ticks, 1))) font key_font
+  set ytics (tick_text(word(inset_y_ticks, 1)) real(word(inset_y_ticks, 1))) font key_font
+  do for [tick in inset_x_ticks] { set xtics add (tick_text(tick) real(tick)) }
+  do for [tick in inset_y_ticks] { set ytics add (tick_text(tick) real(tick)) }
   plot for [j = 1:regions] region_block(j) with filledcurves closed fillcolor rgb region_tint(j) \
            fillstyle solid noborder, \
        for [j = 1:has_mixed] mixed_block with lines linestyle 7, \
