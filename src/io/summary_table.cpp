@@ -15,6 +15,7 @@
 #include "springfold/io/summary_detail.hpp"
 #include "summary_line.hpp"
 #include "summary_start.hpp"
+#include "summary_words.hpp"
 #include "sweep_points.hpp"
 #include "sweep_tables.hpp"
 #include "text.hpp"
@@ -263,14 +264,6 @@ std::string equilibria_lines(const Case& the_case, const StudyResult& result) {
                                                ": there are others");
 }
 
-/// What happened, in words.
-std::string outline_lines(const Case& the_case, const StudyResult& result) {
-  std::string text;
-  for (const std::string& line : outline_of(the_case, result))
-    text += std::string(summary_indent, ' ') + shown(line) + "\n";
-  return text;
-}
-
 /// @param has_words  what happened comes first
 std::string run_block(const Case& the_case, const StudyResult& result, bool has_words) {
   std::string text =
@@ -297,49 +290,6 @@ std::string run_block(const Case& the_case, const StudyResult& result, bool has_
   for (const auto& numbers : alike_branches(result)) text += branch_lines(result, numbers, sizes);
   return text + jump_lines(result, the_case.units) +
          diagram_lines(result, plan_of(the_case, result));
-}
-
-std::string sweep_heading(const std::string& study, const std::vector<std::string>& parameters,
-                          std::size_t runs) {
-  std::string list;
-  for (const std::string& name : parameters) list += (list.empty() ? "" : ", ") + name;
-  return shown(study) + ", " + counted(static_cast<int>(runs), "run") +
-         (list.empty() ? "" : " over " + list) + "\n";
-}
-
-/// The results of the same study that follow each other, without those that are rows of a table.
-std::vector<std::vector<const StudyResult*>> studies_of(const std::vector<StudyResult>& results) {
-  std::vector<std::vector<const StudyResult*>> studies;
-  for (const StudyResult& result : results) {
-    if (result.row) continue;
-    if (studies.empty() || studies.back().front()->study != result.study) studies.emplace_back();
-    studies.back().push_back(&result);
-  }
-  return studies;
-}
-
-/// What happened in all runs of a study, in words.
-std::string study_lines(const Case& the_case, const std::vector<const StudyResult*>& runs) {
-  const PlannedRun* planned = plan_of(the_case, *runs.front());
-  std::string text =
-      sweep_heading(runs.front()->study,
-                    planned == nullptr ? std::vector<std::string>{} : planned->varied, runs.size());
-  for (const std::string& line : study_outline(the_case, runs))
-    text += std::string(summary_indent, ' ') + shown(line) + "\n";
-  return text;
-}
-
-/// What happened in the runs of a sweep, in words; nothing of a study that was not chosen.
-/// @param planned  how many runs it has
-std::string sweep_lines(const Case& the_case, const SweepTable& sweep, int planned,
-                        const std::vector<StudyResult>& results) {
-  if (planned == 0) return {};
-  std::string text =
-      sweep_heading(sweep.study, sweep.parameters, static_cast<std::size_t>(planned));
-  for (const std::string& sentence : sweep_words(the_case, sweep, results))
-    for (const std::string& line : wrapped(sentence, table_width - summary_indent))
-      text += std::string(summary_indent, ' ') + line + "\n";
-  return text;
 }
 
 /// One block for every table of many runs.
@@ -386,17 +336,6 @@ std::string steps_table(const std::vector<StudyResult>& results) {
   if (rows.size() == 1) return "\nno step was refused or cut\n";
   return "\nRefused and cut steps\n" +
          fitted(rows, {Align::left, Align::right, Align::right, Align::left}, summary_indent);
-}
-
-std::string outline_text(const Case& the_case, const std::vector<StudyResult>& results) {
-  std::string text;
-  for (const auto& runs : studies_of(results))
-    text += runs.size() > 1
-                ? study_lines(the_case, runs)
-                : heading_of(*runs.front()) + "\n" + outline_lines(the_case, *runs.front());
-  for (const SweepTable& sweep : the_case.sweeps)
-    text += sweep_lines(the_case, sweep, counts_of(the_case, sweep, results).planned, results);
-  return text;
 }
 
 namespace {

@@ -13,8 +13,8 @@ namespace springfold::io {
 namespace {
 
 using model::Mechanism;
-using testing::Contains;
 using testing::_;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
