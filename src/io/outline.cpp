@@ -136,7 +136,10 @@ std::string way_text(const Told& told, const Branch& branch, bool forward, std::
             (is_stable && was_stable ? " again" : "");
     was_stable = was_stable || is_stable;
     const bool is_last = i + 1 == stretches.size();
-    text += is_last ? " to the end" : " up to " + point_text(told, branch, stretch.to);
+    const bool is_whole = forward ? branch.forward.complete : branch.backward.complete;
+    text += !is_last   ? " up to " + point_text(told, branch, stretch.to)
+            : is_whole ? " to the end"
+                       : " to where it stopped early";
     const Event* event = event_at(branch, stretch.to);
     if (!is_last && event != nullptr &&
         loses_hold(event->kind, stretch.stability, stretches[i + 1].stability, told.is_load))

@@ -103,6 +103,15 @@ TEST(Outline, ClaimsNothingWithoutAStart) {
   EXPECT_THAT(outline_of(sample::two_runs(), result), IsEmpty());
 }
 
+TEST(Outline, DoesNotCallAnEndWhereTracingStoppedEarly) {
+  auto result = sample::two_results()[1];
+  result.branches[0].forward = {.reason = "step too small", .complete = false};
+  std::string text;
+  for (const std::string& line : outline_of(sample::two_runs(), result)) text += line + " ";
+  EXPECT_THAT(text, HasSubstr("stable again to where it stopped early"));
+  EXPECT_THAT(text, HasSubstr("backward: stable to the end"));
+}
+
 TEST(Outline, ClaimsNoStabilityUnderLoadsWithoutPotential) {
   auto result = sample::two_results()[0];
   result.non_conservative = {"load 1"};
