@@ -6,6 +6,7 @@
 
 #include "settle_units.hpp"
 #include "springfold/core/scaling.hpp"
+#include "springfold/statics/prepare_again.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -51,6 +52,11 @@ const Evaluator& Member::evaluator() const {
   return *evaluator_;
 }
 
+void Member::forget_columns() {
+  evaluator_.reset();
+  quantities_.clear();
+}
+
 const QuantityDefinition* Member::quantity(const std::string& name) const {
   const auto& list = quantities();
   const auto found =
@@ -58,8 +64,7 @@ const QuantityDefinition* Member::quantity(const std::string& name) const {
   return found == list.end() ? nullptr : &*found;
 }
 
-Study as_curve(Study study) {
-  Study curve = std::move(study);
+Study as_curve(Study curve) {
   curve.kind = StudyKind::force_deflection;
   const std::string& name = curve.critical.parameter;
   std::erase_if(curve.until, [&](const Limit& limit) { return limit.quantity == name; });
@@ -76,12 +81,15 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter)
   base_ = make(value_ / scale_, nullptr);
 }
 
-/// @param spare  not asked for any more: its system is used
-std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* spare) const {
+/// @param spare  not asked for any more: its memory is used
+std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
+                                         std::unique_ptr<Member> spare) const {
   const CaseFamily& cases = *study_.critical.cases;
   const double value = near == nullptr ? value_ : scale_ * mu;
   Variant variant = cases.at({{parameter_, value}});
-  auto member = std::make_unique<Member>();
+  const bool again = spare != nullptr;
+  auto member = again ? std::move(spare) : std::make_unique<Member>();
+  member->forget_columns();
   member->mu = mu;
   member->columns_of = base_.get();
   member->study = as_curve(std::move(variant.study));
@@ -98,8 +106,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* 
   }
   Setup& setup = member->setup;
   setup = set_up(variant.mechanism, member->study, along ? &*along : nullptr,
-                 near == nullptr ? nullptr : &near->setup,
-                 spare == nullptr ? nullptr : &spare->setup.system);
+                 near == nullptr ? nullptr : &near->setup, again ? &setup.system : nullptr);
   if (near == nullptr) {
     member->first = find_start(setup, member->study, member->report);
     // The units that the curve is traced in, which those of neighbours keep.
@@ -116,6 +123,10 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near, Member* 
   setup.rule.t_start = member->first.z.segment(body.t, body.count);
   setup.rule.rho_start = member->first.inputs.rho;
   hold_free_part(member->study, member->first, setup);
+  if (again) {
+    member->problem->renew(setup.rule);
+    return member;
+  }
   // The member keeps the system, and its place.
   const std::shared_ptr<const statics::System> own(std::shared_ptr<void>{}, &setup.system);
   member->problem = std::make_unique<PathProblem>(own, setup.rule);
@@ -147,7 +158,7 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   else
     problem.foresight.rho.resize(0);
   problem.is_neighbour = true;
-  member.first = first_equilibrium(member.setup.system, problem);
+  member.first = first_equilibrium(member.setup.system, problem, start_work_);
   member.report.found = member.first.status == statics::StartStatus::found;
   return member.report.found;
 }
@@ -156,7 +167,9 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
 /// rounding: none nearer to another than half its distance from mu is taken.
 statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   constexpr std::size_t most = 4;
-  std::vector<const Member*> nodes{&near};
+  std::vector<const Member*> nodes;
+  nodes.reserve(most);
+  nodes.push_back(&near);
   const auto take = [&](const Member& member) {
     const double away = std::abs(member.mu - mu);
     const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
@@ -213,7 +226,7 @@ const Member* CaseCurves::at(double mu) const {
     oldest = std::move(old->second.member);
     recent_.erase(old);
   }
-  auto made = make(mu, near, oldest.get());
+  auto made = make(mu, near, std::move(oldest));
   if (!made) return nullptr;
   return recent_.insert_or_assign(mu, Recent{std::move(made), calls_}).first->second.member.get();
 }

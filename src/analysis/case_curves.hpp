@@ -26,6 +26,8 @@ struct Member {
   /// Columns and what evaluates them: made when they are asked for, which most members never are.
   const std::vector<QuantityDefinition>& quantities() const;
   const Evaluator& evaluator() const;
+  /// Columns and what evaluates them are forgotten, for another value of the parameter.
+  void forget_columns();
   const QuantityDefinition* quantity(const std::string& name) const;
 
   const Member* columns_of = nullptr;  ///< the member whose columns these are; nullptr: its own
@@ -57,7 +59,8 @@ class CaseCurves {
                                            const Piece& piece);
 
  private:
-  std::unique_ptr<Member> make(double mu, const Member* near, Member* spare = nullptr) const;
+  std::unique_ptr<Member> make(double mu, const Member* near,
+                               std::unique_ptr<Member> spare = nullptr) const;
   bool solve_near(Member& member, const Member& near) const;
   statics::Foresight foresight(double mu, const Member& near) const;
 
@@ -72,6 +75,7 @@ class CaseCurves {
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable long calls_ = 0;
+  mutable statics::Workspace start_work_{};  ///< of equations at starts
 };
 
 }  // namespace springfold::analysis

@@ -6,9 +6,16 @@
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "run_kinds.hpp"
+#include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
 namespace {
+
+using continuation::CriticalCurve;
+using continuation::CriticalHit;
+using continuation::CriticalPoint;
+using continuation::Degeneracy;
 
 std::string list_of(const BasePath& path) {
   std::string names;
@@ -25,6 +32,194 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
   }
   start.kind = continuation::CriticalKind::limit_point;
   return follow_both_ways(curves, base_study(study), start, EventKind::limit_point, observer);
+}
+
+/// Pieces of a critical curve beyond each of its ends.
+constexpr int most_pieces_beyond = 40;
+/// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of it.
+constexpr double beside = 1e-6;
+
+/// Which switch is zero where the curve ends?
+Index switch_at(const Member& member, const CriticalHit& hit) {
+  Vector g;
+  Index nearest = -1;
+  if (!member.problem->switches(hit.point.x, hit.point.lambda, g)) return nearest;
+  for (Index j = 0; j < g.size(); ++j)
+    if (member.problem->switch_name(j) == hit.name &&
+        (nearest < 0 || std::abs(g[j]) < std::abs(g[nearest])))
+      nearest = j;
+  return nearest;
+}
+
+/// How far lambda rises where the switch does, on one piece: its sign, positive or negative.
+double slope_across(const Member& member, const continuation::CriticalStart& p,
+                    const Piece& piece) {
+  continuation::Linearisation at;
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  const PathProblem& problem = *member.problem;
+  if (!linearise_densely(problem, p.x, p.lambda, piece, at) ||
+      !problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
+    return std::nan("");
+  const Index n = p.x.size();
+  Matrix J(n, n + 1);
+  J << at.dF_dx, at.dF_dlambda;
+  const Vector t = jacobi_svd(J, SingularVectors::none, SingularVectors::full).V.col(n);
+  const Index j = p.switching;
+  return t[n] * (dg_dx.row(j).dot(t.head(n)) + dg_dlambda[j] * t[n]);
+}
+
+bool ends_limit_corner(const CriticalHit& hit) {
+  return hit.kind == Degeneracy::fold_meets_activation ||
+         hit.kind == Degeneracy::corner_loses_reversal || hit.kind == Degeneracy::touches_surface;
+}
+
+/// A corner is a limit point only as far as lambda turns back there.
+void end_at_last_reversal(CriticalCurve& curve) {
+  const auto end = std::find_if(curve.hits.begin(), curve.hits.end(), ends_limit_corner);
+  if (end == curve.hits.end()) return;
+  const double s = end->point.s;
+  curve.stop = continuation::StopReason::event;
+  curve.stop_detail = std::string{to_string(end->kind)};
+  curve.hits.erase(end + 1, curve.hits.end());
+  std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > s; });
+}
+
+/// Limit points go on beyond another spring's threshold: as corners at it, as long as lambda turns back there, and from where
+/// it no longer does as limit points of the piece behind.
+class Beyond {
+ public:
+  Beyond(const CaseCurves& curves, const Study& study, const Observer& observer,
+         StudyResult& result)
+      : curves_{curves}, study_{base_study(study)}, observer_{observer}, result_{result} {}
+
+  /// Pieces behind one end of a curve of limit points. @param other  what ends its other side
+  /// @returns whether they come round to the other end
+  bool follow(const continuation::CriticalStart& start, const CriticalCurve& side,
+              const CriticalHit* other) {
+    FollowedCurve last{.start = start, .growing = side};
+    for (int piece = 0; piece < most_pieces_beyond; ++piece) {
+      const auto begin = start_behind(last);
+      if (!begin || !take_way(*begin, last)) return false;
+      const auto& hits = last.growing.hits;
+      if (other != nullptr && !hits.empty() && is_same(hits.back().point, other->point))
+        return true;
+    }
+    result_.doubts.push_back("the curve has more pieces beyond thresholds than are followed");
+    return false;
+  }
+
+ private:
+  static bool is_same(const CriticalPoint& a, const CriticalPoint& b) {
+    constexpr double same_place = 1e-9;  // as degeneracies are located
+    return (a.x - b.x).lpNorm<Eigen::Infinity>() <= same_place &&
+           std::abs(a.lambda - b.lambda) <= same_place && std::abs(a.mu - b.mu) <= same_place;
+  }
+
+  /// Nothing where the curve ends for another reason.
+  std::optional<continuation::CriticalStart> start_behind(const FollowedCurve& last) const {
+    const CriticalCurve& curve = last.growing;
+    if (curve.stop != continuation::StopReason::event || curve.hits.empty()) return std::nullopt;
+    const CriticalHit& hit = curve.hits.back();
+    continuation::CriticalStart next = last.start;
+    next.x = hit.point.x;
+    next.lambda = hit.point.lambda;
+    next.mu = hit.point.mu;
+    if (last.start.kind == continuation::CriticalKind::surface) {
+      if (!ends_limit_corner(hit) || hit.kind == Degeneracy::touches_surface) return std::nullopt;
+      next.kind = continuation::CriticalKind::limit_point;
+      if (hit.kind == Degeneracy::corner_loses_reversal) next.piece = last.start.behind;
+      return next;
+    }
+    const Member* member = curves_.at(hit.point.mu);
+    if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return std::nullopt;
+    next.kind = continuation::CriticalKind::surface;
+    next.switching = switch_at(*member, hit);
+    if (next.switching < 0) return std::nullopt;
+    next.behind = next.piece;
+    auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
+    behind = static_cast<std::int8_t>(-behind);
+    return next;
+  }
+
+  /// The way on which there are limit points. @returns false where there is none
+  bool take_way(const continuation::CriticalStart& start, FollowedCurve& last) {
+    const double away = beside * std::max(std::abs(start.mu), 1e-3);
+    for (const double way : {1.0, -1.0}) {
+      continuation::CriticalStart next = start;
+      next.mu += way * away;
+      if (curves_.at(next.mu) == nullptr) continue;
+      const auto point = polish_critical(curves_.family(), next);
+      if (!point) continue;
+      next.x = point->x;
+      next.lambda = point->lambda;
+      if (!is_limit_point(next)) continue;
+      follow_on(start, next, way > 0, last);
+      return true;
+    }
+    result_.doubts.push_back("no limit points were found behind: " + last.growing.stop_detail);
+    return false;
+  }
+
+  /// Does lambda turn back at the corner, or does the limit point lie where its piece holds?
+  bool is_limit_point(const continuation::CriticalStart& at) const {
+    const Member& member = *curves_.at(at.mu);
+    const Index j = at.switching;
+    if (at.kind == continuation::CriticalKind::surface)
+      return slope_across(member, at, at.piece) * slope_across(member, at, at.behind) < 0;
+    Vector g;
+    return member.problem->switches(at.x, at.lambda, g) &&
+           g[j] * at.piece[static_cast<std::size_t>(j)] > 0;
+  }
+
+  /// From `next`, a little behind `start`.
+  void follow_on(const continuation::CriticalStart& start, const continuation::CriticalStart& next,
+                 bool growing, FollowedCurve& last) {
+    const auto events = critical_events(curves_, study_, start.piece);
+    const auto observe = [&](const CriticalPoint& p) { return !observer_ || observer_(0, p.s); };
+    const continuation::FurtherPoints further{.spacing = study_.trace.spacing,
+                                              .most = most_rows(curves_)};
+    FollowedCurve piece{.start = next, .of = EventKind::limit_point};
+    CriticalCurve& curve = piece.growing;
+    curve = follow_critical(curves_.family(), next, growing, events, critical_options(study_),
+                            observe, further);
+    if (next.kind == continuation::CriticalKind::surface) {
+      piece.of = EventKind::corner_limit_point;
+      end_at_last_reversal(curve);
+    }
+    if (!curve.points.empty()) {
+      CriticalPoint first = curve.points.front();
+      first.s =
+          -std::hypot((next.x - start.x).norm(), next.lambda - start.lambda, next.mu - start.mu);
+      first.x = start.x;
+      first.lambda = start.lambda;
+      first.mu = start.mu;
+      curve.points.insert(curve.points.begin(), first);
+    }
+    piece.falling.points.assign(
+        curve.points.begin(), curve.points.empty() ? curve.points.end() : curve.points.begin() + 1);
+    piece.falling.stop = continuation::StopReason::event;
+    piece.falling.stop_detail = "goes on from: " + last.growing.stop_detail;
+    for (std::string& doubt : doubts_of(curves_, study_, piece))
+      result_.doubts.push_back(std::move(doubt));
+    result_.branches.push_back(rows_of(curves_, piece));
+    last = std::move(piece);
+  }
+
+  const CaseCurves& curves_;
+  Study study_;
+  const Observer& observer_;
+  StudyResult& result_;
+};
+
+/// Behind both ends; a closed chain of pieces is followed once.
+void go_on_beyond(const CaseCurves& curves, const Study& study, const FollowedCurve& followed,
+                  const Observer& observer, StudyResult& result) {
+  if (followed.start.kind != continuation::CriticalKind::limit_point) return;
+  Beyond beyond(curves, study, observer, result);
+  const auto& other = followed.falling.hits;
+  if (!beyond.follow(followed.start, followed.growing, other.empty() ? nullptr : &other.back()))
+    beyond.follow(followed.start, followed.falling, nullptr);
 }
 
 void mark_branch_point(const SpecialPoint& point, Branch& branch) {
@@ -67,6 +262,7 @@ void run_curve(const CaseCurves& curves, const Study& study, const Observer& obs
   if (is_broken) followed = limit_points_through(curves, study, *start, observer);
   result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
+  go_on_beyond(curves, study, followed, observer, result);
   if (is_broken && !result.branches.front().samples.empty())
     mark_branch_point(*point, result.branches.front());
   label_critical(result.branches);

@@ -78,7 +78,8 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
                        double value, const Piece& piece, EventAction action) {
   if (quantity == curves.name())
     return {std::move(name),
-            [mu = value / curves.scale()](const CriticalPoint& p) { return p.mu - mu; }, action};
+            [mu = value / curves.scale()](const CriticalPoint& p) { return p.mu - mu; }, action,
+            true};
   return {std::move(name),
           [&curves, quantity, value, piece](const CriticalPoint& p) {
             const Member* member = curves.at(p.mu);
@@ -89,13 +90,12 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
           action};
 }
 
-/// As many as there is memory for.
+}  // namespace
+
 double most_rows(const CaseCurves& curves) {
   return most_memory / bytes_of_traced_row(curves.base().quantities().size() + 1,
                                            static_cast<std::size_t>(curves.base().problem->size()));
 }
-
-}  // namespace
 
 continuation::TraceOptions critical_options(const Study& study) { return options_of(study.trace); }
 

@@ -20,6 +20,9 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const continuation::CriticalStart& start, EventKind of,
                                const Observer& observer);
 
+/// As many as there is memory for.
+double most_rows(const CaseCurves& curves);
+
 /// Why rows that `spacing` wants are missing, with what to change; empty if none are.
 std::vector<std::string> doubts_of(const CaseCurves& curves, const Study& study,
                                    const FollowedCurve& followed);

@@ -15,11 +15,19 @@ namespace springfold::analysis {
 
 static_assert(continuation::PiecewiseSmoothProblem<PathProblem>);
 
-PathProblem::PathProblem(statics::System system, PathRule rule)
-    : PathProblem(std::make_shared<const statics::System>(std::move(system)), std::move(rule)) {}
+PathProblem::PathProblem(statics::System system, const PathRule& rule)
+    : PathProblem(std::make_shared<const statics::System>(std::move(system)), rule) {}
 
-PathProblem::PathProblem(std::shared_ptr<const statics::System> system, PathRule rule)
-    : kept_{std::move(system)}, system_{*kept_}, rule_{std::move(rule)} {
+PathProblem::PathProblem(std::shared_ptr<const statics::System> system, const PathRule& rule)
+    : kept_{std::move(system)}, system_{*kept_} {
+  renew(rule);
+}
+
+void PathProblem::renew(const PathRule& rule) {
+  rule_ = rule;
+  rotations_.clear();
+  family_.reset();
+  stages_.reset();
   const auto& body = system_.body_slices[static_cast<std::size_t>(rule_.body - 1)];
   t_ = body.t;
   d_ = body.count;

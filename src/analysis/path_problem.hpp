@@ -54,9 +54,11 @@ using Turns = std::vector<Turn>;
 ///     stays symmetric, and no negative eigenvalue is added.
 class PathProblem {
  public:
-  PathProblem(statics::System system, PathRule rule);
+  PathProblem(statics::System system, const PathRule& rule);
   /// The same with a system that others use too.
-  PathProblem(std::shared_ptr<const statics::System> system, PathRule rule);
+  PathProblem(std::shared_ptr<const statics::System> system, const PathRule& rule);
+  /// The problem anew, in its memory, after its system has been given other numbers.
+  void renew(const PathRule& rule);
 
   Index size() const { return size_; }
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const;

@@ -1,5 +1,6 @@
 #include "springfold/core/differences.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -41,20 +42,27 @@ std::optional<Vector> six_point_derivative(const std::function<std::optional<Vec
 }
 
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                              double p, double h) {
+                                              double p, double h, double enough) {
   const double first = first_of_grid(p, h);
   const double t = p / h - first;
-  constexpr int last = grid_nodes - 1;
+  std::array<Vector, grid_nodes> values;
   GridDerivative result;
-  Vector inner;
-  for (int j = 0; j <= last; ++j) {
-    const auto value = f((first + j) * h);
-    if (!value) return std::nullopt;
-    if (j == 0) result.value = inner = Vector::Zero(value->size());
-    result.value += slope_of_cardinal(0, last, j, t) / h * *value;
-    if (j > 0 && j < last) inner += slope_of_cardinal(1, last - 1, j, t) / h * *value;
+  // Places from inside out, a pair more for two orders more.
+  for (int low = grid_nodes / 2 - 1; low >= 0; --low) {
+    const int high = grid_nodes - 1 - low;
+    for (const int j : {low, high}) {
+      auto value = f((first + j) * h);
+      if (!value) return std::nullopt;
+      values[static_cast<std::size_t>(j)] = std::move(*value);
+    }
+    Vector finer = Vector::Zero(values[static_cast<std::size_t>(low)].size());
+    for (int j = low; j <= high; ++j)
+      finer += slope_of_cardinal(low, high, j, t) / h * values[static_cast<std::size_t>(j)];
+    const double size = std::max(1.0, finer.lpNorm<Eigen::Infinity>());
+    if (high - low > 1) result.doubt = (finer - result.value).lpNorm<Eigen::Infinity>();
+    result.value = std::move(finer);
+    if (high - low > 1 && result.doubt < enough * size) break;
   }
-  result.doubt = (result.value - inner).lpNorm<Eigen::Infinity>();
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "solve_beside.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/statics/kinetostatic_control.hpp"
+#include "springfold/statics/prepare_again.hpp"
 #include "stage_newton.hpp"
 
 namespace springfold::statics {
@@ -148,8 +149,14 @@ void complete(const System& system, const StartProblem& problem, FirstEquilibriu
 }  // namespace
 
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
+  Workspace work;
+  return first_equilibrium(system, problem, work);
+}
+
+FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem,
+                                   Workspace& work) {
   FirstEquilibrium result;
-  StartEquations equations(system, problem);
+  StartEquations equations(system, problem, work);
   StartState guess{problem.z, problem.inputs};
   shorten_turns(system, guess.z);
   if (problem.unknowns == StartUnknowns::commands) {

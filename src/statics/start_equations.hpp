@@ -21,6 +21,8 @@ inline StartSelection start_selection(const System& system, const StartProblem& 
   const BodySlice& body = system.body_slices[static_cast<std::size_t>(problem.body - 1)];
   const auto of_body = [&](Index i) { return i >= body.t && i < body.t + body.count; };
   const bool pose_given = problem.unknowns != StartUnknowns::pose;
+  s.unknowns.reserve(static_cast<std::size_t>(system.size + problem.inputs.rho.size()));
+  s.rows.reserve(static_cast<std::size_t>(system.size));
   for (Index i = 0; i < system.size; ++i) {
     if (!(pose_given && of_body(i))) s.unknowns.push_back(i);
     if (!(problem.unknowns == StartUnknowns::wrench && of_body(i))) s.rows.push_back(i);
@@ -38,8 +40,9 @@ struct StartState {
 /// The equilibrium equations in the selected unknowns; springs in the segments of the state itself.
 class StartEquations {
  public:
-  StartEquations(const System& system, const StartProblem& problem)
-      : system_{system}, selection_{start_selection(system, problem)} {}
+  /// @param work  storage
+  StartEquations(const System& system, const StartProblem& problem, Workspace& work)
+      : system_{system}, selection_{start_selection(system, problem)}, work_{work} {}
 
   Vector pack(const StartState& state) const {
     Vector y(static_cast<Index>(selection_.unknowns.size()));
@@ -137,7 +140,7 @@ class StartEquations {
 
   const System& system_;
   StartSelection selection_;
-  Workspace work_;
+  Workspace& work_;
   Vector full_;
   Matrix A_, dR_drho_;
 };

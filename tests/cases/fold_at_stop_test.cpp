@@ -1,6 +1,7 @@
 // A stop just behind the limit point of a slider: which of the two is told, down to the smallest distance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,11 +11,13 @@ namespace springfold::io {
 namespace {
 
 /// P(q) = q^3 - 3 a q + k max(0, q - g), with P(-3) taken off; it turns at q = -sqrt(a) = -1 unless g lies before that.
-std::string slider_with_stop(const std::string& g, const std::string& study) {
+std::string slider_with_stop(const std::string& g, const std::string& study,
+                             const std::string& k = "4") {
   return R"toml(
 [parameters]
 a = 1
-k = 4
+k = )toml" +
+         k + R"toml(
 g = ")toml" +
          g + R"toml("
 [[body]]
@@ -49,6 +52,45 @@ TEST(FoldAtStop, TheGapAtWhichBucklingEndsIsConfirmedByTracingBesideIt) {
   EXPECT_NEAR(result.threshold->value, -1, 1e-9);
   EXPECT_TRUE(result.threshold->verified);
   EXPECT_TRUE(result.doubts.empty());
+}
+
+/// Over a the first fold, q = -sqrt(a), meets the stop at a = g^2. There it and the corner are born in which the load rises
+/// again, up to a = g^2 + k / 3, where the load falls behind the stop too: there the corner and the folds q^2 = a - k / 3 meet.
+TEST(FoldAtStop, LimitPointsAreFollowedBeyondTheStop) {
+  using analysis::EventKind;
+  constexpr double g = -0.5, k = 0.6;
+  const auto result =
+      run(slider_with_stop(
+              "-0.5",
+              "kind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", parameter = "
+              "\"a\", range = [0.05, 2] }\n",
+              "0.6"))
+          .of("s");
+  ASSERT_EQ(result.branches.size(), 3U);
+  EXPECT_TRUE(complete(result));
+  const auto at = [&](const analysis::Sample& row, const std::string& name) {
+    const auto found = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                    [&](const auto& q) { return q.name == name; });
+    return row.values.at(static_cast<std::size_t>(found - result.quantities.begin()));
+  };
+  for (std::size_t piece = 0; piece < 3; ++piece)
+    for (const analysis::Sample& row : result.branches[piece].samples) {
+      const double a = at(row, "a"), q = at(row, "n.x");
+      const double slope = 3 * q * q - 3 * a + (piece == 2 ? k : 0);
+      EXPECT_NEAR(piece == 1 ? q - g : slope, 0, 1e-10) << piece << " " << a;
+      EXPECT_EQ(q > g + 1e-9, piece == 2 && std::abs(q - g) > 1e-9) << piece << " " << a;
+      EXPECT_NEAR(at(row, "lambda"), q * q * q - 3 * a * q + k * std::max(0.0, q - g) + 27 - 9 * a,
+                  1e-10);
+    }
+  const auto place_of = [&](std::size_t piece, EventKind kind) {
+    for (const analysis::Event& event : result.branches[piece].events)
+      if (event.kind == kind) return at(result.branches[piece].samples[event.row], "a");
+    return std::nan("");
+  };
+  EXPECT_NEAR(place_of(0, EventKind::fold_meets_activation), g * g, 1e-9);
+  EXPECT_NEAR(place_of(1, EventKind::corner_loses_reversal), g * g + k / 3, 1e-9);
+  EXPECT_NEAR(place_of(2, EventKind::cusp), k / 3, 1e-9);
+  EXPECT_NEAR(at(result.branches[2].samples.back(), "a"), 2, 1e-9);
 }
 
 TEST(FoldAtStop, ALoadThatFallsAndRisesAgainHasBothTurnsOrNone) {

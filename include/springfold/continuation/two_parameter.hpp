@@ -79,6 +79,7 @@ struct CriticalEvent {
   std::string name{};
   std::function<double(const CriticalPoint&)> value{};
   EventAction action = EventAction::record;
+  bool of_place = false;  ///< the value depends on x, lambda and mu alone: it needs no rates
 };
 
 /// Points of a critical curve between the accepted ones, see points_between().

@@ -19,16 +19,17 @@ std::optional<Vector> six_point_derivative(const std::function<std::optional<Vec
 
 struct GridDerivative {
   Vector value{};
-  /// Largest entry of the difference from the polynomial of degree five through the inner six places.
+  /// Largest entry of the difference from the polynomial through the same places without the outer two.
   double doubt = 0;
 };
 
 /// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for functions
 /// that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h  a power of two,
 /// so that the places are the same numbers
+/// @param enough  the inner four, or six, places are taken where their doubt is less than this, of max(1, value)
 /// @returns nothing when f has no value at one of them
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                              double p, double h);
+                                              double p, double h, double enough = 0);
 
 /// By the cubic through the inner four of these places: with an error O(h^3).
 std::optional<Vector> rough_grid_derivative(const std::function<std::optional<Vector>(double)>& f,

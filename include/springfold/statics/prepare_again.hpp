@@ -1,6 +1,7 @@
 // The same mechanism with other numbers, again and again.
 #pragma once
 
+#include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/system.hpp"
 
 namespace springfold::statics {
@@ -9,5 +10,9 @@ namespace springfold::statics {
 /// names and its memory are used.
 /// @pre model::problems_in(mechanism).empty()
 System prepare(model::Mechanism mechanism, System old);
+
+/// first_equilibrium(system, problem) in storage that is kept for the next one.
+FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem,
+                                   Workspace& work);
 
 }  // namespace springfold::statics

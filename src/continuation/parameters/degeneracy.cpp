@@ -94,7 +94,8 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
                          return g[j];
                        },
                        EventAction::stop,
-                       {}});
+                       {},
+                       true});
   }
 }
 
@@ -112,7 +113,7 @@ void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
   watches.push_back({Degeneracy::corank_two, "",
                      [&system](const CurvePoint& p) { return other_eigenvalue(system, p); },
                      EventAction::record,
-                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }});
+                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }, true});
 }
 
 /// The equations reduced to the modes at a point of the curve.
@@ -205,7 +206,8 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
          event.name,
          [&event, n](const CurvePoint& p) { return event.value(critical_point(p, n)); },
          event.action,
-         {}});
+         {},
+         event.of_place});
   return watches;
 }
 

@@ -14,7 +14,8 @@ struct Watch {
   std::function<double(const CurvePoint&)> value{};
   EventAction action = EventAction::record;
   std::function<Degeneracy(const CurvePoint&)>
-      refine{};  ///< tells kinds apart at the located point
+      refine{};           ///< tells kinds apart at the located point
+  bool of_place = false;  ///< the value needs no tangent
 };
 
 /// A point of the augmented curve, of n unknowns of the family.

@@ -67,7 +67,7 @@ std::optional<Vector> derivative_by_parameter(const std::function<std::optional<
                                               double mu, double step, Exactness exactness) {
   if (exactness == Exactness::rough)
     if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
-  const auto wide = grid_derivative(f, mu, wider * step);
+  const auto wide = grid_derivative(f, mu, wider * step, one_place);
   if (wide && wide->doubt <= one_place * std::max(1.0, wide->value.lpNorm<Eigen::Infinity>()))
     return wide->value;
   // Beside the end of the family's domain the formula that reaches less far may have all of its places.

@@ -176,7 +176,10 @@ class Follower {
     const std::vector<Watch> watches = watches_of(system, events_);
     std::vector<Event> events;
     for (std::size_t i = 0; i < watches.size(); ++i)
-      events.push_back({std::to_string(i), watches[i].value, watches[i].action});
+      events.push_back({.name = std::to_string(i),
+                        .value = watches[i].value,
+                        .action = watches[i].action,
+                        .of_place = watches[i].of_place});
     const Index n = system.n();
     bool renew = false, lost = false;
     ReturnToStart back{
