@@ -205,9 +205,8 @@ const Member* CaseCurves::at(double mu) const {
   if (!base_ || !base_->report.found || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
   const auto above = recent_.lower_bound(mu);
-  ++calls_;
   if (above != recent_.end() && above->first == mu) {
-    above->second.asked = calls_;
+    calls_.splice(calls_.begin(), calls_, above->second.call);
     return above->second.member.get();
   }
   const Member* near = base_.get();
@@ -218,17 +217,16 @@ const Member* CaseCurves::at(double mu) const {
   if (above != recent_.begin()) take_nearer(std::prev(above)->second.member.get());
   std::unique_ptr<Member> oldest;
   if (recent_.size() >= members_kept) {
-    auto old = recent_.end();
-    for (auto i = recent_.begin(); i != recent_.end(); ++i)
-      if (i->second.member.get() != near &&
-          (old == recent_.end() || i->second.asked < old->second.asked))
-        old = i;
+    const bool is_needed = calls_.back() == near->mu;
+    const auto old = recent_.find(is_needed ? *std::prev(calls_.end(), 2) : calls_.back());
     oldest = std::move(old->second.member);
+    calls_.erase(old->second.call);
     recent_.erase(old);
   }
   auto made = make(mu, near, std::move(oldest));
   if (!made) return nullptr;
-  return recent_.insert_or_assign(mu, Recent{std::move(made), calls_}).first->second.member.get();
+  calls_.push_front(mu);
+  return recent_.emplace(mu, Recent{std::move(made), calls_.begin()}).first->second.member.get();
 }
 
 continuation::Family CaseCurves::family() const {

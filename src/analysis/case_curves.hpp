@@ -1,6 +1,7 @@
 // The curve of a study for every value of one of the case's parameters. Private to analysis.
 #pragma once
 
+#include <list>
 #include <map>
 #include <memory>
 #include <string>
@@ -71,10 +72,10 @@ class CaseCurves {
   std::unique_ptr<Member> base_{};
   struct Recent {
     std::unique_ptr<Member> member{};
-    long asked = 0;  ///< number of the last call that asked for it
+    std::list<double>::iterator call{};  ///< the last one that asked for it, in calls_
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
-  mutable long calls_ = 0;
+  mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
   mutable statics::Workspace start_work_{};  ///< of equations at starts
 };
 

@@ -38,17 +38,20 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
 constexpr int most_pieces_beyond = 40;
 /// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of it.
 constexpr double beside = 1e-6;
+/// As degeneracies are located.
+constexpr double same_place = beside / 1000;
 
-/// Which switch is zero where the curve ends?
-Index switch_at(const Member& member, const CriticalHit& hit) {
+/// Which switch is zero where the curve ends? Nothing where several are.
+std::optional<Index> switch_at(const Member& member, const CriticalHit& hit) {
   Vector g;
-  Index nearest = -1;
-  if (!member.problem->switches(hit.point.x, hit.point.lambda, g)) return nearest;
-  for (Index j = 0; j < g.size(); ++j)
-    if (member.problem->switch_name(j) == hit.name &&
-        (nearest < 0 || std::abs(g[j]) < std::abs(g[nearest])))
-      nearest = j;
-  return nearest;
+  if (!member.problem->switches(hit.point.x, hit.point.lambda, g)) return std::nullopt;
+  std::optional<Index> found;
+  for (Index j = 0; j < g.size(); ++j) {
+    if (std::abs(g[j]) > same_place) continue;
+    if (found) return std::nullopt;
+    found = j;
+  }
+  return found;
 }
 
 /// How far lambda rises where the switch does, on one piece: its sign, positive or negative.
@@ -111,7 +114,6 @@ class Beyond {
 
  private:
   static bool is_same(const CriticalPoint& a, const CriticalPoint& b) {
-    constexpr double same_place = 1e-9;  // as degeneracies are located
     return (a.x - b.x).lpNorm<Eigen::Infinity>() <= same_place &&
            std::abs(a.lambda - b.lambda) <= same_place && std::abs(a.mu - b.mu) <= same_place;
   }
@@ -134,8 +136,9 @@ class Beyond {
     const Member* member = curves_.at(hit.point.mu);
     if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return std::nullopt;
     next.kind = continuation::CriticalKind::surface;
-    next.switching = switch_at(*member, hit);
-    if (next.switching < 0) return std::nullopt;
+    const auto switching = switch_at(*member, hit);
+    if (!switching) return std::nullopt;
+    next.switching = *switching;
     next.behind = next.piece;
     auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
     behind = static_cast<std::int8_t>(-behind);

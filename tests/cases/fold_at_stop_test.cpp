@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "case_runs.hpp"
 
@@ -91,6 +93,41 @@ TEST(FoldAtStop, LimitPointsAreFollowedBeyondTheStop) {
   EXPECT_NEAR(place_of(1, EventKind::corner_loses_reversal), g * g + k / 3, 1e-9);
   EXPECT_NEAR(place_of(2, EventKind::cusp), k / 3, 1e-9);
   EXPECT_NEAR(at(result.branches[2].samples.back(), "a"), 2, 1e-9);
+}
+
+/// A second stop on the way, q > -0.2, of stiffness 1.5, takes the folds q^2 = a - 0.2 up at a = 0.24, lets them go on as a
+/// corner up to a = 0.74, and then as q^2 = a - 0.7.
+TEST(FoldAtStop, LimitPointsAreFollowedBeyondASecondStop) {
+  using analysis::EventKind;
+  const auto result = run(slider_with_stop("-0.5", R"toml(kind = "critical_curve"
+critical_curve = { of = "LP1", parameter = "a", range = [0.05, 2] }
+[[spring]]
+name = "second"
+from_at = [-10, 0]
+to = "n"
+law = { law = "one_sided", stiffness = 1.5, from = 9.8 }
+)toml",
+                                           "0.6"))
+                          .of("s");
+  EXPECT_TRUE(complete(result));
+  const auto found = std::find_if(result.quantities.begin(), result.quantities.end(),
+                                  [](const auto& q) { return q.name == "a"; });
+  const auto a = static_cast<std::size_t>(found - result.quantities.begin());
+  std::vector<std::pair<EventKind, double>> ends;
+  for (const analysis::Branch& piece : result.branches)
+    for (const analysis::Event& event : piece.events)
+      if (event.kind != EventKind::end_of_range)
+        ends.emplace_back(event.kind, piece.samples[event.row].values[a]);
+  const std::vector<std::pair<EventKind, double>> expected{{EventKind::fold_meets_activation, 0.25},
+                                                           {EventKind::corner_loses_reversal, 0.45},
+                                                           {EventKind::fold_meets_activation, 0.24},
+                                                           {EventKind::corner_loses_reversal, 0.74},
+                                                           {EventKind::cusp, 0.7}};
+  ASSERT_EQ(ends.size(), expected.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    EXPECT_EQ(ends[i].first, expected[i].first) << i;
+    EXPECT_NEAR(ends[i].second, expected[i].second, 1e-9) << i;
+  }
 }
 
 TEST(FoldAtStop, ALoadThatFallsAndRisesAgainHasBothTurnsOrNone) {
