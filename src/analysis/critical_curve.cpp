@@ -37,9 +37,9 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
 /// Pieces of a critical curve beyond each of its ends.
 constexpr int most_pieces_beyond = 40;
 /// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of it.
-constexpr double beside = 1e-6;
+constexpr double share_beside = 1e-6;
 /// As degeneracies are located.
-constexpr double same_place = beside / 1000;
+constexpr double same_place = share_beside / 1000;
 
 /// Which switch is zero where the curve ends? Nothing where several are.
 std::optional<Index> switch_at(const Member& member, const CriticalHit& hit) {
@@ -147,7 +147,7 @@ class Beyond {
 
   /// The way on which there are limit points. @returns false where there is none
   bool take_way(const continuation::CriticalStart& start, FollowedCurve& last) {
-    const double away = beside * std::max(std::abs(start.mu), 1e-3);
+    const double away = share_beside * std::max(std::abs(start.mu), 1e-3);
     for (const double way : {1.0, -1.0}) {
       continuation::CriticalStart next = start;
       next.mu += way * away;
