@@ -39,7 +39,7 @@ constexpr int most_pieces_beyond = 40;
 /// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of it.
 constexpr double share_beside = 1e-6;
 /// As degeneracies are located.
-constexpr double same_place = share_beside / 1000;
+constexpr double same_meeting = share_beside / 1000;
 
 /// Which switch is zero where the curve ends? Nothing where several are.
 std::optional<Index> switch_at(const Member& member, const CriticalHit& hit) {
@@ -47,7 +47,7 @@ std::optional<Index> switch_at(const Member& member, const CriticalHit& hit) {
   if (!member.problem->switches(hit.point.x, hit.point.lambda, g)) return std::nullopt;
   std::optional<Index> found;
   for (Index j = 0; j < g.size(); ++j) {
-    if (std::abs(g[j]) > same_place) continue;
+    if (std::abs(g[j]) > same_meeting) continue;
     if (found) return std::nullopt;
     found = j;
   }
@@ -114,8 +114,8 @@ class Beyond {
 
  private:
   static bool is_same(const CriticalPoint& a, const CriticalPoint& b) {
-    return (a.x - b.x).lpNorm<Eigen::Infinity>() <= same_place &&
-           std::abs(a.lambda - b.lambda) <= same_place && std::abs(a.mu - b.mu) <= same_place;
+    return (a.x - b.x).lpNorm<Eigen::Infinity>() <= same_meeting &&
+           std::abs(a.lambda - b.lambda) <= same_meeting && std::abs(a.mu - b.mu) <= same_meeting;
   }
 
   /// Nothing where the curve ends for another reason.

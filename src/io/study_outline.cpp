@@ -10,7 +10,7 @@ namespace {
 using analysis::StudyResult;
 using Runs = std::vector<const StudyResult*>;
 
-constexpr std::size_t most_lines = 3;
+constexpr std::size_t most_lines_of_outline = 3;
 
 /// Runs of which the same is told.
 struct Group {
@@ -79,12 +79,12 @@ std::vector<std::string> study_outline(const Case& the_case, const Runs& runs) {
     const std::vector<Group> groups = groups_of(the_case, runs, most);
     for (const bool has_labels : {true, false}) {
       std::vector<std::string> lines = lines_of(groups, has_labels);
-      if (lines.size() <= most_lines) return lines;
+      if (lines.size() <= most_lines_of_outline) return lines;
     }
   }
   const std::vector<Group> groups = groups_of(the_case, runs, whole);
   std::vector<std::string> lines;
-  if (groups.size() <= most_lines) {
+  if (groups.size() <= most_lines_of_outline) {
     for (const Group& group : groups) lines.push_back(in_a_line(group));
     return lines;
   }
