@@ -79,5 +79,16 @@ TEST(Extremum, OfTheLoadIsRefusedAsItIsALimitPoint) {
   EXPECT_THROW(run(bar("extrema = [\"nothing\"]\n")), CaseError);
 }
 
+/// It would be found nowhere, silently.
+TEST(Extremum, OfAQuantityWithoutExactRateIsRefused) {
+  try {
+    run(bar("extrema = [\"energy\"]\n"));
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("the rate of \"energy\" along the branch is not known exactly"));
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io
