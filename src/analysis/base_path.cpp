@@ -9,6 +9,8 @@
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "start_hits.hpp"
+#include "within_limits.hpp"
 #include "zero_lengths.hpp"
 
 namespace springfold::analysis {
@@ -91,6 +93,14 @@ continuation::StateFunction column_of(const CaseCurves& curves, const Member& me
   };
 }
 
+/// Of the special points at the start that which the event shows; nothing where there is none.
+const Hit* hit_at_start(const std::vector<Hit>& hits, EventKind kind) {
+  const auto same = std::find_if(hits.begin(), hits.end(),
+                                 [kind](const Hit& hit) { return kind_of(hit) == kind; });
+  if (same != hits.end()) return &*same;
+  return hits.empty() ? nullptr : &hits.front();
+}
+
 }  // namespace
 
 std::string early_ends(const Branch& branch) {
@@ -134,9 +144,9 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   const auto events = events_of(member.study, evaluator, member.quantities());
   int points = 0;
   const auto observe = [&](const CurvePoint& p) { return !observer || observer(++points, p.s); };
+  const Following with{problem, member.study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
-    auto ended = ended_at_start(member.study, evaluator, member.quantities(), start, ray);
-    return ended ? *ended : trace(problem, start.x, start.lambda, ray, events, options, observe);
+    return trace_within_limits(with, start, ray, events, options, observe);
   };
   Curve forward = follow(rays.rays[0]);
   Curve backward = forward_only || forward.stop == continuation::StopReason::closed
@@ -148,12 +158,17 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   source.forward_stop = forward_end.value_or(stop_of(forward));
   source.backward_stop =
       forward_only ? source.forward_stop : backward_end.value_or(stop_of(backward));
+  if (forward.stop != continuation::StopReason::closed)
+    source.at_start = hits_at_start(with, source);
+  const std::vector<Hit> at_start = source.at_start;
   std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
   label_events(rows, 0, member.quantities());
   path.branch = std::move(rows.front().branch);
   for (const Event& event : path.branch.events) {
     const double s = path.branch.samples[event.row].values.front();
-    const Hit* hit = s < 0 ? hit_at(backward, -s) : hit_at(forward, s);
+    const Hit* hit = s < 0   ? hit_at(backward, -s)
+                     : s > 0 ? hit_at(forward, s)
+                             : hit_at_start(at_start, event.kind);
     if (hit != nullptr && event.kind != EventKind::end_of_range)
       path.points.push_back({event.label, event.kind, event.row, *hit});
   }

@@ -8,11 +8,9 @@
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
-#include "neutral_motions.hpp"
 #include "null_modes.hpp"
 #include "row_indices.hpp"
 #include "switch_words.hpp"
-#include "vanishing_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -62,6 +60,17 @@ std::vector<Entry> entries_of(const Curve& curve, std::vector<CurvePoint>&& betw
     entries.push_back({curve.points[i], nullptr, false, {}});
   }
   while (h < curve.hits.size()) add_hit(curve.hits[h++]);
+  return entries;
+}
+
+/// The start, once for every special point that lies on it.
+std::vector<Entry> entries_at(const CurvePoint& start, const std::vector<Hit>& hits) {
+  if (hits.empty()) return {{start, nullptr, false, {}}};
+  std::vector<Entry> entries;
+  for (const Hit& hit : hits) {
+    entries.push_back({hit.point, &hit, false, {}});
+    if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true, {}});
+  }
   return entries;
 }
 
@@ -218,24 +227,6 @@ std::optional<std::string> singular_chain(const Entry& before, const Entry& entr
   return std::nullopt;
 }
 
-/// Why a trace could not go on, if the closures or the springs say so. What the engine took it for is in the step log.
-Stop explained(Stop stop, const Entry& end, const Entry& other, const Curve& curve,
-               const PathProblem& problem) {
-  if (stop.complete) return stop;
-  if (const auto length = vanishing_length(problem, curve, end.point)) {
-    const bool is_stuck = curve.stop == StopReason::step_too_small;
-    return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
-  }
-  if (const auto why = nears_kinematic_singularity(problem, end.point, other.point))
-    stop.reason += "; " + *why;
-  else if (const auto legs = stretched_chains(problem, end.point, other.point))
-    stop = legs->is_end_of_reach ? Stop{"end of the reach: " + legs->text, true}
-                                 : Stop{stop.reason + "; " + legs->text, false};
-  else if (const auto names = neutral_motion(problem, end.point))
-    stop.reason += "; nothing resists a motion of " + *names + " there";
-  return stop;
-}
-
 /// From where on closures that were taken as redundant contradict each other.
 void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& evaluator,
                            Branch& branch) {
@@ -259,15 +250,15 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
   BranchRows rows;
   Branch& branch = rows.branch;
   branch.start_row = entries.size();
-  entries.push_back({forward.points.front(), nullptr, false, {}});
-  std::vector<Entry> behind = entries_of(forward, std::move(source.forward_between));
-  entries.insert(entries.end(), std::make_move_iterator(behind.begin()),
-                 std::make_move_iterator(behind.end()));
+  for (std::vector<Entry> more : {entries_at(forward.points.front(), source.at_start),
+                                  entries_of(forward, std::move(source.forward_between))})
+    entries.insert(entries.end(), std::make_move_iterator(more.begin()),
+                   std::make_move_iterator(more.end()));
   count_turns(entries, branch.start_row, problem);
-  branch.backward =
-      explained(source.backward_stop, entries.front(), entries.back(), backward, problem);
+  branch.backward = explained(source.backward_stop, entries.front().point, entries.back().point,
+                              backward, problem);
   branch.forward =
-      explained(source.forward_stop, entries.back(), entries.front(), forward, problem);
+      explained(source.forward_stop, entries.back().point, entries.front().point, forward, problem);
   const auto add = [&rows](Event event, int junction) {
     rows.branch.events.push_back(std::move(event));
     rows.junctions.push_back(junction);
@@ -379,19 +370,6 @@ EventKind kind_of(const Hit& hit) {
       return EventKind::unresolved;
   }
   return EventKind::unresolved;
-}
-
-Stop stop_of(const Curve& curve) {
-  if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
-    return {curve.stop_detail, false};
-  Stop stop;
-  stop.reason = std::string(to_string(curve.stop));
-  const bool is_refused =
-      curve.stop == StopReason::bad_start;  // by a limit: what it says is all there is to say
-  if (!curve.stop_detail.empty())
-    stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
-  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
-  return stop;
 }
 
 }  // namespace springfold::analysis

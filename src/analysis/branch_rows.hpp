@@ -28,7 +28,8 @@ struct BranchSource {
   Stop backward_stop{}, forward_stop{};
   /// Further points of the curves, for rows between those of the steps.
   std::vector<continuation::CurvePoint> backward_between{}, forward_between{};
-  std::optional<int> origin{};  ///< the junction at which the branch begins
+  std::vector<continuation::Hit> at_start{};  ///< what the first point of both is itself
+  std::optional<int> origin{};                ///< the junction at which the branch begins
   EventKind origin_kind = EventKind::branch_point;
 };
 
@@ -59,6 +60,13 @@ EventKind kind_of(const continuation::Hit& hit);
 
 /// The engine's reason; complete at a limit and on a closed curve.
 Stop stop_of(const continuation::Curve& curve);
+
+/// Why a trace could not go on, if the closures or the springs say so; otherwise what it was given. What the engine took
+/// it for is in the step log.
+/// @param end    where the curve stopped; other: the other end of the branch
+Stop explained(Stop stop, const continuation::CurvePoint& end,
+               const continuation::CurvePoint& other, const continuation::Curve& curve,
+               const PathProblem& problem);
 
 /// The other side of a curve that is all there is: closed, or a single point.
 continuation::Curve nothing_behind(const continuation::Curve& curve);

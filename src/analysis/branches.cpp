@@ -1,11 +1,14 @@
 #include "branches.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "springfold/core/number_text.hpp"
 #include "stability_changes.hpp"
+#include "start_hits.hpp"
 #include "start_marks.hpp"
 #include "zero_lengths.hpp"
 
@@ -59,24 +62,64 @@ class Writer {
   }
 
  private:
-  /// The two curves that leave an ordinary start become one branch, every other curve is its own.
+  /// The two curves that leave an ordinary start become one branch, and so do the first two that leave a start that is a
+  /// branch point in opposite directions: a branch passes through it as it does anywhere else. Every other curve is its own.
   void number_branches() {
-    const auto& branches = diagram_.branches;
-    number_.assign(branches.size(), 0);
-    for (std::size_t i = 0; i < branches.size(); ++i) {
-      const int start = branches[i].start;
-      const auto same = [start](const auto& b) { return b.start == start; };
-      const auto count = std::count_if(branches.begin(), branches.end(), same);
-      const auto first = static_cast<std::size_t>(
-          std::find_if(branches.begin(), branches.end(), same) - branches.begin());
-      if (start >= 0 && count == 2 && first < i) {
-        number_[i] = number_[first];
+    const std::size_t count = diagram_.branches.size();
+    number_.assign(count, 0);
+    through_.assign(diagram_.junctions.size(), 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto first = goes_on_behind(i);
+      if (first) {
+        number_[i] = number_[*first];
         groups_[static_cast<std::size_t>(number_[i] - 1)].push_back(static_cast<int>(i));
+        const int junction = diagram_.branches[i].junction;
+        if (junction >= 0) through_[static_cast<std::size_t>(junction)] = number_[i];
       } else {
         groups_.push_back({static_cast<int>(i)});
         number_[i] = static_cast<int>(groups_.size());
       }
     }
+  }
+
+  /// The curve before this one that leaves the same start on the other side; nothing if there is none.
+  std::optional<std::size_t> goes_on_behind(std::size_t i) const {
+    const auto& branches = diagram_.branches;
+    const auto from = [](const continuation::Branch& b) { return std::pair{b.start, b.junction}; };
+    const auto& own = branches[i];
+    std::vector<std::size_t> others;
+    for (std::size_t k = 0; k < branches.size(); ++k)
+      if (k != i && from(branches[k]) == from(own)) others.push_back(k);
+    if (own.start >= 0)
+      return others.size() == 1 && others[0] < i ? std::optional(others[0]) : std::nullopt;
+    if (own.junction < 0) return std::nullopt;
+    const auto j = static_cast<std::size_t>(own.junction);
+    const auto& junction = diagram_.junctions[j];
+    if (junction.start < 0 || junction.kind != HitKind::branch_point || through_[j] > 0)
+      return std::nullopt;
+    for (const std::size_t k : others)
+      if (k < i && are_opposite(branches[k].curve, own.curve)) return k;
+    return std::nullopt;
+  }
+
+  static bool are_opposite(const Curve& a, const Curve& b) {
+    constexpr double one_line = 1e-6;  // tangents at branch points are told to the root of rounding
+    if (a.points.size() < 2 || b.points.size() < 2) return false;
+    const auto &s = a.points.front().tangent, &t = b.points.front().tangent;
+    return s.dx.dot(t.dx) + s.dlambda * t.dlambda < -(1 - one_line) * norm_of(s) * norm_of(t);
+  }
+  static double norm_of(const continuation::Direction& t) {
+    return std::hypot(t.dx.norm(), t.dlambda);
+  }
+
+  /// A start that is a branch point, seen from a branch that passes through it.
+  Hit hit_of(int junction, const Curve& forward) const {
+    const auto& from = diagram_.junctions[static_cast<std::size_t>(junction)];
+    Hit hit{.kind = from.kind, .name = "branch point", .point = forward.points.front()};
+    hit.point.negative.reset();
+    hit.multiplicity = from.multiplicity;
+    hit.junction = junction;
+    return hit;
   }
 
   const continuation::Branch& traced(int i) const {
@@ -113,7 +156,12 @@ class Writer {
     const int own = number_of(group[0]);
     source.forward_stop = end_of(source.forward, own);
     source.backward_stop = group.size() > 1 ? end_of(source.backward, own) : source.forward_stop;
-    const int origin = traced(group[0]).junction;
+    const int junction = traced(group[0]).junction, origin = group.size() > 1 ? -1 : junction;
+    if (group.size() > 1)
+      source.at_start =
+          junction >= 0
+              ? std::vector{hit_of(junction, source.forward)}
+              : hits_at_start({t_.problem, t_.study, t_.evaluator, t_.quantities}, source);
     if (origin >= 0) {
       source.origin = origin;
       source.origin_kind =
@@ -125,16 +173,16 @@ class Writer {
     end_at_zero_lengths(t_, source);
     add_stability_changes(t_, source);
     add_between(t_, source);
-    const bool has_start = origin < 0 && traced(group[0]).start == 0;
+    const bool has_start = origin < 0 && (junction >= 0 || traced(group[0]).start == 0);
     const CurvePoint first = source.forward.points.front();
     BranchRows rows = join(std::move(source), t_.evaluator, t_.quantities, t_.problem);
     if (has_start) add_marks_at_start(t_.study, t_.evaluator, t_.quantities, first, rows);
     return rows;
   }
 
-  /// Number of the branch on which a junction was met first; 0: it is a start itself.
+  /// Number of the branch on which a junction was met first, or which passes through it; 0: a start, which none does.
   int met_on(std::size_t junction) const {
-    if (diagram_.junctions[junction].depth < 0) return 0;
+    if (diagram_.junctions[junction].depth < 0) return through_[junction];
     for (std::size_t i = 0; i < diagram_.branches.size(); ++i)
       for (const Hit& hit : diagram_.branches[i].curve.hits)
         if (hit.junction == static_cast<int>(junction)) return number_[i];
@@ -163,8 +211,11 @@ class Writer {
     };
     for (const continuation::Junction& junction : diagram_.junctions) {
       if (junction.start != 0) continue;
-      result_.start.situation =
-          junction.kind == HitKind::branching_kink ? "a branching kink" : "a branch point";
+      // Two ways alone are one curve: what was seen at once says what is special about it.
+      if (junction.kind == HitKind::branching_kink)
+        result_.start.situation = "a branching kink";
+      else if (junction.kind == HitKind::branch_point || result_.start.situation.empty())
+        result_.start.situation = "a branch point";
       for (const continuation::Way& way : junction.ways) add(way.point, way.branch);
       return;
     }
@@ -185,7 +236,7 @@ class Writer {
     Branch& branch = result_.branches[i];
     branch.depth = from.depth;
     branch.start = std::max(from.start, 0);
-    if (from.junction < 0) return;
+    if (from.junction < 0 || groups_[i].size() > 1) return;
     const auto j = static_cast<std::size_t>(from.junction);
     branch.origin = labels[j].label;
     branch.origin_branch = result_.junctions[j].branch;
@@ -201,6 +252,8 @@ class Writer {
   StudyResult& result_;
   std::vector<int> number_{};               ///< per curve of the diagram: its branch, from 1
   std::vector<std::vector<int>> groups_{};  ///< per branch: its one or two curves
+  std::vector<int>
+      through_{};  ///< per junction that is a start: the branch that passes through it, or 0
 };
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
+#include "degenerate_state.hpp"
 #include "equilibrium_search.hpp"
 #include "frozen.hpp"
 #include "limits.hpp"
@@ -79,8 +81,18 @@ CountedEquilibrium counted(const PathProblem& problem, const FoundEquilibrium& f
                            bool is_locked) {
   const CurvePoint point = point_at(problem, found);
   CountedEquilibrium result{found.z, std::nullopt, is_locked};
-  if (point.negative) result.index = *point.negative - problem.closures();
+  if (point.negative && !is_degenerate(problem, point))
+    result.index = *point.negative - problem.closures();
   return result;
+}
+
+/// Where the count is one of rounding none is told.
+void take_back_counts(const std::vector<QuantityDefinition>& quantities, Equilibrium& state) {
+  using Kind = QuantityDefinition::Kind;
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    if (quantities[q].kind == Kind::index || quantities[q].kind == Kind::index_force)
+      state.sample.values[q] = undefined;
+  state.note += (state.note.empty() ? "" : "; ") + std::string(degenerate_note);
 }
 
 /// The same state with rotation vectors of at most half a turn.
@@ -183,6 +195,9 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.potential = setup.scales.moment() * potential_of(problem, f.z);
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;
+    const bool is_resting =
+        evaluator.resting_index_of(QuantityDefinition::Kind::index, point).has_value();
+    if (!is_resting && is_degenerate(problem, point)) take_back_counts(quantities, equilibrium);
     equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
     // The coordinates of a locked chain do not feel every force: it balances what nothing would.
     if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {

@@ -9,6 +9,7 @@
 #include "springfold/continuation/between.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/number_text.hpp"
+#include "within_limits.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -59,32 +60,8 @@ class Grower {
       return !stopped_;
     };
     grown_.diagram = trace_diagram(t_.problem, grown_.starts, events_, options_, observe);
-    for (continuation::Branch& branch : grown_.diagram.branches) cut_to_range(branch.curve);
-  }
-
-  /// A branch that begins on a limit and leads out of the range ends where it begins.
-  void cut_to_range(Curve& curve) const {
-    const bool met_outside = curve.stop == StopReason::joined && !curve.hits.empty();
-    if (curve.stop != StopReason::observer && !met_outside) return;
-    std::optional<std::string> passed;
-    if (met_outside)
-      passed = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.hits.back().point);
-    while (curve.points.size() > 1) {
-      const auto beyond = limit_passed(t_.study, t_.evaluator, t_.quantities, curve.points.back());
-      if (!beyond) break;
-      passed = beyond;
-      curve.points.pop_back();
-    }
-    if (!passed) return;
-    std::erase_if(curve.hits, [this](const Hit& hit) {
-      return limit_passed(t_.study, t_.evaluator, t_.quantities, hit.point).has_value();
-    });
-    const double end =
-        std::max(curve.points.back().s, curve.hits.empty() ? 0.0 : curve.hits.back().point.s);
-    std::erase_if(curve.arcs, [end](const continuation::Arc& arc) { return arc.s_begin >= end; });
-    if (!curve.arcs.empty()) curve.arcs.back().s_end = std::min(curve.arcs.back().s_end, end);
-    curve.stop = StopReason::event;
-    curve.stop_detail = *passed;
+    for (continuation::Branch& branch : grown_.diagram.branches)
+      cut_to_range(t_.study, t_.evaluator, t_.quantities, branch.curve);
   }
 
   bool lies_on_a_branch(const DiagramStart& at) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -34,6 +35,21 @@ bool is_watched(const Study& study, const std::vector<QuantityDefinition>& quant
                      [&](const Limit& limit) { return rotates(limit.quantity); }) ||
          std::any_of(study.marks.begin(), study.marks.end(),
                      [&](const Mark& mark) { return rotates(mark.quantity); });
+}
+
+/// Points lie off the curve by as much as the residual's tolerance lets them, and so do the values of what is computed from
+/// them, in the mechanism's own units: values that differ by less are the same. lambda and what is set by it are exact.
+double rounding_of(const QuantityDefinition& quantity, double value) {
+  using Kind = QuantityDefinition::Kind;
+  const bool is_set = quantity.kind == Kind::lambda || quantity.kind == Kind::arc_length ||
+                      quantity.kind == Kind::command;
+  const double own = std::numeric_limits<double>::epsilon() * std::abs(value);
+  return is_set ? own : std::max(own, off_curve_rate * std::abs(quantity.scale));
+}
+
+/// What rounding may do to a rate along the curve, of how fast the mechanism moves there at all.
+double rounding_of_rate(const PathProblem& problem, const continuation::Direction& tangent) {
+  return off_curve_rate * std::sqrt(tangent.dx.dot(problem.metric().cwiseProduct(tangent.dx)));
 }
 
 /// Bodies whose rotation is prescribed in part are described by rotation vectors; and limits on a
@@ -75,14 +91,12 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
                        std::string label) {
     const QuantityDefinition* q = find_quantity(quantities, name);
     assert(q != nullptr);
+    const double unit = rounding_of(*q, value);
     events.push_back({std::move(label),
                       [&evaluator, definition = *q, value](const continuation::CurvePoint& point) {
                         return evaluator.value(definition, point) - value;
                       },
-                      action,
-                      0,
-                      {},
-                      true});
+                      action, 0, [unit](const continuation::CurvePoint&) { return unit; }, true});
   };
   if (study.control == ControlMode::pose || study.control == ControlMode::mixed)
     events.push_back({"limit point of the force",
@@ -124,12 +138,24 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
                       [&evaluator, definition = *q](const continuation::CurvePoint& point) {
                         return evaluator.rate(definition, point);
                       },
-                      continuation::EventAction::record, column_extremum});
+                      continuation::EventAction::record, column_extremum,
+                      [&evaluator](const continuation::CurvePoint& point) {
+                        return rounding_of_rate(evaluator.problem(), point.tangent);
+                      }});
   }
   return events;
 }
 
 namespace {
+
+/// How far along its ray a curve is looked at to see which way it goes, in the metric.
+constexpr double short_way = 1e-6;
+
+/// Two values of a quantity in its unit that far apart on the short way differ by rounding alone: a curve that runs along
+/// its limit does not leave it.
+double no_change(double value) {
+  return std::numeric_limits<double>::epsilon() * std::abs(value) + short_way * tangent_rounding;
+}
 
 std::string outside_text(const Limit& limit, double value) {
   return limit.quantity + " is " + rounded(value) + " at the start, outside of its limits " +
@@ -160,8 +186,8 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
   curve.points.front().tangent = ray.tangent;
   curve.points.front().piece = ray.piece;
   continuation::CurvePoint ahead = curve.points.front();
-  ahead.x += 1e-6 * ray.tangent.dx;
-  ahead.lambda += 1e-6 * ray.tangent.dlambda;
+  ahead.x += short_way * ray.tangent.dx;
+  ahead.lambda += short_way * ray.tangent.dlambda;
   for (const Limit& limit : study.until) {
     const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
     const double here = evaluator.value(*q, start) / q->scale;
@@ -170,8 +196,9 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
          {std::tuple{limit.low / q->scale, -1.0, "lower"}, {limit.high / q->scale, 1.0, "upper"}}) {
       if (!std::isfinite(edge)) continue;
       const double beyond = outwards * (here - edge);
-      const double rounding = 1e-12 * std::max(1.0, std::abs(edge));
-      if (beyond < -rounding || (beyond <= rounding && outwards * change <= 0)) continue;
+      const double rounding = off_curve_rate * std::max(1.0, std::abs(edge));
+      if (beyond < -rounding || (beyond <= rounding && outwards * change <= no_change(here)))
+        continue;
       curve.stop =
           beyond > rounding ? continuation::StopReason::bad_start : continuation::StopReason::event;
       curve.stop_detail = beyond > rounding ? outside_text(limit, q->scale * here)

@@ -5,6 +5,7 @@
 #include "limits.hpp"
 #include "resting.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "within_limits.hpp"
 
 namespace springfold::analysis {
 
@@ -49,10 +50,9 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   start.x = from.x;
   start.lambda = from.lambda;
   start.piece = from.piece;
+  const Following with{t.problem, t.study, t.evaluator, t.quantities};
   const auto follow = [&](const continuation::Ray& ray, double sign) {
-    auto ended = ended_at_start(t.study, t.evaluator, t.quantities, start, ray);
-    return ended ? *ended
-                 : trace(t.problem, from.x, from.lambda, ray, events, options, goes_on(sign));
+    return trace_within_limits(with, start, ray, events, options, goes_on(sign));
   };
   StableStretch stretch;
   BranchSource source;

@@ -7,13 +7,16 @@
 #include "branch_rows.hpp"
 #include "branches.hpp"
 #include "closure_rank.hpp"
+#include "degenerate_state.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "run_traced.hpp"
-#include "springfold/continuation/davidenko.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "stability_changes.hpp"
+#include "start.hpp"
+#include "start_hits.hpp"
 #include "start_marks.hpp"
+#include "within_limits.hpp"
 #include "zero_lengths.hpp"
 
 namespace springfold::analysis {
@@ -37,12 +40,9 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
       return !t.observer || t.observer(points, sign * point.s);
     };
   };
+  const Following with{t.problem, t.study, t.evaluator, t.quantities};
   const auto follow = [&](const continuation::Ray& ray, double sign) {
-    auto ended = ended_at_start(t.study, t.evaluator, t.quantities, start, ray);
-    if (ended) return *ended;
-    return t.study.path == Path::davidenko
-               ? davidenko(t.problem, start.x, start.lambda, ray, events, options, observe(sign))
-               : trace(t.problem, start.x, start.lambda, ray, events, options, observe(sign));
+    return trace_within_limits(with, start, ray, events, options, observe(sign));
   };
   BranchSource source;
   source.forward = follow(rays.rays[0], 1);
@@ -51,6 +51,8 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
                         : follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
+  if (t.study.path == Path::arc_length && source.forward.stop != continuation::StopReason::closed)
+    source.at_start = hits_at_start(with, source);
   end_at_zero_lengths(t, source);
   add_stability_changes(t, source);
   add_between(t, source);
@@ -109,7 +111,11 @@ std::string situation_of(const Tracing& t, const CurvePoint& start,
       !rays.rays.empty() && std::all_of(rays.rays.begin(), rays.rays.end(), [](const auto& ray) {
         return std::abs(ray.tangent.dlambda) < 1e-6;
       });
-  return turns && rays.rays.size() == 2 ? "a limit point" : "";
+  if (!turns || rays.rays.size() != 2) return "";
+  // In another unit of lambda every curve is steep: at a limit point the stiffness is singular.
+  CurvePoint point = start;
+  count_negative(t.problem, point);
+  return !t.problem.symmetric() || is_degenerate(t.problem, point) ? "a limit point" : "";
 }
 
 void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "barriers.hpp"
+#include "degenerate_state.hpp"
 #include "limits.hpp"
 #include "springfold/core/number_text.hpp"
 #include "stretches.hpp"
@@ -30,9 +31,14 @@ class Explorer {
 
   void explore(const CurvePoint& start) {
     TransitionReport& found = report_.transitions.emplace();
-    if (!is_stable(t_, start)) {
+    const bool is_resting =
+        t_.evaluator.resting_index_of(QuantityDefinition::Kind::index, start).has_value();
+    const bool is_untold = !is_resting && is_degenerate(t_.problem, start);
+    if (is_untold || !is_stable(t_, start)) {
       report_.refusals.push_back(
-          "the start is not stable: the states are looked for from a stable one on");
+          is_untold ? "the start is a limit or branch point within rounding: the states are looked "
+                      "for from a stable one on, try a start beside it"
+                    : "the start is not stable: the states are looked for from a stable one on");
       return;
     }
     stretches_.follow({start.x, start.lambda, start.piece});

@@ -59,13 +59,16 @@ Extremes extremes_of(const std::vector<Sample>& samples, std::size_t column) {
 }
 
 std::string search_words(const StudyResult& result) {
-  int stable = 0;
+  int stable = 0, untold = 0;
   const auto column = column_of(result, "index");
-  for (const auto& e : result.equilibria->list)
+  for (const auto& e : result.equilibria->list) {
     if (column && e.sample.values[*column] == 0) ++stable;
+    if (column && std::isnan(e.sample.values[*column])) ++untold;
+  }
   const auto count = static_cast<int>(result.equilibria->list.size());
   return "at least " + std::to_string(count) + (count == 1 ? " equilibrium" : " equilibria") +
-         ", " + std::to_string(stable) + " of them stable";
+         ", " + std::to_string(stable) + " of them stable" +
+         (untold > 0 ? ", " + std::to_string(untold) + " at a limit or branch point" : "");
 }
 
 /// Which of the rows are held, and whether they are stable there.

@@ -93,7 +93,7 @@ TEST_F(DiagramProgram, FollowsAllWaysFromAStartOnABranchPoint) {
   const Outcome outcome = run(column("load = [\"-(3 - sqrt(5))/2\", 0]\n"));
   EXPECT_EQ(outcome.code, all_done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("the start is a branch point: 4 ways"));
-  EXPECT_THAT(outcome.out, HasSubstr("begins at BP1, the start"));
+  EXPECT_THAT(outcome.out, HasSubstr("begins at BP1 of branch 1"));
 }
 
 TEST_F(DiagramProgram, ChecksACaseAndSaysWhatItWillTrace) {

@@ -97,9 +97,10 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
   };
   const double begin =
       from.s > 0 ? 0 : exact_model * h;  // a start that is on the event does not meet it
-  bool at_end = false;
   for (const ZeroOf& zero : search.zeros) {
-    if (zero.touches || !(zero.at > begin)) continue;
+    // An end that is zero to rounding is a crossing only if the sign beyond is another one: see below.
+    const bool is_end = values.back() == 0 && h - zero.at <= one_place * h;
+    if (zero.touches || is_end || !(zero.at > begin)) continue;
     auto point = arc.point_once(zero.at);
     if (!point) point = interpolated_point(arc, to, zero.at);
     // The end is zero itself, and a branch point, next to which there are no points and tangents are rough: see below.
@@ -108,11 +109,10 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
       continue;
     }
     if (!point) return false;
-    at_end = at_end || zero.at == h;
     add(std::move(*point), zero.before, zero.after);
   }
   // Zero exactly at the end: a crossing if the sign beyond is another one.
-  if (values.back() == 0 && values.front() != 0 && !at_end) {
+  if (values.back() == 0 && values.front() != 0) {
     const double beyond = clear_value_beyond(value, h, noise);
     if (beyond != 0 && (beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
   }

@@ -1,0 +1,16 @@
+// What the start of a branch itself is: limit points, corners and changes of stability that lie on it. Private to
+// analysis.
+#pragma once
+
+#include "branch_rows.hpp"
+#include "within_limits.hpp"
+
+namespace springfold::analysis {
+
+/// Neither of the two curves that leave an ordinary start meets what lies on the start. A short curve through it does:
+/// from a point of the backward curve, nearer than its first special point, to beyond the start.
+/// @returns the special points at the start, s = 0, in the direction of the forward curve; marks and plain switchings,
+/// which other parts of a result tell, are left out
+std::vector<continuation::Hit> hits_at_start(const Following& with, const BranchSource& source);
+
+}  // namespace springfold::analysis

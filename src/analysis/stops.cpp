@@ -1,0 +1,42 @@
+#include "branch_rows.hpp"
+#include "closure_rank.hpp"
+#include "neutral_motions.hpp"
+#include "vanishing_lengths.hpp"
+
+namespace springfold::analysis {
+
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::StopReason;
+
+Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const Curve& curve,
+               const PathProblem& problem) {
+  if (stop.complete) return stop;
+  if (const auto length = vanishing_length(problem, curve, end)) {
+    const bool is_stuck = curve.stop == StopReason::step_too_small;
+    return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
+  }
+  if (const auto why = nears_kinematic_singularity(problem, end, other))
+    stop.reason += "; " + *why;
+  else if (const auto legs = stretched_chains(problem, end, other))
+    stop = legs->is_end_of_reach ? Stop{"end of the reach: " + legs->text, true}
+                                 : Stop{stop.reason + "; " + legs->text, false};
+  else if (const auto names = neutral_motion(problem, end))
+    stop.reason += "; nothing resists a motion of " + *names + " there";
+  return stop;
+}
+
+Stop stop_of(const Curve& curve) {
+  if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
+    return {curve.stop_detail, false};
+  Stop stop;
+  stop.reason = std::string(to_string(curve.stop));
+  const bool is_refused =
+      curve.stop == StopReason::bad_start;  // by a limit: what it says is all there is to say
+  if (!curve.stop_detail.empty())
+    stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
+  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
+  return stop;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,55 @@
+#include "within_limits.hpp"
+
+#include <algorithm>
+
+#include "springfold/continuation/davidenko.hpp"
+
+namespace springfold::analysis {
+
+using continuation::Curve;
+using continuation::CurvePoint;
+using continuation::Hit;
+using continuation::StopReason;
+
+void cut_to_range(const Study& study, const Evaluator& evaluator,
+                  const std::vector<QuantityDefinition>& quantities, Curve& curve) {
+  const bool met_outside = curve.stop == StopReason::joined && !curve.hits.empty();
+  if (curve.stop != StopReason::observer && !met_outside) return;
+  std::optional<std::string> passed;
+  if (met_outside) passed = limit_passed(study, evaluator, quantities, curve.hits.back().point);
+  while (curve.points.size() > 1) {
+    const auto beyond = limit_passed(study, evaluator, quantities, curve.points.back());
+    if (!beyond) break;
+    passed = beyond;
+    curve.points.pop_back();
+  }
+  if (!passed) return;
+  std::erase_if(curve.hits, [&](const Hit& hit) {
+    return limit_passed(study, evaluator, quantities, hit.point).has_value();
+  });
+  const double end =
+      std::max(curve.points.back().s, curve.hits.empty() ? 0.0 : curve.hits.back().point.s);
+  std::erase_if(curve.arcs, [end](const continuation::Arc& arc) { return arc.s_begin >= end; });
+  if (!curve.arcs.empty()) curve.arcs.back().s_end = std::min(curve.arcs.back().s_end, end);
+  curve.stop = StopReason::event;
+  curve.stop_detail = *passed;
+}
+
+Curve trace_within_limits(const Following& with, const CurvePoint& start,
+                          const continuation::Ray& ray,
+                          const std::vector<continuation::Event>& events,
+                          const continuation::TraceOptions& options,
+                          const continuation::StepObserver& observer) {
+  const auto& [problem, study, evaluator, quantities] = with;
+  if (auto ended = ended_at_start(study, evaluator, quantities, start, ray)) return *ended;
+  const auto observe = [&](const CurvePoint& point) {
+    return !limit_passed(study, evaluator, quantities, point) && (!observer || observer(point));
+  };
+  Curve curve = study.path == Path::davidenko
+                    ? davidenko(problem, start.x, start.lambda, ray, events, options, observe)
+                    : trace(problem, start.x, start.lambda, ray, events, options, observe);
+  cut_to_range(study, evaluator, quantities, curve);
+  return curve;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,31 @@
+// Curves that stay within the limits of a study. Private to analysis.
+#pragma once
+
+#include "limits.hpp"
+#include "springfold/continuation/trace.hpp"
+
+namespace springfold::analysis {
+
+/// A curve that begins on a limit and leads out of the range, slowly or after a bend, ends where it leaves: takes back the
+/// points beyond, if the observer stopped it there or it joined a branch there.
+void cut_to_range(const Study& study, const Evaluator& evaluator,
+                  const std::vector<QuantityDefinition>& quantities, continuation::Curve& curve);
+
+/// What a curve is followed with; the references must outlive it.
+struct Following {
+  const PathProblem& problem;
+  const Study& study;
+  const Evaluator& evaluator;
+  const std::vector<QuantityDefinition>& quantities;
+};
+
+/// The curve from the start along the ray, as the study's path says, within its limits also where it begins on one.
+/// @param events  of the study (events_of)
+continuation::Curve trace_within_limits(const Following& with,
+                                        const continuation::CurvePoint& start,
+                                        const continuation::Ray& ray,
+                                        const std::vector<continuation::Event>& events,
+                                        const continuation::TraceOptions& options,
+                                        const continuation::StepObserver& observer = {});
+
+}  // namespace springfold::analysis

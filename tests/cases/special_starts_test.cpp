@@ -1,0 +1,188 @@
+// Studies that begin on a special point, and quantities that do not change along a curve.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "case_runs.hpp"
+#include "number_text.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+using testing::SizeIs;
+
+/// Two bars of stiffness 1 from (-1, 0) and (1, 0) to an apex at height y on the axis: F(y) = 2 y (L0/L - 1) down, with
+/// L^2 = 1 + y^2 and L0 = L(h). Its limit points are at L^3 = L0.
+struct Truss {
+  double h;
+  double rest() const { return std::hypot(1, h); }
+  double force(double y) const { return 2 * y * (rest() / std::hypot(1, y) - 1); }
+  double limit_height() const { return std::sqrt(std::pow(rest(), 2.0 / 3) - 1); }
+};
+
+std::string truss_with(const Truss& of, const std::string& rest) {
+  return "[[node]]\nname = \"a\"\nat = [0, " + number(of.h) + "]\n" +
+         R"([[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[bar]]
+from = "l"
+to = "a"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "a"
+stiffness = 1
+)" + rest;
+}
+
+std::string press_under(const std::string& control, const std::string& keys) {
+  return "[[study]]\nname = \"press\"\nbody = \"a\"\ncontrol = \"" + control +
+         "\"\ndirection = [0, -1]\n" + keys;
+}
+
+/// Under the load at which y is in equilibrium, begun there.
+std::string begun_at(const Truss& of, double y) {
+  return "load = [0, " + number(-of.force(y)) + "]\nstart = { pose = [0, " + number(y) + "] }\n";
+}
+
+constexpr const char* heights_of_truss = "until = { a.y = [-1.2, 1.0] }\n";
+const Truss shallow{0.8};
+
+/// Limit points of the truss by their height.
+void expect_both_limit_points(const analysis::StudyResult& result) {
+  const double y = shallow.limit_height();
+  std::vector<double> heights;
+  for (const auto& event : result.branches.at(0).events)
+    if (event.kind == EventKind::limit_point) heights.push_back(value(result, event.row, "a.y"));
+  ASSERT_THAT(heights, SizeIs(2));
+  EXPECT_NEAR(std::max(heights[0], heights[1]), y, 1e-9);
+  EXPECT_NEAR(std::min(heights[0], heights[1]), -y, 1e-9);
+}
+
+TEST(StartOnALimitPoint, IsALimitPointOfTheCurve) {
+  expect_both_limit_points(
+      run(truss_with(shallow, press_under("load", heights_of_truss +
+                                                      begun_at(shallow, shallow.limit_height()))))
+          .of("press"));
+}
+
+TEST(StartOnALimitPoint, OfTheForceIsOneOfTheDrivenCurve) {
+  expect_both_limit_points(
+      run(truss_with(shallow, press_under("mixed", heights_of_truss +
+                                                       begun_at(shallow, shallow.limit_height()))))
+          .of("press"));
+}
+
+TEST(StartOnALimitPoint, OfAnotherStudyIsOneOfThisStudyToo) {
+  const std::string first = press_under("load", heights_of_truss);
+  std::string then =
+      press_under("mixed", heights_of_truss) + "start = { from = \"press\", at = \"LP1\" }\n";
+  then.replace(then.find("press"), 5, "then");
+  expect_both_limit_points(run(truss_with(shallow, first + then)).of("then"));
+}
+
+TEST(StartOnABranchPoint, IsWhereTheBranchThroughItLosesStabilityAndJumps) {
+  // The tall truss sways where its transverse stiffness vanishes: 1 - L0/L + L0/L^3 = 0.
+  const Truss tall{2.5};
+  double low = 1.5, high = 2.2;
+  for (int i = 0; i < 200; ++i) {
+    const double y = 0.5 * (low + high), L = std::hypot(1, y);
+    (1 - tall.rest() / L + tall.rest() / (L * L * L) > 0 ? high : low) = y;
+  }
+  const std::string keys =
+      "kind = \"snap_through\"\nuntil = { lambda = [-1, 0.3], a.y = [-4, 3], a.x "
+      "= [-2, 2] }\n";
+  const auto result =
+      run(truss_with(tall, press_under("load", keys + begun_at(tall, low)))).of("press");
+  std::vector<std::string> labels;
+  for (const auto& event : result.branches.at(0).events) {
+    if (event.kind != EventKind::branch_point) continue;
+    labels.push_back(event.label);
+    const double before = value(result, event.row - 1, "index"),
+                 after = value(result, event.row + 1, "index");
+    EXPECT_EQ(before + after, 1);
+  }
+  ASSERT_THAT(labels, SizeIs(1));
+  ASSERT_TRUE(result.snap);
+  ASSERT_THAT(result.snap->jumps, SizeIs(2));
+  const auto height = static_cast<std::size_t>(column(result, "a.y"));
+  for (const auto& jump : result.snap->jumps) {
+    EXPECT_NEAR(jump.critical.values[height], low, 1e-9);
+    // To the mirror side, under the same load.
+    EXPECT_LT(jump.landing.values[height], 0);
+    EXPECT_NEAR(tall.force(jump.landing.values[height]), tall.force(low), 1e-9);
+  }
+}
+
+TEST(StartOnACorner, IsACornerOfTheCurve) {
+  // A stop of stiffness 1 that acts above y = 0.3, where the force of the truss still rises with falling y.
+  const std::string stop = R"([[spring]]
+name = "stop"
+shape = "line"
+of = ["a", { on = "base", at = [0, 0] }, { on = "base", at = [1, 0] }]
+law = { law = "one_sided", stiffness = 1, from = 0.3, side = "above" }
+)";
+  const auto result =
+      run(truss_with(shallow,
+                     stop + press_under("load", heights_of_truss + begun_at(shallow, 0.3))))
+          .of("press");
+  int corners = 0;
+  for (const auto& event : result.branches.at(0).events) {
+    if (event.kind != EventKind::corner_limit_point) continue;
+    ++corners;
+    EXPECT_NEAR(value(result, event.row, "a.y"), 0.3, 1e-10);
+  }
+  EXPECT_EQ(corners, 1);
+}
+
+TEST(QuantityThatStaysZero, NeitherEndsNorMarksTheCurve) {
+  const auto plain = run(truss_with(shallow, press_under("load", heights_of_truss))).of("press");
+  for (const std::string& keys : {std::string("until = { a.y = [-1.2, 1.0], a.x = [0, 1] }\n"),
+                                  std::string("until = { a.y = [-1.2, 1.0], a.x = [-1, 0] }\n"),
+                                  std::string(heights_of_truss) + "extrema = [\"a.x\"]\n"}) {
+    const auto result = run(truss_with(shallow, press_under("load", keys))).of("press");
+    EXPECT_EQ(result.branches.at(0).samples.size(), plain.branches.at(0).samples.size()) << keys;
+    EXPECT_EQ(result.branches.at(0).events.size(), plain.branches.at(0).events.size()) << keys;
+  }
+}
+
+TEST(QuantityThatStaysZero, IsMarkedAtTheStartAlone) {
+  const auto result =
+      run(truss_with(shallow,
+                     press_under("load", heights_of_truss + std::string("mark = { a.x = [0] }\n"))))
+          .of("press");
+  int marks = 0;
+  for (const auto& event : result.branches.at(0).events)
+    marks += event.kind == EventKind::user_value ? 1 : 0;
+  EXPECT_EQ(marks, 1);
+}
+
+TEST(StateAtTheLimitLoad, HasNoIndexThatRoundingDecides) {
+  const double y = shallow.limit_height();
+  const std::string at = "kind = \"equilibria\"\nuntil = { a.y = [-2, 2] }\nload = [0, " +
+                         number(-shallow.force(y)) + "]\n";
+  std::string text = press_under("load", at);
+  text.erase(text.find("control"), text.find("kind") - text.find("control"));
+  const auto result = run(truss_with(shallow, text)).of("press");
+  ASSERT_TRUE(result.equilibria);
+  int at_limit = 0;
+  const auto index = static_cast<std::size_t>(column(result, "index"));
+  const auto height = static_cast<std::size_t>(column(result, "a.y"));
+  for (const auto& state : result.equilibria->list) {
+    const bool is_limit = std::abs(state.sample.values[height] - y) < 1e-6;
+    EXPECT_EQ(std::isnan(state.sample.values[index]), is_limit);
+    at_limit += is_limit ? 1 : 0;
+  }
+  EXPECT_EQ(at_limit, 1);
+}
+
+}  // namespace
+}  // namespace springfold::io
