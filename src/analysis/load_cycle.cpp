@@ -116,18 +116,9 @@ class Cycle {
 
   /// The curve's state at this lambda, between the present state and the next one.
   PathState at_level(const PathState& next, double target) {
-    const double way = next.lambda - at_.state.lambda;
-    const double part = way == 0 ? 1 : (target - at_.state.lambda) / way;
-    Vector x = at_.state.x + part * (next.x - at_.state.x);
-    Vector g;
-    Piece piece;
-    if (t_.problem.switches(x, target, g))
-      for (Index j = 0; j < g.size(); ++j)
-        piece.push_back(g[j] < 0 ? std::int8_t{-1} : std::int8_t{1});
-    const continuation::Direction only_lambda{Vector::Zero(x.size()), 1};
-    const auto solved = correct(t_.problem, t_.problem.metric(), x, target, piece, only_lambda, {});
-    is_exact_ &= converged(solved);
-    return {converged(solved) ? solved.x : x, target};
+    const auto found = state_at_level(t_.problem, at_.state, next, target);
+    is_exact_ &= found.has_value();
+    return found ? *found : next;
   }
 
   void pass(PathState next) {

@@ -1,6 +1,7 @@
 #include "path_work.hpp"
 
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,9 @@ constexpr std::array<std::pair<double, double>, 3> gauss{
 constexpr std::array difference_steps{1e-2, 2e-3, 4e-4, 8e-5};
 /// Two that differ by less, relative to what they are differences of, agree to rounding.
 constexpr double agreed = 1e-12;
+
+/// Rounding of points: the direction of a chord so short says nothing.
+constexpr double no_way = 1e-13;
 
 /// Pi and the closures times their wrenches: stationary at an equilibrium, so its derivative by lambda at
 /// fixed unknowns is that of Pi along the path.
@@ -74,12 +78,50 @@ double path_energy(const PathProblem& problem, const PathState& state) {
   return spring_energy(system, z, inputs.rho) + load_potential(system, z, inputs);
 }
 
+std::optional<PathState> state_at_level(const PathProblem& problem, const PathState& from,
+                                        const PathState& to, double target) {
+  const Vector weights = problem.metric();
+  const Direction chord{to.x - from.x, to.lambda - from.lambda};
+  const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
+  if (!(length > no_way)) return from;
+  const auto piece = piece_between(problem, from, to);
+  if (!piece) return std::nullopt;
+  const Direction border{chord.dx / length, chord.dlambda / length};
+  // Beside a limit load lambda hardly changes along the curve, and at constant lambda the state is hardly determined: the
+  // way along the chord determines it.
+  const auto state_at = [&](double part) -> std::optional<PathState> {
+    const auto solved = correct(problem, weights, from.x + part * chord.dx,
+                                from.lambda + part * chord.dlambda, *piece, border, {});
+    return converged(solved) ? std::optional<PathState>({solved.x, solved.lambda}) : std::nullopt;
+  };
+  bool is_known = true;
+  const auto missing = [&](double part) {
+    const auto state = state_at(part);
+    is_known = is_known && state;
+    return state ? state->lambda - target : 0;
+  };
+  const double before = from.lambda - target, behind = to.lambda - target;
+  if (before == 0) return from;
+  if (behind == 0) return to;
+  if ((before < 0) == (behind < 0)) return std::nullopt;
+  std::uintmax_t most = 100;
+  const auto is_close = [](double a, double b) {
+    return std::abs(a - b) <= 2 * std::numeric_limits<double>::epsilon();
+  };
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(missing, 0.0, 1.0, before, behind, is_close, most);
+  const auto state = is_known ? state_at((low + high) / 2) : std::nullopt;
+  if (!state) return std::nullopt;
+  const Direction only_lambda{Vector::Zero(state->x.size()), 1};
+  const auto solved = correct(problem, weights, state->x, target, *piece, only_lambda, {});
+  return PathState{converged(solved) ? solved.x : state->x, target};
+}
+
 std::optional<double> path_work(const PathProblem& problem, const PathState& from,
                                 const PathState& to) {
   const Vector weights = problem.metric();
   const Direction chord{to.x - from.x, to.lambda - from.lambda};
   const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
-  constexpr double no_way = 1e-13;  // rounding of points: its direction says nothing
   if (!(length > no_way)) return 0.0;
   const Direction border{chord.dx / length, chord.dlambda / length};
   const auto piece = piece_between(problem, from, to);

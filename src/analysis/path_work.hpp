@@ -16,6 +16,11 @@ struct PathState {
 /// Pi of the springs and loads at a state, dimensionless.
 double path_energy(const PathProblem& problem, const PathState& state);
 
+/// The state at this lambda between two neighbouring states of one smooth piece, also where lambda nearly turns back.
+/// @returns nothing where the level does not lie between them or the curve is not found
+std::optional<PathState> state_at_level(const PathProblem& problem, const PathState& from,
+                                        const PathState& to, double target);
+
 /// Integral between two neighbouring states of one smooth piece, by Gauss' rule of six points on the
 /// curve between them. @returns nothing where the curve is not found
 std::optional<double> path_work(const PathProblem& problem, const PathState& from,

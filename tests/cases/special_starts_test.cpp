@@ -165,6 +165,24 @@ TEST(QuantityThatStaysZero, IsMarkedAtTheStartAlone) {
   EXPECT_EQ(marks, 1);
 }
 
+TEST(LoadCycle, UpToTheLimitLoadReleasesNothing) {
+  // A level at the limit load, or as little below it as rounding tells, is reached without a jump.
+  const double limit = shallow.force(shallow.limit_height());
+  for (const double below : {0.0, 1e-12, 1e-9, 1e-6}) {
+    const auto result =
+        run(truss_with(shallow,
+                       press_under("load", heights_of_truss +
+                                               std::string("kind = \"load_cycle\"\ncycle = { "
+                                                           "levels = [") +
+                                               number(limit - below) + ", 0] }\n")))
+            .of("press");
+    ASSERT_TRUE(result.snap && result.snap->cycle) << below;
+    EXPECT_THAT(result.doubts, testing::IsEmpty()) << below;
+    EXPECT_EQ(result.snap->cycle->jumps, 0) << below;
+    EXPECT_NEAR(result.snap->cycle->gap, 0, 1e-12) << below;
+  }
+}
+
 TEST(StateAtTheLimitLoad, HasNoIndexThatRoundingDecides) {
   const double y = shallow.limit_height();
   const std::string at = "kind = \"equilibria\"\nuntil = { a.y = [-2, 2] }\nload = [0, " +
