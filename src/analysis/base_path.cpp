@@ -160,7 +160,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
       forward_only ? source.forward_stop : backward_end.value_or(stop_of(backward));
   if (forward.stop != continuation::StopReason::closed)
     source.at_start = hits_at_start(with, source);
-  const std::vector<Hit> at_start = source.at_start;
+  const std::vector<Hit> on_start = source.at_start;
   std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
   label_events(rows, 0, member.quantities());
   path.branch = std::move(rows.front().branch);
@@ -168,7 +168,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     const double s = path.branch.samples[event.row].values.front();
     const Hit* hit = s < 0   ? hit_at(backward, -s)
                      : s > 0 ? hit_at(forward, s)
-                             : hit_at_start(at_start, event.kind);
+                             : hit_at_start(on_start, event.kind);
     if (hit != nullptr && event.kind != EventKind::end_of_range)
       path.points.push_back({event.label, event.kind, event.row, *hit});
   }

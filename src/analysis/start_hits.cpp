@@ -15,7 +15,7 @@ using continuation::Hit;
 using continuation::HitKind;
 
 /// Special points are located to 1e-10: one so near to the start, in the metric, is the start.
-constexpr double at_start = 1e-9;
+constexpr double same_as_start = 1e-9;
 /// What is so small beside its values at the next points may be zero at the start.
 constexpr double perhaps_zero = 1e-6;
 
@@ -39,7 +39,7 @@ bool may_be_special(const Following& t, const Curve& backward, const Curve& forw
     return true;
   Vector g;
   if (t.problem.switches(start.x, start.lambda, g) && g.size() > 0 &&
-      g.cwiseAbs().minCoeff() <= at_start)
+      g.cwiseAbs().minCoeff() <= same_as_start)
     return true;
   return std::any_of(events.begin(), events.end(), [&](const continuation::Event& event) {
     const double beside = std::max(std::abs(event.value(backward.points[1])),
@@ -72,13 +72,14 @@ std::optional<CurvePoint> point_before(const Following& t, const Curve& backward
 }
 
 bool lies_at(const CurvePoint& start, const Hit& hit) {
-  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda) <= at_start;
+  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda) <=
+         same_as_start;
 }
 
 /// The curves may have it already, a little behind the start.
 bool is_met_by(const Curve& curve, const Hit& hit) {
   return !curve.hits.empty() && curve.hits.front().kind == hit.kind &&
-         curve.hits.front().tag == hit.tag && curve.hits.front().point.s <= 2 * at_start;
+         curve.hits.front().tag == hit.tag && curve.hits.front().point.s <= 2 * same_as_start;
 }
 
 /// Nothing but a spring that begins or ends to act.

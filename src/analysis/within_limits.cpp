@@ -40,15 +40,16 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
                           const std::vector<continuation::Event>& events,
                           const continuation::TraceOptions& options,
                           const continuation::StepObserver& observer) {
-  const auto& [problem, study, evaluator, quantities] = with;
-  if (auto ended = ended_at_start(study, evaluator, quantities, start, ray)) return *ended;
+  if (auto ended = ended_at_start(with.study, with.evaluator, with.quantities, start, ray))
+    return *ended;
   const auto observe = [&](const CurvePoint& point) {
-    return !limit_passed(study, evaluator, quantities, point) && (!observer || observer(point));
+    return !limit_passed(with.study, with.evaluator, with.quantities, point) &&
+           (!observer || observer(point));
   };
-  Curve curve = study.path == Path::davidenko
-                    ? davidenko(problem, start.x, start.lambda, ray, events, options, observe)
-                    : trace(problem, start.x, start.lambda, ray, events, options, observe);
-  cut_to_range(study, evaluator, quantities, curve);
+  Curve curve = with.study.path == Path::davidenko
+                    ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
+                    : trace(with.problem, start.x, start.lambda, ray, events, options, observe);
+  cut_to_range(with.study, with.evaluator, with.quantities, curve);
   return curve;
 }
 
