@@ -60,7 +60,7 @@ continuation::StateFunction column_rate_of(const CaseCurves& curves, const Curve
                                            const std::string& column) {
   return rate_of(curves, at.piece, at.tangent,
                  [column](const Member& member, const CurvePoint& point) {
-                   return member.evaluator().rate(*member.quantity(column), point);
+                   return member.evaluator().rate(*member.quantity(column), point).value;
                  });
 }
 

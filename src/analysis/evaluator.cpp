@@ -235,11 +235,6 @@ std::vector<double> Evaluator::rates(const std::vector<QuantityDefinition>& quan
   return rates;
 }
 
-double Evaluator::rate(const QuantityDefinition& quantity,
-                       const continuation::CurvePoint& point) const {
-  return rates({quantity}, point).front() / quantity.scale;
-}
-
 RoundedRate Evaluator::force_rate(const continuation::CurvePoint& point) const {
   if (!is_same(force_rate_.point, point)) {
     force_rate_.rate = computed_force_rate(point);

@@ -47,11 +47,6 @@ double rounding_of(const QuantityDefinition& quantity, double value) {
   return is_set ? own : std::max(own, off_curve_rate * std::abs(quantity.scale));
 }
 
-/// What rounding may do to a rate along the curve, of how fast the mechanism moves there at all.
-double rounding_of_rate(const PathProblem& problem, const continuation::Direction& tangent) {
-  return off_curve_rate * std::sqrt(tangent.dx.dot(problem.metric().cwiseProduct(tangent.dx)));
-}
-
 /// Bodies whose rotation is prescribed in part are described by rotation vectors; and limits on a
 /// rotation vector have no meaning beyond a whole turn. The branch ends before, and says so.
 void add_whole_turns(const Study& study, const Evaluator& evaluator,
@@ -136,11 +131,11 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
     assert(q != nullptr);
     events.push_back({extremum_name(name),
                       [&evaluator, definition = *q](const continuation::CurvePoint& point) {
-                        return evaluator.rate(definition, point);
+                        return evaluator.rate(definition, point).value;
                       },
                       continuation::EventAction::record, column_extremum,
-                      [&evaluator](const continuation::CurvePoint& point) {
-                        return rounding_of_rate(evaluator.problem(), point.tangent);
+                      [&evaluator, definition = *q](const continuation::CurvePoint& point) {
+                        return evaluator.rate(definition, point).noise;
                       }});
   }
   return events;

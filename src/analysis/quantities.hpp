@@ -110,9 +110,10 @@ class Evaluator {
                             const continuation::CurvePoint& point,
                             const Turns* turns = nullptr) const;
 
+  /// Of one column, in the units of the computation: from the tangent where the column is linear in it, otherwise by
+  /// differences along the tangent, which tell how far they can be trusted.
+  RoundedRate rate(const QuantityDefinition& quantity, const continuation::CurvePoint& point) const;
   /// d(force)/ds along the branch, dimensionless.
-  /// Of one column, in the units of the computation.
-  double rate(const QuantityDefinition& quantity, const continuation::CurvePoint& point) const;
   RoundedRate force_rate(const continuation::CurvePoint& point) const;
   /// Does the force turn only where lambda does, which the engine has judged?
   bool force_is_lambda() const { return control_ == ControlMode::load; }
@@ -164,6 +165,10 @@ class Evaluator {
   const Assembled* assemble_densely(const continuation::CurvePoint& point) const;
   const Assembled* assemble_in_stages(const continuation::CurvePoint& point) const;
   RoundedRate computed_force_rate(const continuation::CurvePoint& point) const;
+  RoundedRate computed_rate(const QuantityDefinition& quantity,
+                            const continuation::CurvePoint& point) const;
+  RoundedRate rate_by_differences(const QuantityDefinition& quantity,
+                                  const continuation::CurvePoint& point) const;
   double force_rate_in_stages(const continuation::CurvePoint& point, double& size) const;
   std::vector<Index> closure_ranks_in_stages() const;
   /// What the quantities of a row have in common.
@@ -214,6 +219,8 @@ class Evaluator {
     RoundedRate rate{};
   };
   mutable KnownRate force_rate_{};
+  mutable KnownRate column_rate_{};  ///< of the column that was asked for last
+  mutable std::string rated_column_{};
 };
 
 }  // namespace springfold::analysis

@@ -102,13 +102,6 @@ void check_start(const Study& study, const model::Mechanism& mechanism, const mo
         std::to_string(d) + "), the mechanism has " + std::to_string(commands));
 }
 
-/// Is the quantity's rate along the curve known exactly? Extrema are zeros of it (Evaluator::rates).
-bool has_exact_rate(const Study& study, const QuantityDefinition& q) {
-  if (q.kind == QuantityDefinition::Kind::command) return study.control != ControlMode::parameter;
-  return q.kind == QuantityDefinition::Kind::unknown ||
-         q.kind == QuantityDefinition::Kind::deflection;
-}
-
 void check_quantities(const Study& study, const model::Mechanism& mechanism,
                       std::vector<std::string>& problems) {
   const auto list = quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none);
@@ -134,11 +127,6 @@ void check_quantities(const Study& study, const model::Mechanism& mechanism,
                               ? "\" only grows"
                               : "\" has its extrema at limit points, which are told anyway") +
                          ", need other quantities");
-    else if (const QuantityDefinition* q = find_quantity(list, name);
-             q != nullptr && is_continuous(*q) && !has_exact_rate(study, *q))
-      problems.push_back("extrema: the rate of \"" + name +
-                         "\" along the branch is not known exactly, need a coordinate of a body or "
-                         "joint, a wrench, a command or the deflection");
   }
   for (const Mark& mark : study.marks) {
     check("mark", mark.quantity);
