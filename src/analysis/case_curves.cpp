@@ -58,10 +58,7 @@ void Member::forget_columns() {
 }
 
 const QuantityDefinition* Member::quantity(const std::string& name) const {
-  const auto& list = quantities();
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const auto& q) { return q.name == name; });
-  return found == list.end() ? nullptr : &*found;
+  return find_quantity(quantities(), name);
 }
 
 Study as_curve(Study curve) {

@@ -28,12 +28,12 @@ Box box_of(const PathProblem& problem, const Study& study,
     if (angles[k] || (!system.is_wrench[k] && !system.is_length[k]))
       box.side[i] = 2 * std::numbers::pi;
   }
-  for (const Limit& limit : study.search.box)
-    for (const QuantityDefinition& q : quantities)
-      if (q.name == limit.quantity && q.kind == QuantityDefinition::Kind::unknown) {
-        box.middle[q.entry] = (limit.low + limit.high) / 2 / q.scale;
-        box.side[q.entry] = (limit.high - limit.low) / q.scale;
-      }
+  for (const Limit& limit : study.search.box) {
+    const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
+    if (q == nullptr || q->kind != QuantityDefinition::Kind::unknown) continue;
+    box.middle[q->entry] = (limit.low + limit.high) / 2 / q->scale;
+    box.side[q->entry] = (limit.high - limit.low) / q->scale;
+  }
   return box;
 }
 

@@ -238,11 +238,9 @@ void check_search(const Study& study, const model::Mechanism& mechanism,
         "start.solve: \"wrench\" holds the body, so that there is one equilibrium; use \"pose\"");
   const auto list = quantities_of(study, statics::prepare(mechanism), {}, 1, Unit::none);
   for (const Limit& limit : s.box) {
-    const auto q = std::find_if(list.begin(), list.end(), [&](const QuantityDefinition& d) {
-      return d.name == limit.quantity;
-    });
+    const QuantityDefinition* q = find_quantity(list, limit.quantity);
     const std::string key = "search.box." + limit.quantity;
-    if (q == list.end())
+    if (q == nullptr)
       problems.push_back(key + ": no quantity \"" + limit.quantity + "\" in this study");
     else if (q->kind != QuantityDefinition::Kind::unknown || q->unit == Unit::force ||
              q->unit == Unit::moment)

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "jump_moments.hpp"
 #include "report_lists.hpp"
 #include "result_access.hpp"
-#include "springfold/analysis/snap.hpp"
 #include "springfold/io/postures.hpp"
 #include "springfold/io/shown_text.hpp"
 
@@ -278,11 +278,7 @@ FilmOutcome jump(const RowScenes& scenes, const StudyResult& result, const UnitL
       .diagram = {.x_name = "length of way",
                   .y_name = "energy" + (energy.empty() ? "" : " [" + shown_in_line(energy) + "]")}};
   constexpr std::size_t held = 7;
-  auto moments = found->motion;
-  // It only comes near its landing within a finite time: the last picture is the landing itself.
-  if (!found->landing.values.empty())
-    moments.push_back({moments.back().time, moments.back().way, found->landing});
-  for (const analysis::SnapMoment& moment : moments) {
+  for (const analysis::SnapMoment& moment : moments_to_landing(*found)) {
     film.diagram.points.push_back({.x = moment.way, .y = moment.state.energy});
     const analysis::Sample row{.values = moment.state.values, .piece = moment.state.piece};
     auto panel = scenes.panel_of(row, wish.jump + " from " + found->from, units);

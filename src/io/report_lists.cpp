@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jump_moments.hpp"
 #include "quantity_sizes.hpp"
 #include "report_data.hpp"
 #include "result_access.hpp"
-#include "springfold/analysis/snap.hpp"
 #include "springfold/io/shown_text.hpp"
 #include "text.hpp"
 #include "transition_access.hpp"
@@ -97,10 +97,8 @@ void add_jumps(const StudyResult& result, const UnitLabels& units, PageLists& pa
                   .file = jump.motion.empty() ? "jumps.csv" : "motions.csv",
                   .form = RowsForm::jump};
     if (jump.motion.empty()) list.rows.push_back(keep(jump.critical, page));
-    for (const analysis::SnapMoment& moment : jump.motion)
+    for (const analysis::SnapMoment& moment : moments_to_landing(jump))
       list.rows.push_back(keep(moment.state, page));
-    // A motion only comes near its landing within a finite time.
-    if (!jump.landing.values.empty()) list.rows.push_back(keep(jump.landing, page));
     const std::string towards = jump.towards.empty() ? "" : ", towards " + jump.towards;
     list.points.push_back({jump.label, "J", "jumps from " + jump.from + towards,
                            sentence_of(result, jump, units), list.rows.size() - 1});
