@@ -83,6 +83,7 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
   const auto value = [&](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
     if (ds == h) return values.back();
+    if (const CurvePoint* straight = arc.straight_point(ds)) return event.value(*straight);
     auto point = event.of_place ? arc.exact_place(ds) : arc.exact_point(ds);
     if (!point) point = arc.point_once(ds);
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;

@@ -21,6 +21,9 @@ Direction difference(const Direction& a, const Direction& b) {
   return {a.dx - b.dx, a.dlambda - b.dlambda};
 }
 
+/// Shares of a step at which a model of it is compared with the curve: between its nodes, and not evenly.
+constexpr std::array places_of_comparison{0.07, 0.4, 0.6, 0.93};
+
 double size_of(const CurvePoint& p) {
   return std::max(p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda));
 }
@@ -83,7 +86,7 @@ void WatchedStep::settle_model() const {
   if (!go_through()) return;
   const double scale = size_of(from_);
   int compared = 0;
-  for (const double share : {0.07, 0.4, 0.6, 0.93}) {
+  for (const double share : places_of_comparison) {
     const auto error = error_at(share * length_);
     if (!error) continue;
     error_.place = std::max(error_.place, error->place);
@@ -123,6 +126,65 @@ std::optional<WatchedStep::ModelError> WatchedStep::error_at(double ds) const {
   if (!place->factors.solve(step.data())) return std::nullopt;
   return ModelError{length_of(walker_, {step.head(n), step[n]}),
                     length_of(walker_, difference(tangent, expected.tangent))};
+}
+
+/// Are the samples' ways from the first one, and their tangents, one direction to rounding?
+bool WatchedStep::samples_lie_straight() const {
+  const Direction& line = from_.tangent;
+  const double off = refined_step * std::max(1.0, size_of(from_));
+  for (std::size_t i = 1; i < sample_count_; ++i) {
+    const CurvePoint& p = *samples_[i];
+    const double along = p.s - from_.s;
+    Direction& d = walker_.memory->direction;
+    d.dx = p.tangent.dx - line.dx;
+    d.dlambda = p.tangent.dlambda - line.dlambda;
+    if (!(length_of(walker_, d) <= refined_step)) return false;
+    d.dx = p.x - from_.x - along * line.dx;
+    d.dlambda = p.lambda - from_.lambda - along * line.dlambda;
+    if (!(length_of(walker_, d) <= off)) return false;
+  }
+  return sample_count_ > 2;
+}
+
+/// Newton's first correction of places between the samples, with the middle's factors, is rounding: then the line is the
+/// curve all along the step, and the line's direction its tangent.
+bool WatchedStep::is_straight() const {
+  if (!samples_lie_straight()) return false;
+  WorkingMemory& memory = *walker_.memory;
+  const CurvePoint& middle = *samples_[sample_count_ / 2];
+  Place* const place = place_at(walker_.problem, memory, middle.x, middle.lambda, middle.piece);
+  if (!place || !place->factors.set_border(walker_.weights, from_.tangent)) return false;
+  const Index n = from_.x.size();
+  on_line_ = from_;
+  on_line_.negative.reset();
+  Direction& d = memory.direction;
+  for (const double share : places_of_comparison) {
+    put_on_line(share * length_);
+    if (!walker_.problem.residual(on_line_.x, on_line_.lambda, on_line_.piece, memory.F))
+      return false;
+    Vector& step = memory.step;
+    step.resize(n + 1);
+    step.head(n) = memory.F;
+    step[n] = 0;
+    if (!place->factors.solve(step.data())) return false;
+    d.dx = step.head(n);
+    d.dlambda = step[n];
+    if (!is_exact(length_of(walker_, d), size_of(from_))) return false;
+  }
+  return true;
+}
+
+void WatchedStep::put_on_line(double ds) const {
+  on_line_.x = from_.x + ds * from_.tangent.dx;
+  on_line_.lambda = from_.lambda + ds * from_.tangent.dlambda;
+  on_line_.s = from_.s + ds;
+}
+
+const CurvePoint* WatchedStep::straight_point(double ds) const {
+  if (!straight_) straight_ = is_straight();
+  if (!*straight_ || ds < 0 || ds > length_) return nullptr;
+  put_on_line(ds);
+  return &on_line_;
 }
 
 /// Does the model's own point satisfy F as corrected ones do?

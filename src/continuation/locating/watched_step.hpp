@@ -45,6 +45,9 @@ class WatchedStep {
   /// A point between the ends for whoever asks once, corrected from the model as far as it is known.
   /// @returns nothing also where the tangent found is not that of the model: another branch's
   std::optional<CurvePoint> point_once(double ds) const;
+  /// The point there of a straight step, with the step's one tangent and nothing counted; valid until the next one is
+  /// asked for. @returns nullptr where the step is not seen to be straight, and outside of it
+  const CurvePoint* straight_point(double ds) const;
   /// The model's own point, with the tangent there: where the model is exact and satisfies F as corrected points do.
   std::optional<CurvePoint> exact_point(double ds) const;
   /// The same with the model's tangent, and nothing counted.
@@ -75,6 +78,9 @@ class WatchedStep {
   Place* place_on_model(const CurvePoint& point) const;
   bool is_on_curve(const CurvePoint& point, const Vector& F) const;
   void settle_model() const;
+  bool samples_lie_straight() const;
+  bool is_straight() const;
+  void put_on_line(double ds) const;
 
   /// How far corrected points are from the model, and their tangents from its own.
   struct ModelError {
@@ -87,6 +93,8 @@ class WatchedStep {
   mutable ArcModel model_{};
   mutable ModelError error_{};
   mutable bool settled_ = false, exact_ = false;
+  mutable std::optional<bool> straight_{};  ///< once it was asked
+  mutable CurvePoint on_line_{};
   mutable std::map<double, std::optional<CurvePoint>> points_{};
   mutable bool passing_ = false;
 };

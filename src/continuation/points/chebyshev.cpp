@@ -65,31 +65,47 @@ double Interpolant::first_slope(double t) const {
       *this, t, [&](int i) { return values(0, i); }, 0.0);
 }
 
-std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
-                                       double a, double b) {
+namespace {
+
+/// Samples at the Chebyshev points, from b down to a.
+/// @param put  puts the value at a place into the column with this number; false where there is none
+template <class Put>
+std::optional<Interpolant> sampled(double a, double b, const Put& put) {
   constexpr int last = Interpolant::samples - 1;
-  Interpolant p{.a = a, .b = b};
+  std::optional<Interpolant> p(Interpolant{.a = a, .b = b});
   for (int i = 0; i <= last; ++i) {
     const double c = std::cos(std::numbers::pi * i / last);
     const double t = i == 0 ? b : i == last ? a : 0.5 * (a + b) + 0.5 * (b - a) * c;
-    const auto value = f(t);
-    if (!value || !value->allFinite()) return std::nullopt;
-    if (i == 0) p.values.resize(value->size(), last + 1);
-    p.values.col(i) = *value;
+    if (!put(t, i, p->values)) return std::nullopt;
     const auto k = static_cast<std::size_t>(i);
-    p.at[k] = t;
-    p.barycentric[k] = (i % 2 ? -1.0 : 1.0) * (i == 0 || i == last ? 0.5 : 1.0);
+    p->at[k] = t;
+    p->barycentric[k] = (i % 2 ? -1.0 : 1.0) * (i == 0 || i == last ? 0.5 : 1.0);
   }
   return p;
 }
 
+}  // namespace
+
+std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
+                                       double a, double b) {
+  return sampled(a, b, [&](double t, int i, Matrix& values) {
+    const auto value = f(t);
+    if (!value || !value->allFinite()) return false;
+    if (i == 0) values.resize(value->size(), Interpolant::samples);
+    values.col(i) = *value;
+    return true;
+  });
+}
+
 std::optional<Interpolant> interpolate_value(const std::function<std::optional<double>(double)>& f,
                                              double a, double b) {
-  const auto one = [&](double t) -> std::optional<Vector> {
+  return sampled(a, b, [&](double t, int i, Matrix& values) {
     const auto value = f(t);
-    return value ? std::optional<Vector>(Vector::Constant(1, *value)) : std::nullopt;
-  };
-  return interpolate(one, a, b);
+    if (!value || !std::isfinite(*value)) return false;
+    if (i == 0) values.resize(1, Interpolant::samples);
+    values(0, i) = *value;
+    return true;
+  });
 }
 
 std::array<double, 2> Interpolant::checks() const {
