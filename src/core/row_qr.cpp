@@ -6,15 +6,15 @@
 
 namespace springfold {
 
-void RowQr::compute(const Matrix& A) {
-  const Index m = A.rows(), n = A.cols();
+void RowQr::compute(const Matrix& A, Index dependent) {
+  const Index m = A.rows(), n = A.cols(), rank = m - dependent;
   factors_ = A.transpose();
-  tau_.setZero(m);
+  tau_.setZero(rank);
   order_.resize(static_cast<std::size_t>(m));
   for (Index k = 0; k < m; ++k) order_[static_cast<std::size_t>(k)] = k;
-  independent_ = m <= n;
+  independent_ = rank <= n;
   double largest = 0;
-  for (Index k = 0; independent_ && k < m; ++k) {
+  for (Index k = 0; independent_ && k < rank; ++k) {
     Index pivot = k;
     double longest = -1;
     for (Index j = k; j < m; ++j) {
@@ -51,7 +51,7 @@ void RowQr::reflect(Index k, double* x) const {
 }
 
 Matrix RowQr::kernel() const {
-  const Index n = factors_.rows(), m = factors_.cols();
+  const Index n = factors_.rows(), m = tau_.size();
   Matrix Z = Matrix::Zero(n, n - m);
   for (Index j = 0; j < n - m; ++j) {
     Z(m + j, j) = 1;
@@ -61,7 +61,7 @@ Matrix RowQr::kernel() const {
 }
 
 Vector RowQr::least_norm(const Vector& b) const {
-  const Index m = factors_.cols();
+  const Index m = tau_.size();
   Vector x = Vector::Zero(factors_.rows());
   for (Index k = 0; k < m; ++k) {
     double sum = b[order_[static_cast<std::size_t>(k)]];
@@ -73,16 +73,38 @@ Vector RowQr::least_norm(const Vector& b) const {
 }
 
 Vector RowQr::multipliers(const Vector& g) const {
-  const Index m = factors_.cols();
+  const Index m = tau_.size();
   Vector y = g;
   for (Index k = 0; k < m; ++k) reflect(k, y.data());
-  Vector mu(m);
+  Vector mu = Vector::Zero(factors_.cols());
   for (Index k = m; k-- > 0;) {
     y[k] /= factors_(k, k);
     for (Index i = 0; i < k; ++i) y[i] -= factors_(i, k) * y[k];
     mu[order_[static_cast<std::size_t>(k)]] = y[k];
   }
   return mu;
+}
+
+/// A row left out is a combination of the others, by R alone; what rounding leaves of orthogonality the second pass takes.
+Matrix RowQr::relations() const {
+  const Index rank = tau_.size(), m = factors_.cols();
+  Matrix N = Matrix::Zero(m, m - rank);
+  Vector y(rank);
+  for (Index j = 0; j < m - rank; ++j) {
+    auto mu = N.col(j);
+    y = factors_.col(rank + j).head(rank);
+    for (Index k = rank; k-- > 0;) {
+      y[k] /= factors_(k, k);
+      for (Index i = 0; i < k; ++i) y[i] -= factors_(i, k) * y[k];
+      mu[order_[static_cast<std::size_t>(k)]] = -y[k];
+    }
+    mu[order_[static_cast<std::size_t>(rank + j)]] = 1;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Index i = 0; i < j; ++i) mu -= N.col(i).dot(mu) * N.col(i);
+      mu.normalize();
+    }
+  }
+  return N;
 }
 
 }  // namespace springfold

@@ -52,6 +52,35 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RowQrOfRandomRows,
                                          std::pair<Index, Index>{7, 7},
                                          std::pair<Index, Index>{11, 30}));
 
+class RowQrOfDependentRows : public testing::TestWithParam<std::pair<Index, Index>> {
+ protected:
+  static constexpr Index columns = 12;
+  Index rank = GetParam().first, dependent = GetParam().second;
+  Matrix A = few_rows(rank + dependent, rank, 8) * few_rows(rank, columns, 9);
+  RowQr rows{A, dependent};
+};
+
+TEST_P(RowQrOfDependentRows, HasOrthonormalRelationsBetweenThem) {
+  ASSERT_TRUE(rows.independent());
+  const Matrix N = rows.relations();
+  ASSERT_EQ(N.cols(), dependent);
+  EXPECT_LT((A.transpose() * N).norm(), to_rounding * A.norm());
+  EXPECT_LT((N.transpose() * N - Matrix::Identity(dependent, dependent)).norm(), to_rounding);
+}
+
+TEST_P(RowQrOfDependentRows, GivesTheShortestSolutionOfWhatTheyCanGive) {
+  const Vector b = A * few_rows(columns, 1, 10), x = rows.least_norm(b);
+  EXPECT_LT((A * x - b).norm(), to_rounding * b.norm());
+  EXPECT_LT((rows.kernel().transpose() * x).norm(), to_rounding * x.norm());
+  EXPECT_LT((A * rows.kernel()).norm(), to_rounding * A.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(RanksAndRowsLeftOut, RowQrOfDependentRows,
+                         testing::Values(std::pair<Index, Index>{1, 1},
+                                         std::pair<Index, Index>{5, 1},
+                                         std::pair<Index, Index>{7, 3},
+                                         std::pair<Index, Index>{12, 2}));
+
 TEST(RowQr, SaysWhereRowsDependOnEachOther) {
   Matrix A = few_rows(3, 6, 6);
   A.row(2) = A.row(0) - 2 * A.row(1);
