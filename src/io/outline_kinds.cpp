@@ -28,7 +28,7 @@ std::string number_words(double value) { return rounded(value, word_digits); }
 
 /// "0.02701"; 0 where it is rounding beside what the run has of this quantity.
 std::string value_words(const StudyResult& result, std::size_t column, double value) {
-  return number_words(shown_in(quantity_sizes(result), column, value));
+  return number_words(shown_against(value, quantity_size(result, column)));
 }
 
 /// "0.02701 N"; the number alone where there is no unit.

@@ -49,14 +49,20 @@ double usual_size(const std::vector<const std::vector<double>*>& rows, std::size
   return *at;
 }
 
-}  // namespace
+bool is_mechanical(Unit unit) {
+  return unit == Unit::length || unit == Unit::force || unit == Unit::moment ||
+         unit == Unit::energy;
+}
 
-std::vector<double> quantity_sizes(const StudyResult& result) {
+/// Sizes of the columns that are wanted. @param counts  does a column count for one of them?
+template <class Counts>
+std::vector<double> sizes_of(const StudyResult& result, const Counts& counts) {
   const auto rows = rows_of(result);
   std::vector<double> usual(result.quantities.size());
-  for (std::size_t i = 0; i < usual.size(); ++i) usual[i] = usual_size(rows, i);
   UnitSizes sizes;
   for (std::size_t i = 0; i < usual.size(); ++i) {
+    if (!counts(i)) continue;
+    usual[i] = usual_size(rows, i);
     double& size = sizes[unit_of(result, i)];
     size = std::max(size, usual[i]);
   }
@@ -73,6 +79,22 @@ std::vector<double> quantity_sizes(const StudyResult& result) {
   for (std::size_t i = 0; i < usual.size(); ++i)
     if (unit_of(result, i) != Unit::none) usual[i] = sizes[unit_of(result, i)];
   return usual;
+}
+
+}  // namespace
+
+std::vector<double> quantity_sizes(const StudyResult& result) {
+  return sizes_of(result, [](std::size_t) { return true; });
+}
+
+double quantity_size(const StudyResult& result, std::size_t column) {
+  const Unit wanted = unit_of(result, column);
+  const auto counts = [&](std::size_t i) {
+    const Unit unit = unit_of(result, i);
+    return i == column || (unit == wanted && unit != Unit::none) ||
+           (is_mechanical(unit) && is_mechanical(wanted));
+  };
+  return sizes_of(result, counts)[column];
 }
 
 double shown_in(const std::vector<double>& sizes, std::size_t column, double value) {

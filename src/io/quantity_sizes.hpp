@@ -12,7 +12,10 @@ namespace springfold::io {
 /// of (a moment: force times length; an angle: 1 rad). Against it, shown_against tells what is zero.
 std::vector<double> quantity_sizes(const analysis::StudyResult& result);
 
-/// The same for a result whose sizes are known; the value itself where there are none.
+/// Of one quantity alone: other columns are looked at only where they count for it.
+double quantity_size(const analysis::StudyResult& result, std::size_t column);
+
+/// The value against the sizes of a result; the value itself where there are none.
 double shown_in(const std::vector<double>& sizes, std::size_t column, double value);
 
 }  // namespace springfold::io

@@ -42,10 +42,10 @@ std::vector<std::string> command_names(const StudyResult& result) {
 }
 
 std::string named_values(std::string_view label, const std::vector<std::string>& names,
-                         const StudyResult& result, const UnitLabels& units) {
+                         const StudyResult& result, const std::vector<double>& sizes,
+                         const UnitLabels& units) {
   std::string text;
   const Branch& first = result.branches.front();
-  const std::vector<double> sizes = quantity_sizes(result);
   for (const auto& name : names) {
     const std::size_t column = *column_of(result, name);
     const auto& quantity = result.quantities[column];
@@ -276,9 +276,13 @@ std::string run_block(const Case& the_case, const StudyResult& result, bool has_
     text += summary_line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
   if (!result.start.found || result.branches.empty()) return text;
+  const std::vector<double> sizes = quantity_sizes(result);
+  const auto values = [&](std::string_view label, const std::vector<std::string>& names) {
+    return named_values(label, names, result, sizes, the_case.units);
+  };
   if (const PlannedRun* planned = plan_of(the_case, result))
-    text += named_values("pose", pose_names(planned->mechanism, result), result, the_case.units);
-  text += named_values("commands", command_names(result), result, the_case.units);
+    text += values("pose", pose_names(planned->mechanism, result));
+  text += values("commands", command_names(result));
   const Branch& first = result.branches.front();
   const double index = value_at(result, first, first.start_row, "index");
   text += summary_line(
@@ -286,7 +290,6 @@ std::string run_block(const Case& the_case, const StudyResult& result, bool has_
   text += way_lines(the_case, result);
   text += caution_lines(result);
   text += stiffness_lines(result);
-  const std::vector<double> sizes = quantity_sizes(result);
   for (const auto& numbers : alike_branches(result)) text += branch_lines(result, numbers, sizes);
   return text + jump_lines(result, the_case.units) +
          diagram_lines(result, plan_of(the_case, result));

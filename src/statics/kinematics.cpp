@@ -60,11 +60,29 @@ class Closures {
     inputs_.W.setZero(system_.load_size);
     return equilibrium_matrix(system_, piece_at(system_, z), z, inputs_, work_, r_, A_, &dR_drho_);
   }
-  Vector e() const { return -r_(rows_); }
-  Matrix by_z(const std::vector<Index>& columns) const { return -A_(rows_, columns); }
-  Matrix by_rho(const std::vector<Index>& columns) const { return -dR_drho_(rows_, columns); }
+  Vector e() const {
+    Vector e(count());
+    put(r_, 0, e, 0);
+    return e;
+  }
+  /// Derivatives by entries of z, then by commands.
+  Matrix by(const std::vector<Index>& entries, const std::vector<Index>& commands) const {
+    Matrix J(count(), static_cast<Index>(entries.size() + commands.size()));
+    Index column = 0;
+    for (const Index i : entries) put(A_, i, J, column++);
+    for (const Index i : commands) put(dR_drho_, i, J, column++);
+    return J;
+  }
 
  private:
+  Index count() const { return static_cast<Index>(rows_.size()); }
+  /// Entry by entry: Eigen copies lists of indices for every block that they name.
+  template <class From, class To>
+  void put(const From& from, Index column, To& to, Index place) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      to(static_cast<Index>(i), place) = -from(rows_[i], column);
+  }
+
   const System& system_;
   std::vector<Index> rows_;
   Inputs inputs_;
@@ -105,8 +123,7 @@ bool close(Closures& closures, const std::vector<Index>& moving, const std::vect
   double damping = 0;
   for (state.iterations = 0; state.iterations < 100; ++state.iterations) {
     const double size = e.norm();
-    Matrix J(e.size(), nz + nr);
-    J << closures.by_z(moving), closures.by_rho(commands);
+    const Matrix J = closures.by(moving, commands);
     const Vector gradient = J.transpose() * e;
     if (size == 0) break;
     if (size > closed_enough && gradient.norm() <= 1e-9 * size) break;  // nearest approach
@@ -189,15 +206,14 @@ KinematicInverse kinematic_inverse(const System& system, const CommandTask& task
   result.closed = close(closures, moving, full.commands, result);
   closures.evaluate(result.z, result.rho);
   report_gap(system, closures.e(), result);
-  Matrix J(system.closure_count(), static_cast<Index>(moving.size() + full.commands.size()));
-  J << closures.by_z(moving), closures.by_rho(full.commands);
+  const Matrix J = closures.by(moving, full.commands);
   if (!result.closed) {
     std::vector<Index> elastic;
     for_each_coordinate(system, [&](const model::Joint& joint, Index place) {
       if (!moves_freely(joint)) elastic.push_back(place);
     });
     const Vector e = closures.e();
-    result.elastic = (closures.by_z(elastic).transpose() * e).norm() > 1e-6 * e.norm();
+    result.elastic = (closures.by(elastic, {}).transpose() * e).norm() > 1e-6 * e.norm();
   }
   result.unique = rank_of(J) == J.cols();
   return result;
@@ -257,7 +273,7 @@ Transmission transmission(const System& system, const CommandTask& task, const V
   };
   // | e_q  e_t | (q', t') = -e_rho rho'     and     | e_q  e_rho  e_other | (q', rho', ..) = -e_t t'
   std::vector<Index> entries = moving_entries(system, {});
-  const Matrix forward = solve(closures.by_z(entries), -closures.by_rho(full.commands));
+  const Matrix forward = solve(closures.by(entries, {}), -closures.by({}, full.commands));
   if (forward.size() > 0) {
     const auto first = std::find(entries.begin(), entries.end(), body.t) - entries.begin();
     result.velocity = to_twist * forward.middleRows(first, body.count);
@@ -267,9 +283,7 @@ Transmission transmission(const System& system, const CommandTask& task, const V
   std::iota(pose.begin(), pose.end(), body.t);
   entries = moving_entries(system, pose);
   const auto nr = static_cast<Index>(full.commands.size());
-  Matrix M(system.closure_count(), static_cast<Index>(entries.size()) + nr);
-  M << closures.by_z(entries), closures.by_rho(full.commands);
-  const Matrix backward = solve(M, -closures.by_z(pose));
+  const Matrix backward = solve(closures.by(entries, full.commands), -closures.by(pose, {}));
   if (backward.size() > 0)
     result.force = Lu(to_twist.transpose()).solve(Matrix(backward.bottomRows(nr).transpose()));
   return result;
