@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -35,7 +36,7 @@ std::optional<Pushed> pushed(const Landscape& landscape, const Vector& from, con
     const Vector c = at->motions.transpose() * along;
     const double norm = c.norm();
     if (!(norm > least_part)) return std::nullopt;
-    const Matrix W = kernel_of(c.transpose());
+    const Matrix W = RowQr(c.transpose()).kernel();
     Vector step = c * (off() / (norm * norm));
     if (W.cols() > 0) {
       const SymmetricEigen modes = symmetric_eigen(W.transpose() * at->hessian * W);

@@ -1,5 +1,6 @@
 #include "landscape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,12 +12,41 @@ namespace {
 
 /// Closures that hold to this are closed: the residual tolerance of equilibria, with room for rounding.
 constexpr double closed = 1e-13;
+/// Derivatives that left so little of a gap are good for the next correction, too: Newton's own would leave the square.
+constexpr double little_left = 1e-2;
 /// Two states of one equilibrium, both polished to about 1e-12, are much nearer than this.
 constexpr double same_state = 1e-7;
 /// A switch nearer to zero than this rests at its threshold: both are solved to about 1e-12. As for special points.
 constexpr double at_threshold = 1e-10;
 /// Where more springs rest at once, their pieces are too many to be looked at.
 constexpr std::size_t most_resting = 6;
+
+/// The rows and columns of a matrix: entry by entry, as Eigen copies lists of indices for every block that they name.
+Matrix block_of(const Matrix& A, const std::vector<Index>& rows,
+                const std::vector<Index>& columns) {
+  Matrix block(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      block(static_cast<Index>(i), static_cast<Index>(j)) = A(rows[i], columns[j]);
+  return block;
+}
+
+Vector entries_of(const Vector& v, const std::vector<Index>& list) {
+  Vector entries(static_cast<Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) entries[static_cast<Index>(i)] = v[list[i]];
+  return entries;
+}
+
+void add_to_entries(Vector& v, const std::vector<Index>& list, const Vector& step) {
+  for (std::size_t i = 0; i < list.size(); ++i) v[list[i]] += step[static_cast<Index>(i)];
+}
+
+/// The largest magnitude, 1 at least.
+double size_of_entries(const Vector& v, const std::vector<Index>& list) {
+  double size = 1;
+  for (const Index i : list) size = std::max(size, std::abs(v[i]));
+  return size;
+}
 
 }  // namespace
 
@@ -64,25 +94,31 @@ bool Landscape::close(Vector& x) const {
   Matrix A;
   Vector r, b;
   RowQr rows;
+  Matrix J;
+  bool known = false;  // `rows` are good for corrections
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < rounds; ++k) {
     const bool first = k == 0;  // seldom closed: both at once are cheaper than one after the other
     if (!(first ? terrain_.problem.equations(x, terrain_.lambda, *piece, r, A, b)
                 : terrain_.problem.residual(x, terrain_.lambda, *piece, r)))
       return false;
-    const Vector gap = r(multipliers_);
+    const Vector gap = entries_of(r, multipliers_);
     const double size = gap.lpNorm<Eigen::Infinity>();
-    if (size <= closed * std::max(1.0, x(moving_).lpNorm<Eigen::Infinity>())) return true;
+    if (size <= closed * size_of_entries(x, moving_)) return true;
     // Rounding is reached where a small gap does not shrink any more.
     if (size < 1e3 * closed && size > last / 2) return true;
+    const bool again = known && size <= little_left * last;
     last = size;
-    if (!first && !terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
-    const Matrix J = A(multipliers_, moving_);
-    rows.compute(J);
-    Vector step = -(rows.independent() ? rows.least_norm(gap) : least_squares(J, gap));
+    if (!again) {
+      if (!first && !terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
+      J = block_of(A, multipliers_, moving_);
+      rows.compute(J);
+      known = rows.independent();
+    }
+    Vector step = -(known ? rows.least_norm(gap) : least_squares(J, gap));
     const double length = step.lpNorm<Eigen::Infinity>();
     if (length > longest) step *= longest / length;
-    x(moving_) += step;
+    add_to_entries(x, moving_, step);
   }
   return false;
 }
@@ -103,8 +139,8 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
     return terrain_.problem.equations(at.x, terrain_.lambda, piece, r, A, b);
   };
   if (!evaluate()) return std::nullopt;
-  at.gradient = r(moving_);
-  at.closing = A(multipliers_, moving_);
+  at.gradient = entries_of(r, moving_);
+  at.closing = block_of(A, multipliers_, moving_);
   const RowQr rows(at.closing);
   at.motions = rows.independent() ? rows.kernel() : kernel_of(at.closing);
   at.slope = at.motions.transpose() * at.gradient;
@@ -113,7 +149,7 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
                                               : least_squares(at.closing.transpose(), at.gradient));
     if (!evaluate()) return std::nullopt;
   }
-  const Matrix H = A(moving_, moving_);
+  const Matrix H = block_of(A, moving_, moving_);
   at.hessian = at.motions.transpose() * H * at.motions;
   at.hessian = (at.hessian + at.hessian.transpose()).eval() / 2;
   return at;
@@ -145,7 +181,7 @@ bool Landscape::same(const Vector& a, const Vector& b) const {
 
 std::optional<Vector> Landscape::moved(const Ground& at, const Vector& step) const {
   Vector x = at.x;
-  x(moving_) += at.motions * step;
+  add_to_entries(x, moving_, at.motions * step);
   if (!close(x)) return std::nullopt;
   return x;
 }

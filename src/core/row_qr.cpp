@@ -1,10 +1,43 @@
 #include "springfold/core/row_qr.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace springfold {
+namespace {
+
+/// Squared lengths of what is left of the columns: measured once, then less what goes into R, and measured again where
+/// that is nearly all of them.
+class ColumnLengths {
+ public:
+  explicit ColumnLengths(const Matrix& columns)
+      : columns_{columns}, left_{columns.colwise().squaredNorm()}, measured_{left_} {}
+
+  Index longest(Index k) const {
+    Index place = 0;
+    left_.tail(left_.size() - k).maxCoeff(&place);
+    return k + place;
+  }
+  void exchange(Index i, Index j) {
+    std::swap(left_[i], left_[j]);
+    std::swap(measured_[i], measured_[j]);
+  }
+  /// Entry k of column j is R's.
+  void take_off(Index k, Index j) {
+    constexpr double too_little = 1e-6;  // ten digits are left
+    left_[j] -= columns_(k, j) * columns_(k, j);
+    if (left_[j] > too_little * measured_[j]) return;
+    left_[j] = measured_[j] = columns_.col(j).tail(columns_.rows() - k - 1).squaredNorm();
+  }
+
+ private:
+  const Matrix& columns_;
+  Vector left_, measured_;
+};
+
+}  // namespace
 
 void RowQr::compute(const Matrix& A, Index dependent) {
   const Index m = A.rows(), n = A.cols(), rank = m - dependent;
@@ -13,15 +46,11 @@ void RowQr::compute(const Matrix& A, Index dependent) {
   order_.resize(static_cast<std::size_t>(m));
   for (Index k = 0; k < m; ++k) order_[static_cast<std::size_t>(k)] = k;
   independent_ = rank <= n;
+  ColumnLengths lengths(factors_);
   double largest = 0;
   for (Index k = 0; independent_ && k < rank; ++k) {
-    Index pivot = k;
-    double longest = -1;
-    for (Index j = k; j < m; ++j) {
-      const double length = factors_.col(j).tail(n - k).squaredNorm();
-      if (length > longest) longest = length, pivot = j;
-    }
-    const double length = std::sqrt(longest);
+    const Index pivot = lengths.longest(k);
+    const double length = factors_.col(pivot).tail(n - k).norm();
     largest = std::max(largest, length);
     // As the rank of a factorisation with column pivots is counted.
     independent_ =
@@ -30,11 +59,15 @@ void RowQr::compute(const Matrix& A, Index dependent) {
     if (pivot != k) {
       factors_.col(pivot).swap(factors_.col(k));
       std::swap(order_[static_cast<std::size_t>(pivot)], order_[static_cast<std::size_t>(k)]);
+      lengths.exchange(pivot, k);
     }
     const double first = factors_(k, k), beta = first >= 0 ? -length : length;
     factors_.col(k).tail(n - k - 1) /= first - beta;
     tau_[k] = (beta - first) / beta;
-    for (Index j = k + 1; j < m; ++j) reflect(k, factors_.col(j).data());
+    for (Index j = k + 1; j < m; ++j) {
+      reflect(k, factors_.col(j).data());
+      lengths.take_off(k, j);
+    }
     factors_(k, k) = beta;
   }
 }
@@ -45,6 +78,7 @@ void RowQr::reflect(Index k, double* x) const {
   const double* const v = factors_.col(k).data();
   double sum = x[k];
   for (Index i = k + 1; i < n; ++i) sum += v[i] * x[i];
+  if (sum == 0) return;  // rows that share no unknown
   sum *= tau_[k];
   x[k] -= sum;
   for (Index i = k + 1; i < n; ++i) x[i] -= sum * v[i];

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tracing.hpp"
 
 namespace springfold::continuation {
@@ -38,6 +40,19 @@ TEST(Events, MayStandInAnyNumberInOneStep) {
     EXPECT_EQ(curve.hits[static_cast<std::size_t>(i)].name, std::to_string(i));
     EXPECT_NEAR(curve.hits[static_cast<std::size_t>(i)].point.x[0], 0.5 + 1e-4 * i, 1e-12);
   }
+}
+
+TEST(Events, OnAStraightBranchAreLocatedToTenDigitsWhereverTheyStandInAStep) {
+  const double many = 60, first = 0.1, last = 0.7;
+  const Event wave{
+      "wave", [=](const CurvePoint& p) { return p.tangent.dlambda * std::sin(many * p.lambda); }};
+  const StartPoint start{Vector{{0, 0}}, first, {}, {Vector{{0, 0}}, 1}};
+  const Curve curve = follow(TwoModes{1, 1.4}, start, {wave, lambda_reaches(last)});
+  const auto zero = [=](int k) { return std::numbers::pi * k / many; };
+  const int before = static_cast<int>(first / zero(1)), all = static_cast<int>(last / zero(1));
+  ASSERT_EQ(curve.hits.size(), static_cast<std::size_t>(all - before + 1));
+  for (int k = before + 1; k <= all; ++k)
+    EXPECT_NEAR(curve.hits[static_cast<std::size_t>(k - before - 1)].point.lambda, zero(k), 1e-12);
 }
 
 TEST(Events, ThatOnlyTouchZeroAreNone) {

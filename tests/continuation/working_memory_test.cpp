@@ -67,6 +67,18 @@ TEST(AWalk, IsTheSameWhetherEquationsAreEvaluatedTogetherOrApart) {
   expect_same_hits(a.hits, b.hits, 1e-300);
 }
 
+TEST(AWalk, AsksForNoFurtherDerivativesForAnEventThatIsZeroAllAlongAStraightBranch) {
+  const StartPoint start{Vector{{0, 0}}, 0.1, {}, {Vector{{0, 0}}, 1}};
+  const Event zero{"zero", [](const CurvePoint& p) { return p.x[0] + p.tangent.dx[1]; }};
+  const CountedCalls<TwoModes> with{{1, 1.4}}, without{{1, 1.4}};
+  const Curve a = follow(with, start, {zero, lambda_reaches(0.7)}),
+              b = follow(without, start, {lambda_reaches(0.7)});
+  ASSERT_EQ(a.points.size(), b.points.size());
+  ASSERT_GT(a.points.size(), 10u);
+  EXPECT_EQ(with.together, without.together);
+  EXPECT_EQ(with.linearised.size(), without.linearised.size());
+}
+
 TEST(AWalk, OverwritesThePlaceThatHasNotBeenAskedForTheLongest) {
   const ScalarProblem line = graph([](double x) { return x; }, [](double) { return 1.0; });
   const auto memory = working_memory();
