@@ -25,6 +25,37 @@ double slope_of_cardinal(int first, int last, int j, double t) {
 /// Which multiple of h is the first of eight, four on each side of p.
 double first_of_grid(double p, double h) { return std::floor(p / h) - (grid_nodes / 2 - 1); }
 
+/// From inside out, a pair of places more for two orders more, `pairs` of them or until these agree.
+std::optional<GridDerivative> by_pairs(
+    const std::function<std::optional<Vector>(double)>& f, double p, double h, int pairs,
+    double enough) {
+  const double first = first_of_grid(p, h);
+  const double t = p / h - first;
+  std::array<Vector, grid_nodes> values;
+  GridDerivative result;
+  for (int pair = 1; pair <= pairs; ++pair) {
+    const int low = grid_nodes / 2 - pair, high = grid_nodes / 2 - 1 + pair;
+    for (const int j : {low, high}) {
+      auto value = f((first + j) * h);
+      if (!value) return std::nullopt;
+      values[static_cast<std::size_t>(j)] = std::move(*value);
+    }
+    Vector finer = Vector::Zero(values[static_cast<std::size_t>(low)].size());
+    for (int j = low; j <= high; ++j)
+      finer += slope_of_cardinal(low, high, j, t) / h * values[static_cast<std::size_t>(j)];
+    if (pair > 1) {
+      const double before = result.doubt;
+      result.doubt = (finer - result.value).lpNorm<Eigen::Infinity>();
+      const bool shrinks = pair > 2 && result.doubt < before;
+      result.expected_error = shrinks ? result.doubt * (result.doubt / before) : result.doubt;
+    }
+    const double size = std::max(1.0, finer.lpNorm<Eigen::Infinity>());
+    result.value = std::move(finer);
+    if (pair > 1 && result.doubt < enough * size) break;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<Vector> six_point_derivative(const std::function<std::optional<Vector>(double)>& f,
@@ -43,42 +74,12 @@ std::optional<Vector> six_point_derivative(const std::function<std::optional<Vec
 
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
                                               double p, double h, double enough) {
-  const double first = first_of_grid(p, h);
-  const double t = p / h - first;
-  std::array<Vector, grid_nodes> values;
-  GridDerivative result;
-  // Places from inside out, a pair more for two orders more.
-  for (int low = grid_nodes / 2 - 1; low >= 0; --low) {
-    const int high = grid_nodes - 1 - low;
-    for (const int j : {low, high}) {
-      auto value = f((first + j) * h);
-      if (!value) return std::nullopt;
-      values[static_cast<std::size_t>(j)] = std::move(*value);
-    }
-    Vector finer = Vector::Zero(values[static_cast<std::size_t>(low)].size());
-    for (int j = low; j <= high; ++j)
-      finer += slope_of_cardinal(low, high, j, t) / h * values[static_cast<std::size_t>(j)];
-    const double size = std::max(1.0, finer.lpNorm<Eigen::Infinity>());
-    if (high - low > 1) result.doubt = (finer - result.value).lpNorm<Eigen::Infinity>();
-    result.value = std::move(finer);
-    if (high - low > 1 && result.doubt < enough * size) break;
-  }
-  return result;
+  return by_pairs(f, p, h, grid_nodes / 2, enough);
 }
 
-std::optional<Vector> rough_grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                            double p, double h) {
-  constexpr int low = grid_nodes / 2 - 2, high = grid_nodes / 2 + 1;
-  const double first = first_of_grid(p, h);
-  const double t = p / h - first;
-  Vector sum;
-  for (int j = low; j <= high; ++j) {
-    const auto value = f((first + j) * h);
-    if (!value) return std::nullopt;
-    if (j == low) sum = Vector::Zero(value->size());
-    sum += slope_of_cardinal(low, high, j, t) / h * *value;
-  }
-  return sum;
+std::optional<GridDerivative> rough_grid_derivative(
+    const std::function<std::optional<Vector>(double)>& f, double p, double h) {
+  return by_pairs(f, p, h, 2, 0);
 }
 
 }  // namespace springfold

@@ -87,16 +87,37 @@ TEST(GridDerivative, DoubtsItselfAcrossAKink) {
   EXPECT_LT(grid_derivative(kink, 0.6, 0x1p-7)->doubt, 1e-12);
 }
 
+TEST(GridDerivative, ExpectsItsErrorWithinTwoOrdersWhereTheFunctionIsSmooth) {
+  for (const double h : {0.2, 0.1, 0.05})
+    for (const double p : {0.71, 0.74}) {
+      const auto rate = grid_derivative(sine_and_exponential, p, h);
+      const double error =
+          (rate->value - Vector{{std::cos(p), std::exp(p)}}).lpNorm<Eigen::Infinity>();
+      EXPECT_GT(rate->expected_error, 0.1 * error) << h;
+      EXPECT_LT(rate->expected_error, 100 * error) << h;
+    }
+}
+
+TEST(GridDerivative, ExpectsALargeErrorWhereOnlyItsLastPlaceLiesBehindAJump) {
+  const double h = 0x1p-7;
+  const auto jump = [&](double p) -> std::optional<Vector> {
+    return Vector::Constant(1, p < 0.5 + 0.5 * h ? 1 + std::sin(p) : std::sin(p));
+  };
+  // Places from 0.5 on, which is the first.
+  EXPECT_GT(grid_derivative(jump, 0.5 + 3.5 * h, h)->expected_error, 0.1);
+  EXPECT_LT(grid_derivative(jump, 0.5 + 4.5 * h, h)->expected_error, 1e-12);
+}
+
 TEST(RoughGridDerivative, IsThatOfTheCubicThroughFourPlaces) {
   for (int degree = 0; degree <= 3; ++degree) {
     const auto power = [degree](double p) -> std::optional<Vector> {
       return Vector::Constant(1, std::pow(p, degree));
     };
     const double exact = degree == 0 ? 0 : degree * std::pow(1.6, degree - 1);
-    EXPECT_NEAR((*rough_grid_derivative(power, 1.6, 0.25))[0], exact, 1e-11);
+    EXPECT_NEAR(rough_grid_derivative(power, 1.6, 0.25)->value[0], exact, 1e-11);
   }
   const auto rate = rough_grid_derivative(sine_and_exponential, 0.703, 0x1p-7);
-  EXPECT_LT((*rate - Vector{{std::cos(0.703), std::exp(0.703)}}).norm(), 1e-6);
+  EXPECT_LT((rate->value - Vector{{std::cos(0.703), std::exp(0.703)}}).norm(), 1e-6);
 }
 
 TEST(GridDerivative, AsksForTheSamePlacesOfNeighbours) {

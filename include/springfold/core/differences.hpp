@@ -21,6 +21,9 @@ struct GridDerivative {
   Vector value{};
   /// Largest entry of the difference from the polynomial through the same places without the outer two.
   double doubt = 0;
+  /// What is left if the next order changes it by as much less as the last one did beside the order before: of smooth
+  /// functions about their error, across kinks and jumps as large as the doubt.
+  double expected_error = 0;
 };
 
 /// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for functions
@@ -31,8 +34,8 @@ struct GridDerivative {
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,
                                               double p, double h, double enough = 0);
 
-/// By the cubic through the inner four of these places: with an error O(h^3).
-std::optional<Vector> rough_grid_derivative(const std::function<std::optional<Vector>(double)>& f,
-                                            double p, double h);
+/// By the cubic through the inner four of these places, with an error O(h^3); doubted as far as the inner two differ.
+std::optional<GridDerivative> rough_grid_derivative(
+    const std::function<std::optional<Vector>(double)>& f, double p, double h);
 
 }  // namespace springfold

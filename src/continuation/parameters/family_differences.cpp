@@ -17,6 +17,9 @@ constexpr double rough_step = 0x1p-10;
 /// How much wider a grid is that neighbouring places share.
 constexpr double wider = 4;
 
+/// The narrowest grid, of the step: beside places where the family is not smooth, or ends. Rounding costs as many digits.
+constexpr double narrowest = 0x1p-6;
+
 /// All members of a family have the unknowns and the switches of the first one.
 void check_shape(ProblemView problem, Index size, const Piece& piece) {
   if (problem.size() != size)
@@ -65,14 +68,23 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
 
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
                                               double mu, double step, Exactness exactness) {
-  if (exactness == Exactness::rough)
-    if (const auto rough = rough_grid_derivative(f, mu, wider * step)) return rough;
-  const auto wide = grid_derivative(f, mu, wider * step, one_place);
-  if (wide && wide->doubt <= one_place * std::max(1.0, wide->value.lpNorm<Eigen::Infinity>()))
-    return wide->value;
-  // Beside the end of the family's domain the formula that reaches less far may have all of its places.
-  if (const auto narrow = grid_derivative(f, mu, step)) return narrow->value;
-  return six_point_derivative(f, mu, step);
+  const auto size_of = [](const Vector& value) {
+    return std::max(1.0, value.lpNorm<Eigen::Infinity>());
+  };
+  if (exactness == Exactness::rough) {
+    const auto rough = rough_grid_derivative(f, mu, wider * step);
+    if (rough && rough->doubt <= small_share * size_of(rough->value)) return rough->value;
+  }
+  std::optional<GridDerivative> best;
+  for (double h = wider * step; h >= narrowest * step; h /= wider) {
+    auto found = grid_derivative(f, mu, h, one_place);
+    if (!found) continue;  // a grid that reaches less far may have all of its places
+    const double error = found->expected_error;
+    if (!best || error < best->expected_error) best = std::move(found);
+    if (error <= one_place * size_of(best->value)) break;
+  }
+  if (!best) return std::nullopt;
+  return best->value;
 }
 
 }  // namespace springfold::continuation

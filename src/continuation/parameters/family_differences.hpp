@@ -31,9 +31,10 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
                                    const Piece& piece, const Vector& w, const Vector& V,
                                    Exactness exactness = Exactness::exact);
 
-/// Derivative by mu of what members of the family tell, nothing outside of its domain: by the grid of `step`, or of one
-/// that is four times as wide where its last two orders show that it is as good, since neighbouring places share more of
-/// its members. Rough: by the four places of the wide grid around mu.
+/// Derivative by mu of what members of the family tell, nothing outside of its domain. By the grid of four times `step`,
+/// since neighbouring places share more of its members, or by the first narrower one whose last orders show that it is exact:
+/// no grid may reach across a place where the family jumps, bends or ends. If none shows it, the least doubtful one is
+/// taken. Rough: by the four places of the wide grid around mu, where they agree.
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
                                               double mu, double step, Exactness exactness);
 
