@@ -130,13 +130,16 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   return member;
 }
 
-/// The start of a neighbour is the first guess. Commands that are not tied are those of the first member.
+/// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
+/// vanishes, the member begins as the case with this value does, whatever the neighbours are; and where that finds nothing,
+/// at whatever start is found from the neighbour's. Commands that are not tied are those of the first member.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
   StartOptions how = member.study.start;
   how.attempts = 1;
   const bool keeps = !study_.critical.tied && how.solve == StartSolve::actuators;
   if (keeps) how.solve = StartSolve::pose;
   statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
+  const statics::StartProblem own = problem;
   if (near.first.z.size() != problem.z.size()) return false;
   problem.foresight = foresight(member.mu, near);
   const auto& body =
@@ -154,9 +157,17 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
     problem.inputs.rho = near.first.inputs.rho;
   else
     problem.foresight.rho.resize(0);
+  const auto is_found = [&](const statics::StartProblem& from) {
+    member.first = first_equilibrium(member.setup.system, from, start_work_);
+    return member.first.status == statics::StartStatus::found;
+  };
   problem.is_neighbour = true;
-  member.first = first_equilibrium(member.setup.system, problem, start_work_);
-  member.report.found = member.first.status == statics::StartStatus::found;
+  member.sheet = near.sheet;
+  member.report.found = is_found(problem);
+  if (member.report.found) return true;
+  member.sheet = ++sheets_;
+  problem.is_neighbour = false;
+  member.report.found = (!keeps && is_found(own)) || is_found(problem);
   return member.report.found;
 }
 
@@ -169,6 +180,7 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   nodes.push_back(&near);
   const auto take = [&](const Member& member) {
     const double away = std::abs(member.mu - mu);
+    if (member.sheet != near.sheet) return;
     const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
       return std::abs(other->mu - member.mu) <= 0.5 * away;
     });

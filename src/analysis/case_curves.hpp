@@ -17,6 +17,7 @@ namespace springfold::analysis {
 /// The study for one value of the parameter, its start found.
 struct Member {
   double mu = 0;  ///< dimensionless
+  int sheet = 0;  ///< members of the same one have starts that belong to each other
   Study study{};  ///< of kind force_deflection
   Setup setup{};
   StartReport report{};
@@ -76,6 +77,7 @@ class CaseCurves {
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
+  mutable int sheets_ = 0;                   ///< so many are known besides the first member's
   mutable statics::Workspace start_work_{};  ///< of equations at starts
 };
 

@@ -171,8 +171,8 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     if (found) complete(system, problem, result);
     if (found || system.size > most_dense) return result;
   }
-  if (problem.is_neighbour && solve_beside(system, problem, equations, guess, result)) {
-    complete(system, problem, result);
+  if (problem.is_neighbour) {
+    if (solve_beside(system, problem, equations, guess, result)) complete(system, problem, result);
     return result;
   }
   result.iterations = 0;

@@ -1,5 +1,7 @@
 #include "solve_beside.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "springfold/core/decompositions.hpp"
@@ -29,6 +31,34 @@ bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& sta
     equations.unpack(y, state);
   }
   return false;
+}
+
+/// Newton's method from the solution of a neighbour, no farther than where its steps shrink as they do near one solution
+/// (Kantorovich: the first one bounds the way to it by twice its length while a step is at most a quarter of the one before).
+/// A step that does not is the sign of a singular matrix on the way, and behind that may be another equilibrium.
+bool go_by_newton(const System& system, StartEquations& equations, StartState& state, int& steps,
+                  double& residual) {
+  constexpr int most = 8;
+  constexpr double contracts = 0.25;
+  const double rounding = std::sqrt(std::numeric_limits<double>::epsilon());
+  Vector r;
+  Matrix J;
+  double before = std::numeric_limits<double>::infinity();
+  for (steps = 0; steps < most; ++steps) {
+    if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
+    residual = r.lpNorm<Eigen::Infinity>();
+    if (residual == 0) return true;
+    const Vector step = Lu(J).solve(r);
+    if (!step.allFinite()) return false;
+    const StartState here = state;
+    equations.unpack(equations.pack(state) - step, state);
+    const double moved = farthest_coordinate(system, state.z, here.z);
+    if (moved > std::max(contracts * before, rounding)) return false;
+    if (moved <= rounding) break;
+    before = moved;
+  }
+  residual = polish(equations, state, steps);
+  return equations.solved(state, 1e-12);
 }
 
 }  // namespace
@@ -65,8 +95,6 @@ double farthest_coordinate(const System& system, const Vector& a, const Vector& 
 
 bool solve_beside(const System& system, const StartProblem& problem, StartEquations& equations,
                   const StartState& guess, FirstEquilibrium& result) {
-  constexpr double beside =
-      0.125;              // of a length or a radian: farther away may be another equilibrium
   constexpr int few = 3;  // with more steps factors are worth being renewed
   const Foresight& foresight = problem.foresight;
   StartState state = guess;
@@ -75,18 +103,13 @@ bool solve_beside(const System& system, const StartProblem& problem, StartEquati
   if (foresight.factors) {
     if (foresight.z.size() == state.z.size()) state.z = foresight.z;
     if (foresight.rho.size() == state.inputs.rho.size()) state.inputs.rho = foresight.rho;
-    found = go_by_factors(equations, *foresight.factors, state, steps, result.residual) &&
-            farthest_coordinate(system, state.z, guess.z) <= beside;
+    found = go_by_factors(equations, *foresight.factors, state, steps, result.residual);
     result.iterations = steps;
   }
   if (found && steps <= few) result.factors = foresight.factors;
   if (!found) {
     state = guess;
-    result.iterations = 0;
-    result.residual = polish(equations, state, result.iterations);
-    if (!(farthest_coordinate(system, state.z, guess.z) <= beside) ||
-        !equations.solved(state, 1e-12))
-      return false;
+    if (!go_by_newton(system, equations, state, result.iterations, result.residual)) return false;
   }
   Matrix J;
   if (!result.factors && equations.jacobian(state, J)) result.factors = std::make_shared<Lu>(J);

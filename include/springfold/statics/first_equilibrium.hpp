@@ -33,8 +33,8 @@ struct StartProblem {
   Inputs inputs{};  ///< commands (guess, if they are unknown) and loads
   int attempts = 16;
   std::uint64_t seed = 1;
-  bool is_neighbour =
-      false;  ///< z and inputs solve a problem next to this one: Newton's method comes first
+  /// z and inputs solve a problem next to this one: its solution is the one that belongs to them, or none.
+  bool is_neighbour = false;
   Foresight foresight{};  ///< is_neighbour: what else neighbours tell
 };
 
