@@ -7,6 +7,7 @@
 #include "settle_units.hpp"
 #include "springfold/core/scaling.hpp"
 #include "springfold/statics/prepare_again.hpp"
+#include "springfold/statics/stage_jacobians.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -111,6 +112,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
       const ParameterFamily* path = along ? &*along : nullptr;
       settle_units(variant.mechanism, member->study, path, member->first, setup);
       reach_range(variant.mechanism, member->study, path, member->first, setup);
+      member->first.factors = start_factors(*member);
     }
   } else if (!solve_near(*member, *near)) {
     return nullptr;
@@ -130,14 +132,24 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   return member;
 }
 
+bool CaseCurves::keeps_commands(const Study& study) const {
+  return !study_.critical.tied && study.start.solve == StartSolve::actuators;
+}
+
+/// How starts of members other than the first are found.
+StartOptions CaseCurves::start_beside(const Study& study) const {
+  StartOptions how = study.start;
+  how.attempts = 1;
+  if (keeps_commands(study)) how.solve = StartSolve::pose;
+  return how;
+}
+
 /// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
 /// vanishes, the member begins as the case with this value does, whatever the neighbours are; and where that finds nothing,
 /// at whatever start is found from the neighbour's. Commands that are not tied are those of the first member.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
-  StartOptions how = member.study.start;
-  how.attempts = 1;
-  const bool keeps = !study_.critical.tied && how.solve == StartSolve::actuators;
-  if (keeps) how.solve = StartSolve::pose;
+  const StartOptions how = start_beside(member.study);
+  const bool keeps = keeps_commands(member.study);
   statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
   const statics::StartProblem own = problem;
   if (near.first.z.size() != problem.z.size()) return false;
@@ -168,7 +180,16 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   member.sheet = ++sheets_;
   problem.is_neighbour = false;
   member.report.found = (!keeps && is_found(own)) || is_found(problem);
+  if (member.report.found) member.first.factors = start_factors(member);
   return member.report.found;
+}
+
+/// What neighbours are compared with. Long chains have none.
+std::shared_ptr<const Lu> CaseCurves::start_factors(const Member& member) const {
+  const statics::System& system = member.setup.system;
+  if (statics::prefers_stages(system)) return nullptr;
+  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
+  return factors_at(system, problem, member.first, start_work_);
 }
 
 /// By the polynomial through up to four members around mu. Where they stand close together it would magnify their

@@ -64,6 +64,9 @@ class CaseCurves {
   std::unique_ptr<Member> make(double mu, const Member* near,
                                std::unique_ptr<Member> spare = nullptr) const;
   bool solve_near(Member& member, const Member& near) const;
+  std::shared_ptr<const Lu> start_factors(const Member& member) const;
+  bool keeps_commands(const Study& study) const;
+  StartOptions start_beside(const Study& study) const;
   statics::Foresight foresight(double mu, const Member& near) const;
 
   Study study_;

@@ -47,7 +47,6 @@ bool go_by_newton(const System& system, StartEquations& equations, StartState& s
   for (steps = 0; steps < most; ++steps) {
     if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
     residual = r.lpNorm<Eigen::Infinity>();
-    if (residual == 0) return true;
     const Vector step = Lu(J).solve(r);
     if (!step.allFinite()) return false;
     const StartState here = state;
@@ -93,6 +92,14 @@ double farthest_coordinate(const System& system, const Vector& a, const Vector& 
   return moved;
 }
 
+std::shared_ptr<const Lu> factors_at(const System& system, const StartProblem& problem,
+                                     const FirstEquilibrium& found, Workspace& work) {
+  StartEquations equations(system, problem, work);
+  Matrix J;
+  if (!equations.jacobian({found.z, found.inputs}, J)) return nullptr;
+  return std::make_shared<Lu>(J);
+}
+
 bool solve_beside(const System& system, const StartProblem& problem, StartEquations& equations,
                   const StartState& guess, FirstEquilibrium& result) {
   constexpr int few = 3;  // with more steps factors are worth being renewed
@@ -106,13 +113,20 @@ bool solve_beside(const System& system, const StartProblem& problem, StartEquati
     found = go_by_factors(equations, *foresight.factors, state, steps, result.residual);
     result.iterations = steps;
   }
-  if (found && steps <= few) result.factors = foresight.factors;
+  // Steps that shrink by these factors show that the matrix is near theirs; without a step nothing does.
+  if (found && steps > 0 && steps <= few) result.factors = foresight.factors;
   if (!found) {
     state = guess;
     if (!go_by_newton(system, equations, state, result.iterations, result.residual)) return false;
   }
   Matrix J;
-  if (!result.factors && equations.jacobian(state, J)) result.factors = std::make_shared<Lu>(J);
+  if (!result.factors) {
+    if (!equations.jacobian(state, J)) return false;
+    const auto here = std::make_shared<Lu>(J);
+    // Between determinants of two signs the matrix is singular, and solutions cross or merge.
+    if (foresight.factors && here->sign() != foresight.factors->sign()) return false;
+    result.factors = here;
+  }
   result.z = state.z;
   result.inputs = state.inputs;
   result.attempts = 1;

@@ -69,6 +69,10 @@ struct FirstEquilibrium {
 /// systems are expected: coordinates of order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
+/// Of the matrix at a solution of this problem, for its neighbours; nothing where it cannot be evaluated.
+std::shared_ptr<const Lu> factors_at(const System& system, const StartProblem& problem,
+                                     const FirstEquilibrium& found, Workspace& work);
+
 /// One chain at a given pose by the paper's fixed-point iteration, eq. (6), with the sign of the
 /// preload corrected: eps = t - g + J_q q + J_theta (theta - theta_0).
 struct ChainIteration {
