@@ -31,6 +31,7 @@ struct Row {
 std::vector<Row> side_of(const CriticalCurve& curve, double sign) {
   std::vector<Row> rows;
   std::size_t h = 0;
+  while (h < curve.hits.size() && !(curve.hits[h].point.s > 0)) ++h;  // the start has its row
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     while (h < curve.hits.size() && curve.hits[h].point.s <= curve.points[i].s) {
       rows.push_back({curve.hits[h].point, &curve.hits[h]});
@@ -103,12 +104,14 @@ std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study
                                            const Piece& piece) {
   std::vector<CriticalEvent> events;
   const auto limit = [&](const std::string& quantity, double low, double high) {
-    if (std::isfinite(low))
-      events.push_back(at_value(curves, quantity + " reaches its lower limit", quantity, low, piece,
-                                EventAction::stop));
-    if (std::isfinite(high))
-      events.push_back(at_value(curves, quantity + " reaches its upper limit", quantity, high,
-                                piece, EventAction::stop));
+    const auto end = [&](const std::string& which, double value, int inside) {
+      if (!std::isfinite(value)) return;
+      events.push_back(at_value(curves, quantity + " reaches its " + which + " limit", quantity,
+                                value, piece, EventAction::stop));
+      events.back().inside = inside;
+    };
+    end("lower", low, 1);
+    end("upper", high, -1);
   };
   limit(curves.name(), study.critical.low, study.critical.high);
   for (const Limit& until : study.until) limit(until.quantity, until.low, until.high);

@@ -80,6 +80,8 @@ struct CriticalEvent {
   std::function<double(const CriticalPoint&)> value{};
   EventAction action = EventAction::record;
   bool of_place = false;  ///< the value depends on x, lambda and mu alone: it needs no rates
+  /// Sign of the value on the side where the curve may be, of events that stop it; 0: both.
+  int inside = 0;
 };
 
 /// Points of a critical curve between the accepted ones, see points_between().
@@ -118,7 +120,8 @@ struct CriticalCurve {
 /// are as exact as F and dF/dx.
 ///
 /// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may
-/// turn back; a caller's event ends the curve.
+/// turn back; a caller's event ends the curve. Where one that has an inside is zero at the start, the way that leaves it
+/// ends there. An event that is zero to rounding all along has no places.
 /// @throws std::invalid_argument where sizes do not fit together, at the start or at another mu
 /// @param growing  which way first: mu grows, or falls
 CriticalCurve follow_critical(const Family& family, const CriticalStart& start, bool growing,

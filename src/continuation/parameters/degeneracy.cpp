@@ -207,7 +207,8 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
          [&event, n](const CurvePoint& p) { return event.value(critical_point(p, n)); },
          event.action,
          {},
-         event.of_place});
+         event.of_place,
+         event.inside});
   return watches;
 }
 

@@ -16,6 +16,7 @@ struct Watch {
   std::function<Degeneracy(const CurvePoint&)>
       refine{};           ///< tells kinds apart at the located point
   bool of_place = false;  ///< the value needs no tangent
+  int inside = 0;         ///< as CriticalEvent has it
 };
 
 /// A point of the augmented curve, of n unknowns of the family.

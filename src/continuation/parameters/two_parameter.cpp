@@ -173,14 +173,21 @@ class Follower {
 
   /// One stretch with fixed borders. @returns whether another one follows
   bool leg(const Augmented& system, const Vector& X, double mu, const Ray& ray) {
-    const std::vector<Watch> watches = watches_of(system, events_);
+    std::vector<Watch> watches = watches_of(system, events_);
+    const Index n = system.n();
+    const CurvePoint here{.x = X, .lambda = mu, .tangent = ray.tangent};
+    for (Watch& watch : watches)
+      if (watch.kind == Degeneracy::user && !stand_on_one_side(watch, here)) {
+        end_at_start(watch, here, n);
+        return false;
+      }
     std::vector<Event> events;
     for (std::size_t i = 0; i < watches.size(); ++i)
-      events.push_back({.name = std::to_string(i),
+      events.push_back({.name = name_of(watches[i]),
                         .value = watches[i].value,
                         .action = watches[i].action,
+                        .tag = static_cast<int>(i),
                         .of_place = watches[i].of_place});
-    const Index n = system.n();
     bool renew = false, lost = false;
     ReturnToStart back{
         system, options_, first_, length_, {.x = X, .lambda = mu, .tangent = ray.tangent}};
@@ -213,6 +220,42 @@ class Follower {
     }
     last_ = curve.points.back();
     return renew && curve.stop == StopReason::observer;
+  }
+
+  static std::string name_of(const Watch& watch) {
+    const std::string kind{to_string(watch.kind)};
+    if (watch.kind == Degeneracy::user) return watch.name;
+    return watch.name.empty() ? kind : kind + ": " + watch.name;
+  }
+
+  /// A value that is zero where a stretch begins has the sign, there and wherever it is zero to rounding, with which it leaves
+  /// it: what defines the curve, or stands still along it, crosses nothing. @returns false where the way leads outside
+  static bool stand_on_one_side(Watch& watch, const CurvePoint& here) {
+    const double value = watch.value(here);
+    if (!(std::abs(value) <= function_noise)) return true;
+    CurvePoint ahead = here;
+    ahead.x += told_apart * here.tangent.dx;
+    ahead.lambda += told_apart * here.tangent.dlambda;
+    const double there = watch.value(ahead);
+    const bool leaves = std::abs(there) > told_apart * root_of_rounding + function_noise;
+    const double inside = watch.inside != 0 ? watch.inside : 1;
+    if (leaves && there * watch.inside < 0) return false;
+    const double side = leaves ? std::copysign(function_noise, there) : inside * function_noise;
+    watch.value = [of = std::move(watch.value), side](const CurvePoint& p) {
+      const double at = of(p);
+      return std::abs(at) <= function_noise ? side : at;
+    };
+    return true;
+  }
+
+  /// The way leads out of what the caller asks for: nothing of it is.
+  void end_at_start(const Watch& watch, const CurvePoint& here, Index n) {
+    CriticalPoint point = critical_point(here, n);
+    point.s = length_;
+    if (curve_.points.empty()) curve_.points.push_back(point);
+    curve_.hits.push_back({.kind = watch.kind, .name = watch.name, .point = std::move(point)});
+    curve_.stop = StopReason::event;
+    curve_.stop_detail = watch.name;
   }
 
   /// The curve ends at its start, which its last step passes.
@@ -249,7 +292,7 @@ class Follower {
     add_further(infinity);
     for (const Hit& hit : curve.hits) {
       if (hit.kind != HitKind::user) continue;
-      const Watch& watch = watches[static_cast<std::size_t>(std::stoul(hit.name))];
+      const Watch& watch = watches[static_cast<std::size_t>(hit.tag)];
       CriticalHit found{
           .kind = watch.kind, .name = watch.name, .point = critical_point(hit.point, n)};
       if (watch.refine) found.kind = watch.refine(hit.point);
