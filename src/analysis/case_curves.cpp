@@ -239,6 +239,7 @@ const Member* CaseCurves::at(double mu) const {
     calls_.splice(calls_.begin(), calls_, above->second.call);
     return above->second.member.get();
   }
+  if (without_start_.contains(mu)) return nullptr;
   const Member* near = base_.get();
   const auto take_nearer = [&](const Member* other) {
     if (std::abs(other->mu - mu) < std::abs(near->mu - mu)) near = other;
@@ -254,7 +255,11 @@ const Member* CaseCurves::at(double mu) const {
     recent_.erase(old);
   }
   auto made = make(mu, near, std::move(oldest));
-  if (!made) return nullptr;
+  if (!made) {
+    if (without_start_.size() >= members_kept) without_start_.clear();
+    without_start_.insert(mu);
+    return nullptr;
+  }
   calls_.push_front(mu);
   return recent_.emplace(mu, Recent{std::move(made), calls_.begin()}).first->second.member.get();
 }

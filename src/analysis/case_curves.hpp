@@ -4,6 +4,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "quantities.hpp"
@@ -80,8 +81,9 @@ class CaseCurves {
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
-  mutable int sheets_ = 0;                   ///< so many are known besides the first member's
-  mutable statics::Workspace start_work_{};  ///< of equations at starts
+  mutable std::set<double> without_start_{};  ///< where none was found, which is dearer than one
+  mutable int sheets_ = 0;                    ///< so many are known besides the first member's
+  mutable statics::Workspace start_work_{};   ///< of equations at starts
 };
 
 }  // namespace springfold::analysis

@@ -301,7 +301,24 @@ class LoadsOverParameter {
     side.end = last->mu;
   }
 
+  /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
+  void leave_out_points() {
+    const auto meets = [&](double a, double b) {
+      return std::abs(a - b) <= at_degeneracy * width_;
+    };
+    for (std::size_t i = 0; i < pieces_.size();) {
+      const double from = pieces_[i].falling.end, to = pieces_[i].growing.end;
+      const bool goes_on = (i > 0 && meets(pieces_[i - 1].growing.end, from)) ||
+                           (i + 1 < pieces_.size() && meets(pieces_[i + 1].falling.end, to));
+      if (goes_on && meets(from, to))
+        pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));
+      else
+        ++i;
+    }
+  }
+
   void finish() {
+    leave_out_points();
     for (const LoadPiece& piece : pieces_) {
       const FollowedCurve followed{.start = piece.start,
                                    .of = piece.of,

@@ -26,9 +26,8 @@ double slope_of_cardinal(int first, int last, int j, double t) {
 double first_of_grid(double p, double h) { return std::floor(p / h) - (grid_nodes / 2 - 1); }
 
 /// From inside out, a pair of places more for two orders more, `pairs` of them or until these agree.
-std::optional<GridDerivative> by_pairs(
-    const std::function<std::optional<Vector>(double)>& f, double p, double h, int pairs,
-    double enough) {
+std::optional<GridDerivative> by_pairs(const std::function<std::optional<Vector>(double)>& f,
+                                       double p, double h, int pairs, double enough) {
   const double first = first_of_grid(p, h);
   const double t = p / h - first;
   std::array<Vector, grid_nodes> values;

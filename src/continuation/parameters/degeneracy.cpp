@@ -95,7 +95,12 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
                        },
                        EventAction::stop,
                        {},
-                       true});
+                       true,
+                       0,
+                       [&system, j, name = problem->switch_name(j)](const CurvePoint& p) {
+                         const auto at = system.family().at(p.lambda);
+                         return at ? at->switch_name(j) : name;
+                       }});
   }
 }
 

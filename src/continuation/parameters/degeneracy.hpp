@@ -17,6 +17,8 @@ struct Watch {
       refine{};           ///< tells kinds apart at the located point
   bool of_place = false;  ///< the value needs no tangent
   int inside = 0;         ///< as CriticalEvent has it
+  /// What is called otherwise at another place: its name at the located point.
+  std::function<std::string(const CurvePoint&)> name_there{};
 };
 
 /// A point of the augmented curve, of n unknowns of the family.

@@ -296,6 +296,7 @@ class Follower {
       CriticalHit found{
           .kind = watch.kind, .name = watch.name, .point = critical_point(hit.point, n)};
       if (watch.refine) found.kind = watch.refine(hit.point);
+      if (watch.name_there) found.name = watch.name_there(hit.point);
       curve_.hits.push_back(std::move(found));
     }
     curve_.stop = curve.stop;
