@@ -71,12 +71,12 @@ TEST(ParameterRanges, ACurveThatStartsAtAnEndOfItsRangeStaysWithinIt) {
                        low, high);
 }
 
-TEST(ParameterRanges, ACurveEndsAtItsRangeAlsoWhereTheStartIsLostSoonBehind) {
+TEST(ParameterRanges, ACurveReachesItsEndAlsoWhereTheStartIsSingularSoonBehind) {
   expect_limit_loads(
-      run(two_bars("set = { h = 0.11 }\nkind = \"critical_curve\"\ncritical_curve = { "
-                   "of = \"LP1\", parameter = \"h\", range = [0.025, 3] }\n"))
+      run(two_bars("set = { h = 0.1 }\ntrace = { maximum_step = 0.01 }\nkind = \"critical_curve\"\n"
+                   "critical_curve = { of = \"LP1\", parameter = \"h\", range = [0.01, 3] }\n"))
           .of("s"),
-      0.035, 3);
+      0.01, 3);
 }
 
 TEST(ParameterRanges, TheSearchForAThresholdDoesNotDependOnTheValueOfTheCase) {
