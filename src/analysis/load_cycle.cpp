@@ -38,10 +38,8 @@ class Cycle {
     }
     const Branch& first = result_.branches.front();
     const std::size_t last = first.samples.size() - 1;
-    at_ = {0, std::min(first.start_row, last - 1), state_of(0, first.start_row)};
-    const double index =
-        first.samples[first.start_row].values[column_of(Kind::index, t_.quantities)];
-    if (index != 0) {
+    at_ = {0, stable_side(first, last), state_of(0, first.start_row)};
+    if (index_at(first, first.start_row) != 0) {
       cycle_.end = LoadCycle::End::not_stable;
       return cycle_;
     }
@@ -58,6 +56,18 @@ class Cycle {
   }
 
  private:
+  double index_at(const Branch& branch, std::size_t row) const {
+    return branch.samples[row].values[column_of(Kind::index, t_.quantities)];
+  }
+
+  /// The row before the start or the start's own: a start at which stability is lost belongs to the stable side.
+  std::size_t stable_side(const Branch& branch, std::size_t last) const {
+    const std::size_t start = branch.start_row;
+    const bool is_behind = start > 0 && index_at(branch, start - 1) == 0 &&
+                           (start == last || index_at(branch, start + 1) != 0);
+    return is_behind ? start - 1 : std::min(start, last - 1);
+  }
+
   double lambda_at(std::size_t branch, std::size_t row) const {
     return result_.branches[branch].samples[row].values[lambda_] / t_.lambda_scale;
   }

@@ -41,12 +41,10 @@ std::vector<Loss> losses_of(const StudyResult& result,
     };
     for (std::size_t e = 0; e < branch.events.size(); ++e) {
       const Event& event = branch.events[e];
-      // A branch that begins where branches cross is told on the one that it leaves. Any other point in the first row
-      // ends the branch as one in the last row does: a corner, or a kink that a half-branch leaves.
+      // A point in the first row ends the branch as one in the last row does. Where branches cross it is told once, on the
+      // branch that passes if that loses its stability there, otherwise on one that begins stable.
       const bool begins = event.row == 0;
-      const bool is_crossing =
-          event.kind == EventKind::branch_point || event.kind == EventKind::touch;
-      if (!may_lose_stability(event) || (begins && is_crossing)) continue;
+      if (!may_lose_stability(event)) continue;
       const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);
       const double before = begins ? nothing : value(event.row - 1, index);
       const double after = value(last + 1, index);

@@ -98,6 +98,8 @@ std::vector<Hit> hits_at_start(const Following& t, const BranchSource& source) {
   const auto events = events_through(t);
   if (!may_be_special(t, backward, forward, events)) return {};
   const double way = std::min(free_way(backward), free_way(forward));
+  if (!(way > same_as_start))
+    return {};  // special points of the curves lie at the start: they tell it
   continuation::TraceOptions options = options_of(t.study.trace);
   options.verify_arcs = false;
   options.step.initial = options.step.maximum = way;

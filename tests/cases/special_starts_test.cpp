@@ -1,6 +1,7 @@
 // Studies that begin on a special point, and quantities that do not change along a curve.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case_runs.hpp"
@@ -163,6 +164,47 @@ TEST(QuantityThatStaysZero, IsMarkedAtTheStartAlone) {
   for (const auto& event : result.branches.at(0).events)
     marks += event.kind == EventKind::user_value ? 1 : 0;
   EXPECT_EQ(marks, 1);
+}
+
+TEST(LoadCycle, BegunOnALimitPointFollowsTheStableSide) {
+  const double limit = shallow.force(shallow.limit_height());
+  for (const double level : {-0.05, 0.05}) {
+    const std::string keys = heights_of_truss +
+                             std::string("kind = \"load_cycle\"\ncycle = { levels = [") +
+                             number(level) + "] }\n";
+    const auto result =
+        run(truss_with(shallow,
+                       press_under("load", keys + begun_at(shallow, shallow.limit_height()))))
+            .of("press");
+    ASSERT_TRUE(result.snap && result.snap->cycle) << level;
+    const auto& cycle = *result.snap->cycle;
+    EXPECT_EQ(cycle.end, analysis::LoadCycle::End::complete) << level;
+    EXPECT_EQ(cycle.jumps, level > 0 ? 1 : 0) << level;
+    const auto& values = cycle.steps.back().at.values;
+    const double y = values[static_cast<std::size_t>(column(result, "a.y"))];
+    EXPECT_EQ(values[static_cast<std::size_t>(column(result, "index"))], 0) << level;
+    EXPECT_NEAR(shallow.force(y), limit + level, 1e-9) << level;
+    EXPECT_EQ(y > shallow.limit_height(), level < 0) << level;
+  }
+}
+
+/// Begun on the bent branch the straight one is met at its branch points, from which it begins to both sides.
+TEST(BranchMetFromAnother, JumpsFromItsBranchPointsAllTheSame) {
+  const auto jumps_from_straight = [](const std::string& start) {
+    const std::string keys =
+        "until = { a.y = [0.3, 3.2], a.x = [-0.7, 0.7] }\nbranches = { depth = "
+        "2 }\nsnap = true\nmark = { a.x = [0.3] }\n";
+    std::string then = press_under("load", keys + start);
+    then.replace(then.find("press"), 5, "then");
+    const auto result = run(truss_with(Truss{2.5}, press_under("load", keys) + then)).of("then");
+    const auto x = static_cast<std::size_t>(column(result, "a.x"));
+    return std::count_if(
+        result.snap->jumps.begin(), result.snap->jumps.end(),
+        [x](const auto& jump) { return std::abs(jump.critical.values[x]) < 1e-9; });
+  };
+  EXPECT_GE(jumps_from_straight(""), 2);
+  EXPECT_EQ(jumps_from_straight("start = { from = \"press\", at = \"UZ1\" }\n"),
+            jumps_from_straight(""));
 }
 
 TEST(LoadCycle, UpToTheLimitLoadReleasesNothing) {

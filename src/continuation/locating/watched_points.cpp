@@ -249,6 +249,8 @@ double residual_at(const Walker& walker, const CurvePoint& p) {
 /// farther off satisfies F as well as it does, that one is nearer to the curve.
 CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
   constexpr double window = 0.2;
+  if (corrected.x.size() == 0)
+    return corrected;  // a body that is driven in all its ways: lambda alone is left
   const double ds = corrected.s - step.from().s;
   const auto curve = curve_near(step, ds, window * step.length());
   if (!curve) return corrected;
@@ -274,6 +276,8 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
   std::vector<CurvePoint> points;
   if (hits.size() < 2) return points;
   const CurvePoint& from = *samples.front();
+  const bool has_unknowns =
+      from.x.size() > 0;  // else lambda alone is left: a body that is driven in all its ways
   const WatchedStep step(walker, samples);
   for (std::size_t i = 1; i < hits.size(); ++i) {
     const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
@@ -282,8 +286,8 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
       if (!(s > left && s < right)) break;
       const auto& point = step.point(s - from.s);
       if (!point || (walker.problem.symmetric() && !point->negative)) continue;
-      const CurvePoint kept = least_blurred(step, *point);
-      if (!is_determined(step, kept, same_point)) continue;
+      const CurvePoint kept = has_unknowns ? least_blurred(step, *point) : *point;
+      if (has_unknowns && !is_determined(step, kept, same_point)) continue;
       points.push_back(kept);
       break;
     }
