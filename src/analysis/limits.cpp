@@ -143,6 +143,9 @@ std::vector<continuation::Event> events_of(const Study& study, const Evaluator& 
 
 namespace {
 
+/// Values so far from a limit, of the larger of it and its unit, lie on the one or the other side of it.
+constexpr double beyond_limit = 1e-9;
+
 /// How far along its ray a curve is looked at to see which way it goes, in the metric.
 constexpr double short_way = 1e-6;
 
@@ -204,6 +207,19 @@ std::optional<continuation::Curve> ended_at_start(const Study& study, const Eval
   return std::nullopt;
 }
 
+bool is_on_limit(const Study& study, const Evaluator& evaluator,
+                 const std::vector<QuantityDefinition>& quantities,
+                 const continuation::CurvePoint& point) {
+  return std::any_of(study.until.begin(), study.until.end(), [&](const Limit& limit) {
+    const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
+    const double here = evaluator.value(*q, point) / q->scale;
+    const auto is_at = [&](double edge) {
+      return std::abs(here - edge / q->scale) <= beyond_limit * std::max(1.0, std::abs(here));
+    };
+    return is_at(limit.low) || is_at(limit.high);
+  });
+}
+
 std::optional<std::string> limit_passed(const Study& study, const Evaluator& evaluator,
                                         const std::vector<QuantityDefinition>& quantities,
                                         const continuation::CurvePoint& point) {
@@ -211,7 +227,8 @@ std::optional<std::string> limit_passed(const Study& study, const Evaluator& eva
     const QuantityDefinition* q = find_quantity(quantities, limit.quantity);
     const double here = evaluator.value(*q, point) / q->scale;
     const auto beyond = [here](double edge, double outwards) {
-      return std::isfinite(edge) && outwards * (here - edge) > 1e-9 * std::max(1.0, std::abs(edge));
+      return std::isfinite(edge) &&
+             outwards * (here - edge) > beyond_limit * std::max(1.0, std::abs(edge));
     };
     if (beyond(limit.low / q->scale, -1)) return limit.quantity + " reaches its lower limit";
     if (beyond(limit.high / q->scale, 1)) return limit.quantity + " reaches its upper limit";

@@ -31,6 +31,11 @@ std::optional<std::string> limit_passed(const Study& study, const Evaluator& eva
                                         const std::vector<QuantityDefinition>& quantities,
                                         const continuation::CurvePoint& point);
 
+/// Does the point lie on a limit, to rounding? A curve from there may leave the range without crossing it.
+bool is_on_limit(const Study& study, const Evaluator& evaluator,
+                 const std::vector<QuantityDefinition>& quantities,
+                 const continuation::CurvePoint& point);
+
 /// What to do about a start outside of the limits.
 inline constexpr const char* outside_advice = "try limits that include the start, or another start";
 

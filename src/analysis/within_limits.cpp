@@ -42,14 +42,17 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
                           const continuation::StepObserver& observer) {
   if (auto ended = ended_at_start(with.study, with.evaluator, with.quantities, start, ray))
     return *ended;
+  // Elsewhere the limits are events, which no curve passes.
+  const bool is_at_edge = is_on_limit(with.study, with.evaluator, with.quantities, start);
   const auto observe = [&](const CurvePoint& point) {
-    return !limit_passed(with.study, with.evaluator, with.quantities, point) &&
-           (!observer || observer(point));
+    if (is_at_edge && limit_passed(with.study, with.evaluator, with.quantities, point))
+      return false;
+    return !observer || observer(point);
   };
   Curve curve = with.study.path == Path::davidenko
                     ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
                     : trace(with.problem, start.x, start.lambda, ray, events, options, observe);
-  cut_to_range(with.study, with.evaluator, with.quantities, curve);
+  if (is_at_edge) cut_to_range(with.study, with.evaluator, with.quantities, curve);
   return curve;
 }
 
