@@ -10,6 +10,7 @@
 #include "stability_changes.hpp"
 #include "start_hits.hpp"
 #include "start_marks.hpp"
+#include "trace_study.hpp"
 #include "zero_lengths.hpp"
 
 namespace springfold::analysis {
@@ -204,6 +205,14 @@ class Writer {
     }
   }
 
+  /// Two ways alone are one curve: the springs that switch there say what is special about it.
+  std::string situation_at(const continuation::Junction& start) const {
+    if (start.kind == HitKind::branching_kink) return "a branching kink";
+    if (start.kind == HitKind::branch_point) return "a branch point";
+    const std::string resting = situation_of(t_, start.point, {});
+    return resting.empty() ? result_.start.situation : resting;
+  }
+
   /// Lists the ways out of a start that is no ordinary point of a curve.
   void write_start() {
     const auto add = [this](const CurvePoint& along, int branch) {
@@ -211,11 +220,7 @@ class Writer {
     };
     for (const continuation::Junction& junction : diagram_.junctions) {
       if (junction.start != 0) continue;
-      // Two ways alone are one curve: what was seen at once says what is special about it.
-      if (junction.kind == HitKind::branching_kink)
-        result_.start.situation = "a branching kink";
-      else if (junction.kind == HitKind::branch_point || result_.start.situation.empty())
-        result_.start.situation = "a branch point";
+      result_.start.situation = situation_at(junction);
       for (const continuation::Way& way : junction.ways) add(way.point, way.branch);
       return;
     }
