@@ -1,7 +1,6 @@
 #include "degenerate_state.hpp"
 
 #include "null_modes.hpp"
-#include "quantities.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -25,6 +24,11 @@ bool is_degenerate(const PathProblem& problem, const continuation::CurvePoint& p
   for (double way = farthest; way > nearest; way /= 2)
     if (is_other(way) || is_other(-way)) return true;
   return false;
+}
+
+bool is_index_untold(const Evaluator& evaluator, const continuation::CurvePoint& point) {
+  return !evaluator.resting_index_of(QuantityDefinition::Kind::index, point) &&
+         is_degenerate(evaluator.problem(), point);
 }
 
 }  // namespace springfold::analysis

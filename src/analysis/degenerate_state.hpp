@@ -1,7 +1,7 @@
 // Whether the number of unstable modes of a state is one of rounding. Private to analysis.
 #pragma once
 
-#include "path_problem.hpp"
+#include "quantities.hpp"
 #include "springfold/continuation/curve.hpp"
 
 namespace springfold::analysis {
@@ -11,6 +11,9 @@ namespace springfold::analysis {
 /// states beside it in its weakest direction, whose residual is one of rounding too, have another number of unstable modes.
 /// @param point  in equilibrium, with its count of negative eigenvalues; without one it is degenerate
 bool is_degenerate(const PathProblem& problem, const continuation::CurvePoint& point);
+
+/// Likewise, but where springs rest at their thresholds all pieces together tell the number.
+bool is_index_untold(const Evaluator& evaluator, const continuation::CurvePoint& point);
 
 /// What is said of such a state.
 inline constexpr const char* degenerate_note =

@@ -195,9 +195,7 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.potential = setup.scales.moment() * potential_of(problem, f.z);
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;
-    const bool is_resting =
-        evaluator.resting_index_of(QuantityDefinition::Kind::index, point).has_value();
-    if (!is_resting && is_degenerate(problem, point)) take_back_counts(quantities, equilibrium);
+    if (is_index_untold(evaluator, point)) take_back_counts(quantities, equilibrium);
     equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
     // The coordinates of a locked chain do not feel every force: it balances what nothing would.
     if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {

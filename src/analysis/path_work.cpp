@@ -69,6 +69,31 @@ std::optional<Piece> piece_between(const PathProblem& problem, const PathState& 
   return piece;
 }
 
+/// The way from one state to a neighbouring one on a smooth piece, whose points the chord between them determines.
+struct ChordOfCurve {
+  const PathProblem& problem;
+  const PathState& from;
+  Vector weights;
+  Direction chord, border{};  ///< border: of unit length; where there is no way it is not defined
+  double length = 0;
+
+  ChordOfCurve(const PathProblem& of, const PathState& begin, const PathState& end)
+      : problem{of},
+        from{begin},
+        weights{of.metric()},
+        chord{end.x - begin.x, end.lambda - begin.lambda} {
+    length = std::sqrt(continuation::metric_product(weights, chord, chord));
+    border = {chord.dx / length, chord.dlambda / length};
+  }
+
+  bool is_a_way() const { return length > no_way; }
+  /// The curve's point at so large a part of the way.
+  auto at(double part, const Piece& piece) const {
+    return correct(problem, weights, from.x + part * chord.dx, from.lambda + part * chord.dlambda,
+                   piece, border, {});
+  }
+};
+
 }  // namespace
 
 double path_energy(const PathProblem& problem, const PathState& state) {
@@ -80,18 +105,14 @@ double path_energy(const PathProblem& problem, const PathState& state) {
 
 std::optional<PathState> state_at_level(const PathProblem& problem, const PathState& from,
                                         const PathState& to, double target) {
-  const Vector weights = problem.metric();
-  const Direction chord{to.x - from.x, to.lambda - from.lambda};
-  const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
-  if (!(length > no_way)) return from;
+  const ChordOfCurve chord(problem, from, to);
+  if (!chord.is_a_way()) return from;
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;
-  const Direction border{chord.dx / length, chord.dlambda / length};
   // Beside a limit load lambda hardly changes along the curve, and at constant lambda the state is hardly determined: the
   // way along the chord determines it.
   const auto state_at = [&](double part) -> std::optional<PathState> {
-    const auto solved = correct(problem, weights, from.x + part * chord.dx,
-                                from.lambda + part * chord.dlambda, *piece, border, {});
+    const auto solved = chord.at(part, *piece);
     return converged(solved) ? std::optional<PathState>({solved.x, solved.lambda}) : std::nullopt;
   };
   bool is_known = true;
@@ -113,34 +134,30 @@ std::optional<PathState> state_at_level(const PathProblem& problem, const PathSt
   const auto state = is_known ? state_at((low + high) / 2) : std::nullopt;
   if (!state) return std::nullopt;
   const Direction only_lambda{Vector::Zero(state->x.size()), 1};
-  const auto solved = correct(problem, weights, state->x, target, *piece, only_lambda, {});
+  const auto solved = correct(problem, chord.weights, state->x, target, *piece, only_lambda, {});
   return PathState{converged(solved) ? solved.x : state->x, target};
 }
 
 std::optional<double> path_work(const PathProblem& problem, const PathState& from,
                                 const PathState& to) {
-  const Vector weights = problem.metric();
-  const Direction chord{to.x - from.x, to.lambda - from.lambda};
-  const double length = std::sqrt(continuation::metric_product(weights, chord, chord));
-  if (!(length > no_way)) return 0.0;
-  const Direction border{chord.dx / length, chord.dlambda / length};
+  const ChordOfCurve chord(problem, from, to);
+  if (!chord.is_a_way()) return 0.0;
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;
   double work = 0;
   for (const auto& [node, weight] : gauss)
     for (const double sign : {-1.0, 1.0}) {
       const double part = (1 + sign * node) / 2;
-      const auto solved = correct(problem, weights, from.x + part * chord.dx,
-                                  from.lambda + part * chord.dlambda, *piece, border, {});
+      const auto solved = chord.at(part, *piece);
       continuation::Linearisation at;
       if (!converged(solved) || !linearise(problem, solved.x, solved.lambda, *piece, at))
         return std::nullopt;
-      const auto tangent = tangent_at(at, weights, border);
+      const auto tangent = tangent_at(at, chord.weights, chord.border);
       const auto rate = rate_by_lambda(problem, solved.x, solved.lambda, *piece);
       if (!tangent || !rate) return std::nullopt;
       // The curve is passed at unit speed along the chord.
-      const double along = continuation::metric_product(weights, *tangent, border);
-      work += weight / 2 * *rate * length * tangent->dlambda / along;
+      const double along = continuation::metric_product(chord.weights, *tangent, chord.border);
+      work += weight / 2 * *rate * chord.length * tangent->dlambda / along;
     }
   return work;
 }

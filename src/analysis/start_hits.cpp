@@ -94,6 +94,8 @@ bool only_switches(const Hit& hit, const Evaluator& evaluator) {
 
 std::vector<Hit> hits_at_start(const Following& t, const BranchSource& source) {
   const Curve &backward = source.backward, &forward = source.forward;
+  if (t.study.path == Path::davidenko || forward.stop == continuation::StopReason::closed)
+    return {};
   if (backward.points.size() < 2 || forward.points.size() < 2) return {};
   const auto events = events_through(t);
   if (!may_be_special(t, backward, forward, events)) return {};

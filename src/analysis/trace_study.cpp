@@ -51,8 +51,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
                         : follow(rays.rays[1], -1);
   source.forward_stop = stop_of(source.forward);
   source.backward_stop = stop_of(source.backward);
-  if (t.study.path == Path::arc_length && source.forward.stop != continuation::StopReason::closed)
-    source.at_start = hits_at_start(with, source);
+  source.at_start = hits_at_start(with, source);
   end_at_zero_lengths(t, source);
   add_stability_changes(t, source);
   add_between(t, source);

@@ -31,9 +31,7 @@ class Explorer {
 
   void explore(const CurvePoint& start) {
     TransitionReport& found = report_.transitions.emplace();
-    const bool is_resting =
-        t_.evaluator.resting_index_of(QuantityDefinition::Kind::index, start).has_value();
-    const bool is_untold = !is_resting && is_degenerate(t_.problem, start);
+    const bool is_untold = is_index_untold(t_.evaluator, start);
     if (is_untold || !is_stable(t_, start)) {
       report_.refusals.push_back(
           is_untold ? "the start is a limit or branch point within rounding: the states are looked "

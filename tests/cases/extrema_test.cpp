@@ -80,10 +80,7 @@ TEST(Extremum, OfTheLoadIsRefusedAsItIsALimitPoint) {
   EXPECT_THROW(run(bar("extrema = [\"nothing\"]\n")), CaseError);
 }
 
-/// Heights of a truss's apex at the extrema of a column: half span 1, height 0.8, pressed down to -1.2.
-std::vector<double> heights_at_extrema(const std::string& column, const std::string& more) {
-  const Ran ran = run(R"toml(
-[[node]]
+const std::string one_bar = R"toml([[node]]
 name = "a"
 at = [0, 0.8]
 fixed = ["x"]
@@ -92,11 +89,14 @@ name = "l"
 at = [-1, 0]
 fixed = true
 [[bar]]
-name = "bar"
 from = "l"
 to = "a"
 stiffness = 1
-)toml" + more + R"toml(
+)toml";
+
+/// Heights of a truss's apex at the extrema of a column: half span 1, height 0.8, pressed down to -1.2.
+std::vector<double> heights_at_extrema(const std::string& column, const std::string& more) {
+  const Ran ran = run(one_bar + more + R"toml(
 [[study]]
 name = "press"
 body = "a"
@@ -140,22 +140,7 @@ free = 0.5
 
 /// Over the height c of the anchor: the load there is 2 c (L0/L - 1) of one bar's share, and the spring pulls across.
 TEST(Extremum, OfALengthIsFollowedInASecondParameter) {
-  const Ran ran = run(R"toml(
-[parameters]
-c = 0.25
-[[node]]
-name = "a"
-at = [0, 0.8]
-fixed = ["x"]
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[bar]]
-from = "l"
-to = "a"
-stiffness = 1
-[[spring]]
+  const Ran ran = run("[parameters]\nc = 0.25\n" + one_bar + R"toml([[spring]]
 name = "s"
 from_at = [1, "c"]
 to = "a"
