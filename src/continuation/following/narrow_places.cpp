@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "continuation/locating/determined.hpp"
 #include "continuation/numerics/numerics.hpp"
@@ -43,17 +44,33 @@ bool is_hidden(const Walker& walker, const Curve& curve, std::size_t i) {
   return !s || !(s->distance > std::max(well_apart * s->blur, too_near));
 }
 
-/// Points that short steps lead to or from, beside another branch; up to their neighbours.
+/// The shorter one of the steps that lead to and from a point.
+double step_beside(const Curve& curve, std::size_t i) {
+  const auto& points = curve.points;
+  const double to = i > 0 ? points[i].s - points[i - 1].s : HUGE_VAL;
+  return i + 1 < points.size() ? std::min(to, points[i + 1].s - points[i].s) : to;
+}
+
+/// Points that short steps lead to or from, beside another branch; up to their neighbours. Steps shorten as the other branch
+/// comes near: the place is looked for where they are shortest, and from there as far as it goes.
 std::vector<PointRange> hidden_stretches(const Walker& walker, const Curve& curve) {
   const double limit = short_step * walker.options.step.maximum;
   const std::size_t count = curve.points.size();
-  const auto is_short = [&](std::size_t i) {  // the step to point i
-    return i > 0 && i < count && curve.points[i].s - curve.points[i - 1].s < limit;
+  const auto step = [&](std::size_t i) { return step_beside(curve, i); };
+  const auto is_in_it = [&](std::size_t i) {
+    return step(i) < limit && is_hidden(walker, curve, i);
   };
   std::vector<PointRange> found;
   for (std::size_t i = 0; i < count; ++i) {
-    if (count < 2 || !(is_short(i) || is_short(i + 1)) || !is_hidden(walker, curve, i)) continue;
-    const std::size_t first = i > 0 ? i - 1 : 0, last = std::min(i + 1, count - 1);
+    if (i > 0 && step(i) > step(i - 1)) continue;
+    if (i + 1 < count && step(i) > step(i + 1)) continue;
+    if (!is_in_it(i)) continue;
+    std::size_t first = i, last = i;
+    while (first > 0 && is_in_it(first - 1)) --first;
+    while (last + 1 < count && is_in_it(last + 1)) ++last;
+    i = last;
+    if (first > 0) --first;
+    if (last + 1 < count) ++last;
     if (found.empty() || first > found.back().last) found.push_back({first, last});
     found.back().last = last;
   }
