@@ -134,13 +134,12 @@ void add_hits(const ControlProblem& problem, const Curve& curve, Leg& leg) {
 /// Where a spring is led through the length 0 the leg ends: what was found behind it is forgotten.
 bool ends_at_zero_length(const CommandSetup& setup, const ControlProblem& problem,
                          std::vector<CurvePoint>& points, Leg& leg) {
-  const auto vectors_at = [&](const CurvePoint& point) {
+  const auto edges_at = [&](const CurvePoint& point) {
     const CommandedState state = state_at(problem, point);
-    return spring_vectors(setup.system, state.z, state.inputs);
+    return spring_edges(setup.system, state.z, state.inputs);
   };
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto why =
-        led_through_zero(setup.system, vectors_at(points[i - 1]), vectors_at(points[i]));
+    const auto why = led_over_edge(setup.system, edges_at(points[i - 1]), edges_at(points[i]));
     if (!why) continue;
     points.resize(i);
     leg.lost = *why;

@@ -16,6 +16,7 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
     const bool is_stuck = curve.stop == StopReason::step_too_small;
     return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
   }
+  if (const auto angle = angle_near_jump(problem, end)) return {*angle, false};
   if (const auto why = nears_kinematic_singularity(problem, end, other))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, end, other))

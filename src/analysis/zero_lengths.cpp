@@ -1,7 +1,10 @@
 #include "zero_lengths.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "springfold/core/number_text.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/system.hpp"
 
@@ -18,62 +21,65 @@ constexpr double on_one_line = 1e-9;
 
 using statics::PointShape;
 
-/// Of a shape: how many vectors turn round where its force does.
-std::size_t ways_of(const PointShape& shape) {
-  switch (shape.shape.kind) {
-    case model::ShapeKind::path:
-      return shape.shape.closed ? shape.points.size() : shape.points.size() - 1;
-    case model::ShapeKind::line:
-    case model::ShapeKind::angle:
-      return shape.shape.in_plane ? 0 : 1;
-    default:
-      return 0;
-  }
-}
+/// A vector that turns round where a shape is led over an edge, and the words for that place.
+struct Way {
+  Vec3 vector = Vec3::Zero();
+  const char* place = "the length 0, where its force has no direction";
+};
 
-/// From point to point of a path; in space across a line to the point, and across both sides of an angle.
-Vec3 vector_of(const PointShape& shape, const std::vector<Vec3>& p, std::size_t way) {
+/// From point to point of a path; in space across a line to the point; the sides of an angle and in space across both; of a
+/// fold from the edge to both points. As many at every state.
+std::vector<Way> ways_of(const PointShape& shape, const std::vector<Vec3>& p) {
+  constexpr const char* vertex = "its vertex, where the angle is not defined";
+  constexpr const char* edge = "its edge, where the angle is not defined";
+  constexpr const char* stretched = "the angle 0 or pi, where its force has no direction";
+  const auto across = [&](const Vec3& d) {
+    const Vec3 line = (p[2] - p[1]).normalized();
+    return Vec3(d - d.dot(line) * line);
+  };
   switch (shape.shape.kind) {
-    case model::ShapeKind::line: {
-      const Vec3 line = (p[2] - p[1]).normalized(), d = p[0] - p[1];
-      return d - d.dot(line) * line;
+    case model::ShapeKind::path: {
+      std::vector<Way> ways;
+      for (std::size_t i = 0; i + 1 < p.size(); ++i) ways.push_back({p[i + 1] - p[i]});
+      if (shape.shape.closed) ways.push_back({p.front() - p.back()});
+      return ways;
     }
-    case model::ShapeKind::angle:
-      return model::cross<double>(p[0] - p[1], p[2] - p[1]);
-    default:
-      return p[(way + 1) % p.size()] - p[way];
-  }
-}
-
-/// What comes to nothing there.
-std::string edge_words(const PointShape& shape) {
-  switch (shape.shape.kind) {
     case model::ShapeKind::line:
-      return "the distance 0";
-    case model::ShapeKind::angle:
-      return "the angle 0 or pi";
+      if (shape.shape.in_plane) return {};
+      return {{across(p[0] - p[1]), "the distance 0, where its force has no direction"}};
+    case model::ShapeKind::angle: {
+      const Vec3 first = p[0] - p[1], last = p[2] - p[1];
+      std::vector<Way> ways{{first, vertex}, {last, vertex}};
+      if (!shape.shape.in_plane) ways.push_back({model::cross<double>(first, last), stretched});
+      return ways;
+    }
+    case model::ShapeKind::dihedral:
+      return {{across(p[0] - p[1]), edge}, {across(p[3] - p[1]), edge}};
     default:
-      return "the length 0";
+      return {};
   }
 }
 
-/// The spring that vector `i` belongs to, in the order of spring_vectors(), and what comes to nothing.
+/// The spring that vector `i` belongs to, in the order of spring_edges(), and what comes to nothing.
 std::string words_of_vector(const statics::System& system, std::size_t i) {
-  const std::string led = " would be led through ", where = ", where its force has no direction";
+  const std::string led = " would be led through ";
   for (std::size_t k = 0; k < system.line_springs.size(); ++k)
     if (system.line_springs[k].free != 0 && i-- == 0)
-      return system.mechanism.line_springs[k].name + led + "the length 0" + where;
-  std::size_t shape = 0;
-  for (; i >= ways_of(system.shapes[shape]); ++shape) i -= ways_of(system.shapes[shape]);
-  return system.shapes[shape].name + led + edge_words(system.shapes[shape]) + where;
+      return system.mechanism.line_springs[k].name + led + Way{}.place;
+  for (const PointShape& shape : system.shapes) {
+    const std::vector<Way> ways = ways_of(shape, std::vector<Vec3>(shape.points.size()));
+    if (i < ways.size()) return shape.name + led + ways[i].place;
+    i -= ways.size();
+  }
+  return {};
 }
 
-std::vector<Vec3> vectors_at(const PathProblem& problem, const CurvePoint& point) {
+SpringEdges edges_at(const PathProblem& problem, const CurvePoint& point) {
   Vector z;
   statics::Inputs inputs;
   problem.put_expanded(point.x, point.lambda, nullptr, z);
   problem.put_inputs(point.lambda, inputs);
-  return spring_vectors(problem.system(point.lambda), z, inputs);
+  return spring_edges(problem.system(point.lambda), z, inputs);
 }
 
 void cut(Curve& curve, std::size_t points) {
@@ -85,49 +91,58 @@ void cut(Curve& curve, std::size_t points) {
 
 }  // namespace
 
-std::vector<Vec3> spring_vectors(const statics::System& system, const Vector& z,
-                                 const statics::Inputs& inputs) {
-  std::vector<Vec3> vectors;
+SpringEdges spring_edges(const statics::System& system, const Vector& z,
+                         const statics::Inputs& inputs) {
+  SpringEdges edges;
   const auto add = [&](std::size_t from, std::size_t to) {
-    vectors.push_back(position_of(system, to, z, inputs.rho) -
-                      position_of(system, from, z, inputs.rho));
+    edges.vectors.push_back(position_of(system, to, z, inputs.rho) -
+                            position_of(system, from, z, inputs.rho));
   };
   for (const statics::PointSpring& spring : system.line_springs)
     if (spring.free != 0) add(spring.from, spring.to);
   for (std::size_t i = 0; i < system.shapes.size(); ++i) {
     const PointShape& shape = system.shapes[i];
-    const std::size_t ways = ways_of(shape);
-    if (ways == 0) continue;
     // A slack cable pulls nowhere, and what has no force there passes smoothly: their vectors are compared with none.
     const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
     const bool counts = state.slope != 0 && !is_smooth_at_edge(shape, state.value);
     std::vector<Vec3> p;
     for (const std::size_t point : shape.points)
       p.push_back(position_of(system, point, z, inputs.rho));
-    for (std::size_t k = 0; k < ways; ++k)
-      vectors.push_back(counts ? vector_of(shape, p, k) : Vec3(Vec3::Zero()));
+    for (const Way& way : ways_of(shape, p))
+      edges.vectors.push_back(counts ? way.vector : Vec3(Vec3::Zero()));
+    edges.angles.push_back(state.slope != 0 ? state.off_middle : 0);
   }
-  return vectors;
+  return edges;
 }
 
-std::optional<std::string> led_through_zero(const statics::System& system,
-                                            const std::vector<Vec3>& before,
-                                            const std::vector<Vec3>& after) {
-  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
-    const Vec3 &a = before[i], &b = after[i];
+std::string half_turn_words(const PointShape& shape) {
+  const std::string text = "half a turn from near = " + rounded(shape.shape.near);
+  return shape.shape.kind == model::ShapeKind::angle
+             ? text + "; give another `near`, or for nodes `turns = true`"
+             : text + "; give another `near`";
+}
+
+std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
+                                         const SpringEdges& after) {
+  for (std::size_t i = 0; i < std::min(before.vectors.size(), after.vectors.size()); ++i) {
+    const Vec3 &a = before.vectors[i], &b = after.vectors[i];
     const double sizes = a.norm() * b.norm();
     if (sizes > 0 && a.dot(b) < 0 && model::cross<double>(a, b).norm() <= on_one_line * sizes)
       return words_of_vector(system, i);
   }
+  for (std::size_t i = 0; i < std::min(before.angles.size(), after.angles.size()); ++i)
+    if (std::abs(after.angles[i] - before.angles[i]) > std::numbers::pi)
+      return "the angle of " + system.shapes[i].name +
+             " would jump by a whole turn: " + half_turn_words(system.shapes[i]);
   return std::nullopt;
 }
 
 std::optional<Stop> end_at_zero_length(const PathProblem& problem, Curve& curve) {
   if (curve.points.empty()) return std::nullopt;
-  std::vector<Vec3> before = vectors_at(problem, curve.points.front());
-  for (std::size_t i = 1; i < curve.points.size() && !before.empty(); ++i) {
-    std::vector<Vec3> after = vectors_at(problem, curve.points[i]);
-    if (auto reason = led_through_zero(problem.system(curve.points[i].lambda), before, after)) {
+  SpringEdges before = edges_at(problem, curve.points.front());
+  for (std::size_t i = 1; i < curve.points.size() && !before.is_empty(); ++i) {
+    SpringEdges after = edges_at(problem, curve.points[i]);
+    if (auto reason = led_over_edge(problem.system(curve.points[i].lambda), before, after)) {
       cut(curve, i);
       return Stop{std::move(*reason), false};
     }

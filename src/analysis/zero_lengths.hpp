@@ -1,4 +1,4 @@
-// Springs that are led through the length 0, where their force has no direction. Private to analysis.
+// Springs that are led through the length 0, where their force has no direction, and angles that jump. Private to analysis.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,31 @@
 
 namespace springfold::analysis {
 
-/// The vectors between the points of all springs that have force at the length 0, in one order; those of slack cables
-/// are zero.
-std::vector<model::Vec3<double>> spring_vectors(const statics::System& system, const Vector& z,
-                                                const statics::Inputs& inputs);
+/// What turns round or jumps at once where a spring is led through an edge of its shape, in one order for all states.
+struct SpringEdges {
+  /// Between the points of springs that have force at the length 0, and the rays of angles; zero where there is no force.
+  std::vector<model::Vec3<double>> vectors{};
+  /// Of every shape: how far its angle is from the middle of the turn in which it is counted; 0 where there is none, or no
+  /// moment.
+  std::vector<double> angles{};
+
+  bool is_empty() const { return vectors.empty() && angles.empty(); }
+};
+SpringEdges spring_edges(const statics::System& system, const Vector& z,
+                         const statics::Inputs& inputs);
+
+/// What to do about an angle that is half a turn from `near`.
+std::string half_turn_words(const statics::PointShape& shape);
 
 /// Why a curve does not lead from the first of these states to the second: a spring is turned round there without being
-/// turned aside. Nothing where it does.
-std::optional<std::string> led_through_zero(const statics::System& system,
-                                            const std::vector<model::Vec3<double>>& before,
-                                            const std::vector<model::Vec3<double>>& after);
+/// turned aside, or an angle jumps by whole turns. Nothing where it does.
+std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
+                                         const SpringEdges& after);
 
 /// A body that is guided along the line of a spring can be driven through the place at which the spring has the length 0.
-/// Its force turns round there at once, which no unknown of the path shows. The curve ends at the last point before, with
-/// the spring's name as its reason. Springs without force at the length 0 pass.
+/// Its force turns round there at once, which no unknown of the path shows. So it is where a point is led through the vertex
+/// of an angle or the edge of a fold, and where an angle jumps, half a turn from `near`. The curve ends at the last point
+/// before, with the spring's name as its reason. Springs without force there pass.
 /// @returns the new end of the curve; nothing where it stays
 std::optional<Stop> end_at_zero_length(const PathProblem& problem, continuation::Curve& curve);
 

@@ -20,9 +20,14 @@ bool counts_turns(const PointShape& shape) {
   return shape.shape.kind == model::ShapeKind::angle && shape.shape.in_plane;
 }
 
-/// The angle nearest to `near`, which moves with the frames of the two rays.
+/// `near`, which moves with the frames of the two rays.
+double middle_of(const PointShape& shape, double turned) {
+  return shape.shape.near + turned - shape.turned;
+}
+
+/// The angle nearest to it.
 double counted(const PointShape& shape, double angle, double turned) {
-  return model::detail::nearest_angle<double>(angle, shape.shape.near + turned - shape.turned);
+  return model::detail::nearest_angle<double>(angle, middle_of(shape, turned));
 }
 
 /// The derivatives of alpha, or of what stands for it, by the variables of the points.
@@ -192,6 +197,14 @@ double turn_between(const System& system, const PointShape& shape, const Vector&
   return turn_of(last) - turn_of(first);
 }
 
+/// How far alpha is from the middle of its range; 0 where it has none.
+double off_middle(const System& system, const PointShape& shape, double alpha, const Vector& z,
+                  const Vector& rho) {
+  if (shape.shape.kind == model::ShapeKind::dihedral) return alpha - shape.shape.near;
+  if (!counts_turns(shape)) return 0;
+  return alpha - middle_of(shape, turn_between(system, shape, z, rho));
+}
+
 double value_of(const System& system, const PointShape& shape, const Vector& z, const Vector& rho) {
   Vector positions(3 * std::ssize(shape.points));
   for (std::size_t a = 0; a < shape.points.size(); ++a)
@@ -241,7 +254,8 @@ ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs) {
   const PointShape& s = system.shapes[shape];
   const double alpha = value_of(system, s, z, inputs.rho), own = own_part(s, alpha, z);
-  return {alpha, slopes_in(s, s.law.segment_at(own), own, inputs.loads).slope, own};
+  return {alpha, slopes_in(s, s.law.segment_at(own), own, inputs.loads).slope, own,
+          off_middle(system, s, alpha, z, inputs.rho)};
 }
 
 double series_energy(const System& system, std::size_t shape, const Vector& z) {

@@ -7,9 +7,10 @@ namespace springfold::statics {
 
 /// alpha of a shape [its unit] and dU/dalpha: the force with which a path or a distance pulls, the
 /// moment that closes an angle; of areas and volumes minus the pressure. `own` is the coordinate of the law: alpha
-/// without what springs in series take of it.
+/// without what springs in series take of it. `off_middle` [rad]: how far an angle with a sign, or that of a fold, is from the
+/// middle of the whole turn in which it is counted; it jumps where that is half a turn.
 struct ShapeState {
-  double value = 0, slope = 0, own = 0;
+  double value = 0, slope = 0, own = 0, off_middle = 0;
 };
 
 /// @param shape  number among System::shapes
