@@ -78,6 +78,7 @@ class WatchedStep {
   Place* place_on_model(const CurvePoint& point) const;
   bool is_on_curve(const CurvePoint& point, const Vector& F) const;
   void settle_model() const;
+  double largest_of(const Direction& d) const;
   bool samples_lie_straight() const;
   bool is_straight() const;
   void put_on_line(double ds) const;
