@@ -18,6 +18,8 @@ using continuation::HitKind;
 constexpr double same_as_start = 1e-9;
 /// What is so small beside its values at the next points may be zero at the start.
 constexpr double perhaps_zero = 1e-6;
+/// Rates of lambda along a unit tangent that are larger are no rounding.
+constexpr double has_a_sign = 1e-11;
 
 bool is_plain(const continuation::Event& event) {
   return event.action == continuation::EventAction::stop || event.tag == plain_event ||
@@ -71,15 +73,85 @@ std::optional<CurvePoint> point_before(const Following& t, const Curve& backward
   return turned_round(way.points[1]);
 }
 
-bool lies_at(const CurvePoint& start, const Hit& hit) {
-  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda) <=
-         same_as_start;
+bool is_same_kind(const Hit& a, const Hit& b) { return a.kind == b.kind && a.tag == b.tag; }
+
+/// How far from where it was located the special point may lie: rounding places flat ones no better than its interval.
+double reach_of(const Hit& hit) {
+  return std::max(same_as_start, std::min(hit.point.s - hit.s_before, hit.s_after - hit.point.s));
 }
 
-/// The curves may have it already, a little behind the start.
+bool lies_at(const CurvePoint& start, const Hit& hit) {
+  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda) <=
+         reach_of(hit);
+}
+
+/// The curves may have it already, a little behind the start; what they tell there is not unresolved.
 bool is_met_by(const Curve& curve, const Hit& hit) {
-  return !curve.hits.empty() && curve.hits.front().kind == hit.kind &&
-         curve.hits.front().tag == hit.tag && curve.hits.front().point.s <= 2 * same_as_start;
+  if (curve.hits.empty()) return false;
+  const Hit& first = curve.hits.front();
+  const bool is_near = first.point.s <= 2 * reach_of(hit), holds_start = first.s_before <= 0;
+  if (hit.kind == HitKind::unresolved)
+    return first.kind != HitKind::user && (is_near || holds_start);
+  return is_same_kind(first, hit) && is_near;
+}
+
+/// The special point as one of the start, s = 0, at the start's own place if it is flat.
+Hit moved_to(const CurvePoint& start, Hit hit) {
+  const bool is_flat = reach_of(hit) > same_as_start;
+  hit.s_before -= hit.point.s;
+  hit.s_after -= hit.point.s;
+  hit.point.s = 0;
+  for (CurvePoint& leaving : hit.leaving) leaving.s = 0;
+  if (is_flat) {
+    hit.point.x = start.x;
+    hit.point.lambda = start.lambda;
+  }
+  return hit;
+}
+
+/// What both curves meet right behind the start, each within an interval that reaches back to it, is one special point:
+/// the start. It is taken from the curves.
+std::vector<Hit> taken_from_both(BranchSource& source) {
+  std::vector<Hit> taken;
+  Curve &backward = source.backward, &forward = source.forward;
+  const auto reaches_back = [](const Curve& curve) {
+    return !curve.hits.empty() && curve.hits.front().s_before <= 0 &&
+           curve.hits.front().kind != HitKind::unresolved && !curve.hits.front().stops;
+  };
+  while (reaches_back(backward) && reaches_back(forward) &&
+         is_same_kind(backward.hits.front(), forward.hits.front())) {
+    taken.push_back(moved_to(forward.points.front(), std::move(forward.hits.front())));
+    backward.hits.erase(backward.hits.begin());
+    forward.hits.erase(forward.hits.begin());
+  }
+  return taken;
+}
+
+/// The first point of a curve at which the rate of lambda has a sign, if no special point lies before it.
+const CurvePoint* first_with_sign(const Curve& curve) {
+  const double room = curve.hits.empty() ? curve.points.back().s : curve.hits.front().point.s;
+  for (const CurvePoint& point : curve.points)
+    if (point.s < room && std::abs(point.tangent.dlambda) > has_a_sign) return &point;
+  return nullptr;
+}
+
+/// Turns of lambda at the start too close together to tell: whether it turns altogether is told by its rates where they
+/// have a sign again. Nothing where they have none, or where the eigenvalues are not told beside the start or say something
+/// else.
+std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSource& source) {
+  const CurvePoint *const before = first_with_sign(source.backward), *const after = first_with_sign(
+                                                                         source.forward);
+  if (before == nullptr || after == nullptr) return std::nullopt;
+  const bool turns = before->tangent.dlambda * after->tangent.dlambda > 0;
+  if (problem.symmetric()) {
+    const auto &behind = source.backward.points[1].negative,
+               &ahead = source.forward.points[1].negative;
+    if (!behind || !ahead || std::abs(*ahead - *behind) != (turns ? 1 : 0)) return std::nullopt;
+  }
+  hit.kind = turns ? HitKind::limit_point : HitKind::touch;
+  hit.name = turns ? "limit point" : "touch";
+  hit.multiplicity = turns ? 1 : 2;
+  return hit;
 }
 
 /// Nothing but a spring that begins or ends to act.
@@ -92,37 +164,36 @@ bool only_switches(const Hit& hit, const Evaluator& evaluator) {
 
 }  // namespace
 
-std::vector<Hit> hits_at_start(const Following& t, const BranchSource& source) {
+std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
   const Curve &backward = source.backward, &forward = source.forward;
   if (t.study.path == Path::davidenko || forward.stop == continuation::StopReason::closed)
     return {};
-  if (backward.points.size() < 2 || forward.points.size() < 2) return {};
+  std::vector<Hit> hits = taken_from_both(source);
+  if (backward.points.size() < 2 || forward.points.size() < 2) return hits;
   const auto events = events_through(t);
-  if (!may_be_special(t, backward, forward, events)) return {};
+  if (!may_be_special(t, backward, forward, events)) return hits;
   const double way = std::min(free_way(backward), free_way(forward));
   if (!(way > same_as_start))
-    return {};  // special points of the curves lie at the start: they tell it
+    return hits;  // special points of the curves lie at the start: they tell it
   continuation::TraceOptions options = options_of(t.study.trace);
   options.verify_arcs = false;
   options.step.initial = options.step.maximum = way;
   options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
   const auto before = point_before(t, backward, options);
-  if (!before) return {};
+  if (!before) return hits;
   constexpr double beyond = 1.5;  // of the way: behind the start
   const auto observe = [&](const CurvePoint& point) { return point.s < beyond * way; };
   Curve through = trace(t.problem, before->x, before->lambda, {before->piece, before->tangent},
                         events, options, observe);
   through = with_hits_merged(std::move(through), t.evaluator);
-  std::vector<Hit> hits;
+  const CurvePoint& start = forward.points.front();
   for (Hit& hit : through.hits) {
-    if (hit.kind == HitKind::unresolved || !lies_at(forward.points.front(), hit)) continue;
-    if (is_met_by(backward, hit) || is_met_by(forward, hit)) continue;
-    if (only_switches(hit, t.evaluator)) continue;
-    hit.s_before -= hit.point.s;
-    hit.s_after -= hit.point.s;
-    hit.point.s = 0;
-    for (CurvePoint& leaving : hit.leaving) leaving.s = 0;
-    hits.push_back(std::move(hit));
+    if (!lies_at(start, hit) || is_met_by(backward, hit) || is_met_by(forward, hit)) continue;
+    if (hit.kind == HitKind::unresolved) hit = settled(hit, t.problem, source).value_or(hit);
+    const bool is_known = std::any_of(hits.begin(), hits.end(),
+                                      [&](const Hit& other) { return is_same_kind(other, hit); });
+    if (is_known || only_switches(hit, t.evaluator)) continue;
+    hits.push_back(moved_to(start, std::move(hit)));
   }
   return hits;
 }

@@ -9,8 +9,10 @@ namespace springfold::analysis {
 
 /// Neither of the two curves that leave an ordinary start meets what lies on the start. A short curve through it does:
 /// from a point of the backward curve, nearer than its first special point, to beyond the start.
+/// What both curves meet in an interval that reaches back to the start is the start as well, and is taken from them. A flat
+/// limit point, which rounding does not place, is told by the rates of lambda beside it, or said to be unresolved.
 /// @returns the special points at the start, s = 0, in the direction of the forward curve; marks and plain switchings,
 /// which other parts of a result tell, are left out
-std::vector<continuation::Hit> hits_at_start(const Following& with, const BranchSource& source);
+std::vector<continuation::Hit> hits_at_start(const Following& with, BranchSource& source);
 
 }  // namespace springfold::analysis

@@ -90,6 +90,76 @@ TEST(StartOnALimitPoint, OfAnotherStudyIsOneOfThisStudyToo) {
   expect_both_limit_points(run(truss_with(shallow, first + then)).of("then"));
 }
 
+/// A slide under a spring of torque -u^n + u^(n+1), n even, begun at u = 0: a flat limit point, at which lambda turns at 0;
+/// the way snaps from there to u = 1, and back from the other limit point at u = n / (n + 1).
+std::string slide_with(const std::string& coefficients) {
+  return R"([[body]]
+name = "p"
+task_space = "xy"
+[[chain]]
+name = "c"
+elements = [{ joint = "prismatic", axis = "x", name = "x", role = "preloaded", spring = { law = "polynomial", falling = true, coefficients = )" +
+         coefficients + R"( } }]
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "load"
+direction = [1, 0]
+until = { p.x = [-1, 1.3] }
+)";
+}
+
+TEST(StartOnAFlatLimitPoint, IsOneOfTheCurveAndJumps) {
+  for (const int n : {4, 6}) {
+    std::string coefficients = "[0";
+    for (int power = 1; power < n; ++power) coefficients += ", 0";
+    const auto result = run(slide_with(coefficients + ", -1, 1]")).of("press");
+    const double other = -1.0 / n * std::pow(n / (n + 1.0), n + 1);
+    EXPECT_THAT(
+        lambdas(result, EventKind::limit_point),
+        testing::ElementsAre(testing::DoubleNear(0, 1e-12), testing::DoubleNear(other, 1e-10)))
+        << n;
+    ASSERT_TRUE(result.snap) << n;
+    const auto x = static_cast<std::size_t>(column(result, "p.x"));
+    const auto from_start =
+        std::count_if(result.snap->jumps.begin(), result.snap->jumps.end(), [x](const auto& jump) {
+          return std::abs(jump.critical.values[x]) < 1e-9 &&
+                 std::abs(jump.landing.values[x] - 1) < 1e-9;
+        });
+    EXPECT_EQ(from_start, 1) << n;
+    EXPECT_THAT(result.snap->jumps, SizeIs(2)) << n;
+  }
+}
+
+TEST(StartOnAFlatLimitPoint, IsUnresolvedWhereNothingBesideItCanBeTold) {
+  const auto result = run(slide_with("[0, 0, 0, 0, 0, 0, 0, 0, -1, 1]")).of("press");
+  EXPECT_THAT(lambdas(result, EventKind::unresolved),
+              testing::ElementsAre(testing::DoubleNear(0, 1e-12)));
+}
+
+TEST(StartOnAnInflection, LosesNoSideOfTheCurve) {
+  for (const std::string coefficients :
+       {"[0, 0, 0, 1]", "[0, 0, 0, 0, 0, 1]", "[0, 0, 0, 0, 0, 0, 0, 1]"}) {
+    const auto result = run(slide_with(coefficients)).of("press");
+    ASSERT_THAT(result.branches, SizeIs(1)) << coefficients;
+    const auto& branch = result.branches[0];
+    EXPECT_NEAR(value(result, 0, "p.x"), -1, 1e-10) << coefficients;
+    EXPECT_NEAR(value(result, branch.samples.size() - 1, "p.x"), 1.3, 1e-10) << coefficients;
+    EXPECT_THAT(lambdas(result, EventKind::touch), SizeIs(1)) << coefficients;
+    EXPECT_TRUE(branch.forward.complete && branch.backward.complete) << coefficients;
+  }
+}
+
+TEST(StartOnALimitPoint, OfAHighTrussHasNothingUnresolvedBesideIt) {
+  const Truss high{3};
+  const std::string keys = "until = { a.y = [0.9, 3.1] }\n";
+  std::string then = press_under("load", keys + "start = { from = \"press\", at = \"LP1\" }\n");
+  then.replace(then.find("press"), 5, "then");
+  const auto result = run(truss_with(high, press_under("load", keys) + then)).of("then");
+  EXPECT_THAT(lambdas(result, EventKind::limit_point), SizeIs(1));
+  EXPECT_THAT(lambdas(result, EventKind::unresolved), testing::IsEmpty());
+}
+
 TEST(StartOnABranchPoint, IsWhereTheBranchThroughItLosesStabilityAndJumps) {
   // The tall truss sways where its transverse stiffness vanishes: 1 - L0/L + L0/L^3 = 0.
   const Truss tall{2.5};

@@ -166,6 +166,9 @@ void Tracer::queue_ways(int number) {
 bool Tracer::at_hit(const Hit& hit, bool ends) {
   if (options_.outside && options_.outside(hit.point)) return false;
   if (!is_junction(hit)) return true;
+  // No other curve leaves an ordinary start: a touch in whose interval it lies is no junction.
+  const Branch& own = diagram_.branches[static_cast<std::size_t>(current_)];
+  if (hit.kind == HitKind::touch && own.start >= 0 && hit.s_before <= 0) return true;
   if (hit.kind == HitKind::branching_kink && !options_.through_kinks) return true;
   int number = junction_at(hit);
   const bool known = number >= 0;

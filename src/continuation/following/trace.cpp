@@ -9,6 +9,7 @@
 #include "continuation/following/narrow_places.hpp"
 #include "continuation/following/one_step.hpp"
 #include "continuation/following/wider_steps.hpp"
+#include "continuation/kinks/beside.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
@@ -91,6 +92,8 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
   const CurvePoint first{.x = x, .lambda = lambda};
   Progress progress;
   progress.here = point_on_ray(walker, first, start);
+  // At a limit point an eigenvalue is zero: its sign is rounding.
+  if (!told_from_zero(progress.here)) progress.here.negative.reset();
   progress.left = active_switches(walker, x, lambda);
   progress.ds = options.step.initial;
   Curve curve{.points = {progress.here}};
