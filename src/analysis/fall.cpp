@@ -99,6 +99,25 @@ Departures departures(const Landscape& landscape, const Vector& critical,
   return result;
 }
 
+bool are_one_way(const Landscape& landscape, const Vector& critical, const Departure& a,
+                 const Departure& b) {
+  constexpr double opposite = -0.999;
+  if (a.along.dot(b.along) < opposite) return false;
+  const double energy = landscape.energy(critical);
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const Vector along = ((1 - part) * a.along + part * b.along).normalized();
+    const auto at = pushed(landscape, critical, along, critical,
+                           {.amplitude = std::max(a.amplitude, b.amplitude)});
+    if (!at || !(landscape.energy(at->x) < energy)) return false;
+  }
+  return true;
+}
+
+bool lead_to_the_same(const Fall& a, const Fall& b) {
+  return a.verdict == b.verdict && a.landing == b.landing && a.may_run_away == b.may_run_away &&
+         std::is_permutation(a.minima.begin(), a.minima.end(), b.minima.begin(), b.minima.end());
+}
+
 Fall fall(StateBook& book, const Departure& departure, double energy) {
   Fall result;
   const WaysDown first = book.ways_down(departure.x);

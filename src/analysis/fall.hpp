@@ -46,6 +46,14 @@ struct Fall {
       false;  ///< a way down ended at no state that is known to be stable: the verdict is open
 };
 
+/// Do two departures begin in one part of {Pi < Pi(critical)} beside the critical state? So it is where the energy is
+/// lower in all directions between theirs.
+bool are_one_way(const Landscape& landscape, const Vector& critical, const Departure& a,
+                 const Departure& b);
+
+/// The same verdict, landing, minima and ways without end.
+bool lead_to_the_same(const Fall& a, const Fall& b);
+
 /// @param book  after its search
 /// @param energy  Pi of the critical state
 Fall fall(StateBook& book, const Departure& departure, double energy);

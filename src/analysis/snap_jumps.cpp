@@ -54,9 +54,9 @@ class Jumper {
     for (const Departure& way : ways.list) book.ways_down(way.x);
     if (!settings_.transitions) add_traced(frozen, critical, book);
     if (!settings_.transitions) book.search(search_below(energy));
+    std::vector<Told> told;
     for (const Departure& way : ways.list) {
       Jump jump;
-      jump.label = "J" + std::to_string(findings_.report.jumps.size() + 1);
       jump.from = event.label;
       jump.branch = static_cast<int>(loss.branch) + 1;
       jump.loading = loss.loading;
@@ -70,13 +70,48 @@ class Jumper {
         doubt(event,
               "a way down ended at no state that is known to be stable: the verdict is open");
       settle(frozen, event, way, down, book, jump);
-      write(frozen, state_of(frozen, branch, loss.stable_row), down, book, jump);
-      if (settings_.inertia) move_with_masses(frozen, event, critical, way, down, book, jump);
+      told.push_back({way, std::move(down), std::move(jump)});
+    }
+    const Vector before = state_of(frozen, branch, loss.stable_row);
+    for (Told& one : one_of_each(landscape, critical, std::move(told))) {
+      Jump& jump = one.jump;
+      jump.label = "J" + std::to_string(findings_.report.jumps.size() + 1);
+      write(frozen, before, one.down, book, jump);
+      if (settings_.inertia)
+        move_with_masses(frozen, event, critical, one.way, one.down, book, jump);
       findings_.report.jumps.push_back(std::move(jump));
     }
   }
 
  private:
+  /// A departure and where it leads.
+  struct Told {
+    Departure way{};
+    Fall down{};
+    Jump jump{};
+  };
+
+  /// Ways down that lead to the same and begin in one part of {Pi < Pi(critical)} are one jump, by whatever pieces and
+  /// modes they were found: the first of them stays.
+  static std::vector<Told> one_of_each(const Landscape& landscape, const Vector& critical,
+                                       std::vector<Told> told) {
+    std::vector<std::size_t> group(told.size());
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      group[i] = i;
+      for (std::size_t k = 0; k < i; ++k) {
+        if (group[k] == group[i] || !lead_to_the_same(told[k].down, told[i].down) ||
+            !are_one_way(landscape, critical, told[k].way, told[i].way))
+          continue;
+        const std::size_t from = std::max(group[k], group[i]), to = std::min(group[k], group[i]);
+        std::replace(group.begin(), group.end(), from, to);
+      }
+    }
+    std::vector<Told> first;
+    for (std::size_t i = 0; i < told.size(); ++i)
+      if (group[i] == i) first.push_back(std::move(told[i]));
+    return first;
+  }
+
   StateSearch search_below(double energy) const {
     return {.starts = settings_.starts,
             .seed = settings_.seed,

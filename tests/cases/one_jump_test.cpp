@@ -1,0 +1,90 @@
+// One way down from a critical state is one jump, by however many pieces and modes it is found.
+#include <gmock/gmock.h>
+
+#include "case_runs.hpp"
+#include "springfold/analysis/snap.hpp"
+
+namespace springfold::io {
+namespace {
+
+/// Two bars to an apex at height 3, and two stops at rest on the axis that is never left: it snaps from LP1 down to the
+/// mirror image of LP1's height, and back from LP2.
+TEST(WayDown, BesideStopsAtRestIsOneJump) {
+  const std::string stop = R"(
+[[spring]]
+name = "NAME"
+shape = "line"
+of = ["apex", { on = "base", at = [0, 0] }, { on = "base", at = [0, 1] }]
+law = { law = "one_sided", stiffness = 2, from = 0, side = "NAME" }
+)";
+  std::string above = stop, below = stop;
+  for (std::string* text : {&above, &below})
+    for (std::size_t at; (at = text->find("NAME")) != std::string::npos;)
+      text->replace(at, 4, text == &above ? "above" : "below");
+  const std::string rest = R"([[node]]
+name = "L"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "R"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "apex"
+at = [0, 3]
+[[bar]]
+from = "L"
+to = "apex"
+stiffness = 1
+[[bar]]
+from = "R"
+to = "apex"
+stiffness = 1
+[[study]]
+name = "press"
+kind = "snap_through"
+body = "apex"
+control = "load"
+direction = [0, -1]
+until = { apex.y = [-6, 6], apex.x = [-3, 3] }
+)";
+  const auto result = run(rest.substr(0, rest.find("[[study]]")) + above + below +
+                          rest.substr(rest.find("[[study]]")))
+                          .of("press");
+  ASSERT_TRUE(result.snap);
+  std::vector<int> loading;
+  for (const auto& jump : result.snap->jumps) loading.push_back(jump.loading);
+  EXPECT_THAT(loading, testing::UnorderedElementsAre(1, -1));
+}
+
+/// A chain of two links whose second spring gives way at 0.53: from that corner two pieces show one way down.
+TEST(WayDown, FromACornerWithTwoFreeMotionsIsOneJump) {
+  const auto result = run(R"([[body]]
+name = "p"
+task_space = "xy"
+pose = [1.92, 0.36]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", name = "a", role = "preloaded", initial = -0.03, spring = { law = "stops", stiffness = 0.5, stop_stiffness = 2, low = -0.42, high = 0.28, free = -0.02 } },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", name = "b", role = "preloaded", initial = 0.43, spring = { law = "piecewise_linear", breakpoints = [0.23, 0.53], stiffnesses = [2, -1, 4], free = 0.43, falling = true } },
+  { rigid = [1, 0] },
+]
+[[study]]
+name = "press"
+kind = "snap_through"
+control = "load"
+direction = [-0.8047, -0.5936]
+until = { c.a = [-1.4, 1.4], c.b = [-2.5, 2.5], lambda = [-40, 40] }
+branches = { depth = 0 }
+)")
+                          .of("press");
+  ASSERT_TRUE(result.snap);
+  std::vector<std::string> from;
+  for (const auto& jump : result.snap->jumps) from.push_back(jump.from);
+  EXPECT_THAT(from, testing::UnorderedElementsAre("CL1", "CL2"));
+}
+
+}  // namespace
+}  // namespace springfold::io
