@@ -12,17 +12,8 @@ namespace {
 using Kind = QuantityDefinition::Kind;
 
 bool may_lose_stability(const Event& event) {
-  switch (event.kind) {
-    case EventKind::limit_point:
-    case EventKind::branch_point:
-    case EventKind::switching:
-    case EventKind::corner_limit_point:
-    case EventKind::branching_kink:
-    case EventKind::touch:
-      return true;
-    default:
-      return false;
-  }
+  return event.kind == EventKind::limit_point || event.kind == EventKind::switching ||
+         event.kind == EventKind::corner_limit_point || is_meeting_of_branches(event.kind);
 }
 
 }  // namespace
@@ -55,10 +46,7 @@ std::vector<Loss> losses_of(const StudyResult& result,
       const double here = value(event.row, lambda);
       const std::size_t beside = from_before ? event.row - 1 : last + 1;
       const int loading = here >= value(beside, lambda) ? 1 : -1;
-      const bool is_junction = event.kind == EventKind::branch_point ||
-                               event.kind == EventKind::branching_kink ||
-                               event.kind == EventKind::touch;
-      if (is_junction && !seen.insert(event.label).second) continue;
+      if (is_meeting_of_branches(event.kind) && !seen.insert(event.label).second) continue;
       losses.push_back({b, e, loading, beside});
     }
   }

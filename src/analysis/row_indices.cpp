@@ -11,7 +11,8 @@ std::vector<bool> critical_rows(const Branch& branch) {
   std::vector<bool> critical(branch.samples.size(), false);
   for (const Event& event : branch.events)
     critical[event.row] = event.kind == EventKind::limit_point ||
-                          event.kind == EventKind::branch_point || event.kind == EventKind::touch;
+                          event.kind == EventKind::branch_point || event.kind == EventKind::touch ||
+                          event.kind == EventKind::kinematic_singularity;
   return critical;
 }
 

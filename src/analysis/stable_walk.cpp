@@ -41,9 +41,7 @@ std::optional<StableWalk::Next> StableWalk::stable_branch_from(const Event& even
 
 std::vector<StableWalk::Next> StableWalk::stable_branches_from(const Event& event, std::size_t from,
                                                                int direction) const {
-  if (event.kind != EventKind::branch_point && event.kind != EventKind::branching_kink &&
-      event.kind != EventKind::touch)
-    return {};
+  if (!is_meeting_of_branches(event.kind)) return {};
   std::vector<Next> list;
   for (std::size_t b = 0; b < result_.branches.size(); ++b) {
     const Branch& branch = result_.branches[b];
@@ -70,12 +68,27 @@ const Event* StableWalk::event_at(std::size_t branch, std::size_t row) const {
   return nullptr;
 }
 
+bool StableWalk::turns_at(std::size_t branch, const Event& event) const {
+  const Branch& on = result_.branches[branch];
+  const std::size_t last = event.row + (has_two_rows(on, event) ? 1 : 0);
+  if (event.row == 0 || last + 1 >= on.samples.size()) return false;
+  const double here = on.samples[event.row].values[lambda_];
+  return (here - on.samples[event.row - 1].values[lambda_]) *
+             (on.samples[last + 1].values[lambda_] - here) <
+         0;
+}
+
 const Event* StableWalk::first_unstable(std::size_t branch, std::size_t row, int step) const {
   const auto& rows = result_.branches[branch].samples;
   const Event* last = nullptr;
+  const Event* const left = row < rows.size() ? event_at(branch, row) : nullptr;
   for (auto r = static_cast<std::ptrdiff_t>(row); r >= 0 && r < std::ssize(rows); r += step) {
     const auto k = static_cast<std::size_t>(r);
     const Event* event = event_at(branch, k);
+    // A bent branch comes back to where it left a straight one: with lambda going on, it ends there.
+    if (event != nullptr && event != left && is_meeting_of_branches(event->kind) &&
+        turns_at(branch, *event))
+      return event;
     const double index = rows[k].values[index_];
     if (event != nullptr && event->kind != EventKind::user_value &&
         event->kind != EventKind::end_of_range)
@@ -85,8 +98,9 @@ const Event* StableWalk::first_unstable(std::size_t branch, std::size_t row, int
     else if (index == 0)
       last = nullptr;
   }
-  return last != nullptr &&
-                 (last->kind == EventKind::branching_kink || last->kind == EventKind::branch_point)
+  return last != nullptr && (last->kind == EventKind::branching_kink ||
+                             last->kind == EventKind::branch_point ||
+                             last->kind == EventKind::kinematic_singularity)
              ? last
              : nullptr;
 }

@@ -28,11 +28,13 @@ class StableWalk {
   std::vector<Next> stable_branches_from(const Event& event, std::size_t from, int direction) const;
   std::optional<Next> stable_branch_from(const Event& event, std::size_t from, int direction) const;
 
-  /// The special point behind the last stable row.
+  /// The special point behind the last stable row, or at which branches meet and lambda turns.
   const Event* first_unstable(std::size_t branch, std::size_t row, int step) const;
 
  private:
   const Event* event_at(std::size_t branch, std::size_t row) const;
+  /// Does lambda go back behind the event?
+  bool turns_at(std::size_t branch, const Event& event) const;
 
   const StudyResult& result_;
   std::size_t index_, lambda_;

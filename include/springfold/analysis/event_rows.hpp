@@ -5,6 +5,13 @@
 
 namespace springfold::analysis {
 
+/// Do branches meet in an event of this kind? A chain that is stretched out where its branch meets another (KS) changes
+/// nothing about that.
+inline bool is_meeting_of_branches(EventKind kind) {
+  return kind == EventKind::branch_point || kind == EventKind::branching_kink ||
+         kind == EventKind::touch || kind == EventKind::kinematic_singularity;
+}
+
 /// Has the event two rows of its branch, `row` and `row` + 1, one for each side of a switching spring? A kink at which
 /// half-branches leave a spring that rests has one.
 inline bool has_two_rows(const Branch& branch, const Event& event) {
