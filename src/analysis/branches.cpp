@@ -158,11 +158,10 @@ class Writer {
     source.forward_stop = end_of(source.forward, own);
     source.backward_stop = group.size() > 1 ? end_of(source.backward, own) : source.forward_stop;
     const int junction = traced(group[0]).junction, origin = group.size() > 1 ? -1 : junction;
-    if (group.size() > 1)
-      source.at_start =
-          junction >= 0
-              ? std::vector{hit_of(junction, source.forward)}
-              : hits_at_start({t_.problem, t_.study, t_.evaluator, t_.quantities}, source);
+    if (group.size() > 1 && junction >= 0)
+      source.at_start = {hit_of(junction, source.forward)};
+    else if (group.size() > 1 || (origin < 0 && source.forward.stop == StopReason::closed))
+      source.at_start = hits_at_start({t_.problem, t_.study, t_.evaluator, t_.quantities}, source);
     if (origin >= 0) {
       source.origin = origin;
       source.origin_kind =

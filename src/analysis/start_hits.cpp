@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closed_start.hpp"
 #include "grow_diagram.hpp"
 #include "merged_hits.hpp"
 
@@ -20,6 +21,27 @@ constexpr double same_as_start = 1e-9;
 constexpr double perhaps_zero = 1e-6;
 /// Rates of lambda along a unit tangent that are larger are no rounding.
 constexpr double has_a_sign = 1e-11;
+
+}  // namespace
+
+bool is_same_kind(const Hit& a, const Hit& b) { return a.kind == b.kind && a.tag == b.tag; }
+
+Hit moved_to_start(Hit hit) {
+  hit.s_before -= hit.point.s;
+  hit.s_after -= hit.point.s;
+  hit.point.s = 0;
+  for (CurvePoint& leaving : hit.leaving) leaving.s = 0;
+  return hit;
+}
+
+bool only_switches(const Hit& hit, const Evaluator& evaluator) {
+  if (hit.kind != HitKind::kink || hit.leaving.size() != 1) return hit.kind == HitKind::kink;
+  const RoundedRate before = evaluator.force_rate(hit.point),
+                    after = evaluator.force_rate(hit.leaving.front());
+  return !(before.told() * after.told() < 0);
+}
+
+namespace {
 
 bool is_plain(const continuation::Event& event) {
   return event.action == continuation::EventAction::stop || event.tag == plain_event ||
@@ -73,16 +95,27 @@ std::optional<CurvePoint> point_before(const Following& t, const Curve& backward
   return turned_round(way.points[1]);
 }
 
-bool is_same_kind(const Hit& a, const Hit& b) { return a.kind == b.kind && a.tag == b.tag; }
-
-/// How far from where it was located the special point may lie: rounding places flat ones no better than its interval.
+/// How far from where it was located a special point that no curve meets may lie: rounding places flat ones no better than
+/// their interval.
 double reach_of(const Hit& hit) {
   return std::max(same_as_start, std::min(hit.point.s - hit.s_before, hit.s_after - hit.point.s));
 }
 
+double distance(const CurvePoint& start, const Hit& hit) {
+  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda);
+}
+
 bool lies_at(const CurvePoint& start, const Hit& hit) {
-  return std::hypot((hit.point.x - start.x).norm(), hit.point.lambda - start.lambda) <=
-         reach_of(hit);
+  return distance(start, hit) <= reach_of(hit);
+}
+
+/// The special point at the start, at the start's own place where it could not be told from that.
+Hit placed_at(const CurvePoint& start, Hit hit) {
+  if (distance(start, hit) > same_as_start) {
+    hit.point.x = start.x;
+    hit.point.lambda = start.lambda;
+  }
+  return moved_to_start(std::move(hit));
 }
 
 /// The curves may have it already, a little behind the start; what they tell there is not unresolved.
@@ -93,20 +126,6 @@ bool is_met_by(const Curve& curve, const Hit& hit) {
   if (hit.kind == HitKind::unresolved)
     return first.kind != HitKind::user && (is_near || holds_start);
   return is_same_kind(first, hit) && is_near;
-}
-
-/// The special point as one of the start, s = 0, at the start's own place if it is flat.
-Hit moved_to(const CurvePoint& start, Hit hit) {
-  const bool is_flat = reach_of(hit) > same_as_start;
-  hit.s_before -= hit.point.s;
-  hit.s_after -= hit.point.s;
-  hit.point.s = 0;
-  for (CurvePoint& leaving : hit.leaving) leaving.s = 0;
-  if (is_flat) {
-    hit.point.x = start.x;
-    hit.point.lambda = start.lambda;
-  }
-  return hit;
 }
 
 /// What both curves meet right behind the start, each within an interval that reaches back to it, is one special point:
@@ -120,7 +139,7 @@ std::vector<Hit> taken_from_both(BranchSource& source) {
   };
   while (reaches_back(backward) && reaches_back(forward) &&
          is_same_kind(backward.hits.front(), forward.hits.front())) {
-    taken.push_back(moved_to(forward.points.front(), std::move(forward.hits.front())));
+    taken.push_back(placed_at(forward.points.front(), std::move(forward.hits.front())));
     backward.hits.erase(backward.hits.begin());
     forward.hits.erase(forward.hits.begin());
   }
@@ -154,20 +173,12 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
   return hit;
 }
 
-/// Nothing but a spring that begins or ends to act.
-bool only_switches(const Hit& hit, const Evaluator& evaluator) {
-  if (hit.kind != HitKind::kink || hit.leaving.size() != 1) return hit.kind == HitKind::kink;
-  const RoundedRate before = evaluator.force_rate(hit.point),
-                    after = evaluator.force_rate(hit.leaving.front());
-  return !(before.told() * after.told() < 0);
-}
-
 }  // namespace
 
 std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
   const Curve &backward = source.backward, &forward = source.forward;
-  if (t.study.path == Path::davidenko || forward.stop == continuation::StopReason::closed)
-    return {};
+  if (t.study.path == Path::davidenko) return {};
+  if (forward.stop == continuation::StopReason::closed) return opened_at_start(source, t.evaluator);
   std::vector<Hit> hits = taken_from_both(source);
   if (backward.points.size() < 2 || forward.points.size() < 2) return hits;
   const auto events = events_through(t);
@@ -193,7 +204,7 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
     const bool is_known = std::any_of(hits.begin(), hits.end(),
                                       [&](const Hit& other) { return is_same_kind(other, hit); });
     if (is_known || only_switches(hit, t.evaluator)) continue;
-    hits.push_back(moved_to(start, std::move(hit)));
+    hits.push_back(placed_at(start, std::move(hit)));
   }
   return hits;
 }

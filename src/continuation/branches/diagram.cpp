@@ -289,8 +289,14 @@ void Tracer::follow(const Task& task) {
     }
     way.branch = static_cast<int>(diagram_.branches.size());
   } else {
-    for (const Branch& branch : diagram_.branches) {
-      const bool twin = branch.start == task.start && branch.curve.stop != StopReason::closed;
+    for (std::size_t i = 0; i < diagram_.branches.size(); ++i) {
+      const Branch& branch = diagram_.branches[i];
+      const bool own = branch.start == task.start, closed = branch.curve.stop == StopReason::closed;
+      if (own && closed && task.kink >= 0) {  // it came back along this way, on another piece
+        at(task.kink).ways[static_cast<std::size_t>(task.way)].branch = static_cast<int>(i);
+        return;
+      }
+      const bool twin = own && !closed;
       if (!twin && passes_through(walker_.problem, branch.curve, task.from, options_.trace)) return;
     }
     if (too_many(task.start)) {

@@ -60,6 +60,18 @@ void accept_beside_junction(double ds, StepEvents& found, Progress& progress, Cu
   for (CurvePoint& point : curve.points) point.negative.reset();
 }
 
+/// A curve that began on a switching surface comes back to its start with the kink there.
+bool closes_behind_kink(const Walker& walker, const CurvePoint& leaving, Curve& curve) {
+  const CurvePoint& start = curve.points.front();
+  if (!(leaving.s > start.s + told_apart) || leaving.piece != start.piece ||
+      !coincide(walker, start, leaving) ||
+      cosine(walker, start.tangent, direction_seen_from(walker, start.x, leaving)) < 0)
+    return false;
+  curve.points.push_back(leaving);
+  curve.stop = StopReason::closed;
+  return true;
+}
+
 }  // namespace
 
 Outcome advance(const Following& following, bool report, Progress& progress, Curve& curve,
@@ -118,7 +130,10 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
   if (cut) {
     curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,
                          "cut: " + names_of(walker.problem, kink.active)});
-    return pass_kink(walker, kink, progress, curve);
+    const Outcome passed = pass_kink(walker, kink, progress, curve);
+    return passed == Outcome::go_on && closes_behind_kink(walker, progress.here, curve)
+               ? Outcome::stop
+               : passed;
   }
   std::swap(progress.before, progress.here);
   if (closed)
