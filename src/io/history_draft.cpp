@@ -60,8 +60,9 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
   const auto refuse = [&](const std::string& what) { problems.add(at.place, at.key, what); };
   if (!has_states(study) || !has_states(earlier))
     return refuse(
-        "both studies need a kind with single states: \"force_deflection\", "
-        "\"snap_through\", \"equilibrium\" or \"equilibria\"");
+        "both studies need a kind that follows or finds states of one mechanism: "
+        "\"force_deflection\", "
+        "\"load_cycle\", \"snap_through\", \"transitions\", \"equilibrium\" or \"equilibria\"");
   if (earlier.runs() != 1 && earlier.runs() != study.runs())
     return refuse("study \"" + earlier.name + "\" has " + std::to_string(earlier.runs()) +
                   " runs and this one " + std::to_string(study.runs()) +
