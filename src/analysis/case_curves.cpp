@@ -16,6 +16,13 @@ namespace {
 /// Beside those of the last calls, those of a grid that neighbouring places share.
 constexpr std::size_t members_kept = 64;
 
+/// Of differences in mu.
+constexpr double family_step = 0x1p-9;
+
+/// Members within this of mu on both sides, as those of the grid of differences are, enclose it: whether det J keeps its
+/// sign along the starts is asked at them.
+constexpr double enclosing = 4 * family_step;
+
 /// Natural size of the parameter: its range, or its value.
 double size_of(const CriticalPointSettings& settings, double value) {
   const double range = settings.high - settings.low;
@@ -70,12 +77,13 @@ Study as_curve(Study curve) {
   return curve;
 }
 
-CaseCurves::CaseCurves(const Study& study, std::size_t parameter)
+CaseCurves::CaseCurves(const Study& study, std::size_t parameter, double lambda_unit)
     : study_{study},
       parameter_{parameter},
       name_{study.critical.cases->names[parameter]},
       value_{study.critical.cases->values[parameter]},
-      scale_{size_of(study.critical, value_)} {
+      scale_{size_of(study.critical, value_)},
+      lambda_unit_{lambda_unit} {
   base_ = make(value_ / scale_, nullptr);
 }
 
@@ -112,6 +120,9 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
       const ParameterFamily* path = along ? &*along : nullptr;
       settle_units(variant.mechanism, member->study, path, member->first, setup);
       reach_range(variant.mechanism, member->study, path, member->first, setup);
+      if (lambda_unit_ > 1)
+        enlarge_lambda_unit(variant.mechanism, member->study, path, lambda_unit_, member->first,
+                            setup);
       member->first.factors = start_factors(*member);
     }
   } else if (!solve_near(*member, *near)) {
@@ -151,7 +162,6 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   const StartOptions how = start_beside(member.study);
   const bool keeps = keeps_commands(member.study);
   statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
-  const statics::StartProblem own = problem;
   if (near.first.z.size() != problem.z.size()) return false;
   problem.foresight = foresight(member.mu, near);
   const auto& body =
@@ -179,7 +189,8 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   if (member.report.found) return true;
   member.sheet = ++sheets_;
   problem.is_neighbour = false;
-  member.report.found = (!keeps && is_found(own)) || is_found(problem);
+  const auto own = [&] { return start_problem(member.setup, member.study.body, how); };
+  member.report.found = (!keeps && is_found(own())) || is_found(problem);
   if (member.report.found) member.first.factors = start_factors(member);
   return member.report.found;
 }
@@ -218,6 +229,13 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
                               .rho = Vector::Zero(near.first.inputs.rho.size()),
                               .factors = near.first.factors};
+  const auto is_beside = [&](double side) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](const Member* member) {
+      const double away = side * (member->mu - mu);
+      return away > 0 && away <= enclosing;
+    });
+  };
+  expected.enclosed = is_beside(1) && is_beside(-1);
   for (const Member* member : nodes) {
     double weight = 1;
     for (const Member* other : nodes)
@@ -270,7 +288,7 @@ continuation::Family CaseCurves::family() const {
             if (member == nullptr) return std::nullopt;
             return continuation::ProblemView(*member->problem);
           },
-          .step = 0x1p-9};
+          .step = family_step};
 }
 
 continuation::CurvePoint CaseCurves::point_of(const continuation::CriticalPoint& point,

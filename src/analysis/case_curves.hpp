@@ -48,7 +48,8 @@ Study as_curve(Study study);
 class CaseCurves {
  public:
   /// @param parameter  its number in study.critical.cases
-  CaseCurves(const Study& study, std::size_t parameter);
+  /// @param lambda_unit  in that which the response at the case's own start asks for
+  CaseCurves(const Study& study, std::size_t parameter, double lambda_unit = 1);
 
   double scale() const { return scale_; }  ///< parameter = scale() * mu
   double value() const { return value_; }  ///< of the parameter in the case
@@ -73,7 +74,7 @@ class CaseCurves {
   Study study_;
   std::size_t parameter_ = 0;
   std::string name_{};
-  double value_ = 0, scale_ = 1;
+  double value_ = 0, scale_ = 1, lambda_unit_ = 1;
   std::unique_ptr<Member> base_{};
   struct Recent {
     std::unique_ptr<Member> member{};

@@ -35,9 +35,10 @@ bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& sta
 
 /// Newton's method from the solution of a neighbour, no farther than where its steps shrink as they do near one solution
 /// (Kantorovich: the first one bounds the way to it by twice its length while a step is at most a quarter of the one before).
-/// A step that does not is the sign of a singular matrix on the way, and behind that may be another equilibrium.
-bool go_by_newton(const System& system, StartEquations& equations, StartState& state, int& steps,
-                  double& residual) {
+/// A step that does not is the sign of a singular matrix on the way, and behind that may be another equilibrium. So is a
+/// determinant of another sign than the neighbour's, at its own state too.
+bool go_by_newton(const System& system, StartEquations& equations, const Lu* neighbour,
+                  StartState& state, int& steps, double& residual) {
   constexpr int most = 8;
   constexpr double contracts = 0.25;
   const double rounding = std::sqrt(std::numeric_limits<double>::epsilon());
@@ -47,11 +48,13 @@ bool go_by_newton(const System& system, StartEquations& equations, StartState& s
   for (steps = 0; steps < most; ++steps) {
     if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
     residual = r.lpNorm<Eigen::Infinity>();
-    const Vector step = Lu(J).solve(r);
+    const Lu lu(J);
+    if (neighbour != nullptr && lu.sign() != neighbour->sign()) return false;
+    const Vector step = lu.solve(r);
     if (!step.allFinite()) return false;
-    const StartState here = state;
+    const Vector here = state.z;
     equations.unpack(equations.pack(state) - step, state);
-    const double moved = farthest_coordinate(system, state.z, here.z);
+    const double moved = farthest_coordinate(system, state.z, here);
     if (moved > std::max(contracts * before, rounding)) return false;
     if (moved <= rounding) break;
     before = moved;
@@ -113,11 +116,15 @@ bool solve_beside(const System& system, const StartProblem& problem, StartEquati
     found = go_by_factors(equations, *foresight.factors, state, steps, result.residual);
     result.iterations = steps;
   }
-  // Steps that shrink by these factors show that the matrix is near theirs; without a step nothing does.
-  if (found && steps > 0 && steps <= few) result.factors = foresight.factors;
+  // Steps that shrink by these factors show that the matrix is near theirs; without a step nothing does, but that what is
+  // expected between close neighbours solves the equations.
+  const bool is_shown = steps > 0 ? steps <= few : foresight.enclosed;
+  if (found && is_shown) result.factors = foresight.factors;
   if (!found) {
     state = guess;
-    if (!go_by_newton(system, equations, state, result.iterations, result.residual)) return false;
+    const Lu* const neighbour = foresight.factors.get();
+    if (!go_by_newton(system, equations, neighbour, state, result.iterations, result.residual))
+      return false;
   }
   Matrix J;
   if (!result.factors) {
@@ -127,8 +134,8 @@ bool solve_beside(const System& system, const StartProblem& problem, StartEquati
     if (foresight.factors && here->sign() != foresight.factors->sign()) return false;
     result.factors = here;
   }
-  result.z = state.z;
-  result.inputs = state.inputs;
+  result.z = std::move(state.z);
+  result.inputs = std::move(state.inputs);
   result.attempts = 1;
   result.status = StartStatus::found;
   return true;

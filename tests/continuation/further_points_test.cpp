@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "families.hpp"
 #include "springfold/continuation/two_parameter.hpp"
@@ -39,6 +40,29 @@ TEST(FurtherPoints, LieOnTheCurveAtMultiplesOfTheirSpacing) {
   EXPECT_GE(even, static_cast<int>(own.points.back().s / spacing) - 1);
   ASSERT_EQ(hits_of(curve, Degeneracy::cusp).size(), 1U);
   EXPECT_EQ(hits_of(curve, Degeneracy::cusp)[0].point.s, hits_of(own, Degeneracy::cusp)[0].point.s);
+}
+
+TEST(FurtherPoints, AskForHardlyMoreMembersOfTheFamilyThanThereAreOfThem) {
+  const Family family =
+      graphs([](double x, double mu) { return std::sin(x) * x * x - mu * x; },
+             [](double x, double mu) { return std::cos(x) * x * x + 2 * x * std::sin(x) - mu; });
+  const double x = -0.9, mu = std::cos(x) * x * x + 2 * x * std::sin(x);
+  const CriticalStart start =
+      start_at(CriticalKind::limit_point, single(x), std::sin(x) * x * x - mu * x, mu);
+  std::set<double> asked;
+  Family watched = family;
+  watched.at = [&](double m) {
+    asked.insert(m);
+    return family.at(m);
+  };
+  const auto own = follow_critical(watched, start, false, {stop_at(-1, mu)}, {});
+  const std::size_t of_steps = asked.size();
+  asked.clear();
+  const auto curve =
+      follow_critical(watched, start, false, {stop_at(-1, mu)}, {}, {}, {.spacing = 0.01});
+  const double further = static_cast<double>(curve.points.size() - own.points.size());
+  EXPECT_GT(further, 50);
+  EXPECT_LT(static_cast<double>(asked.size() - of_steps), 1.2 * further);
 }
 
 TEST(FurtherPoints, ThatAreMoreThanAllowedAreLeftOutAndCounted) {

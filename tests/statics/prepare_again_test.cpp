@@ -105,6 +105,24 @@ TEST(Neighbours, TheirFactorsAndExpectationsLeadToTheSameEquilibrium) {
   EXPECT_LT((plain.z - quick.z).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
+TEST(Neighbours, AnExactExpectationNeedsNewFactorsUnlessNeighboursEncloseIt) {
+  const System system = prepare(loaded(model::LinearSpring{0.1, 0}, 1));
+  const FirstEquilibrium known = free_equilibrium(system, Vector::Zero(2));
+  ASSERT_EQ(known.status, StartStatus::found);
+  StartProblem problem = neighbour_of(known);
+  const FirstEquilibrium near = first_equilibrium(system, problem);
+  ASSERT_TRUE(near.factors);
+  problem.foresight = {.z = near.z, .rho = {}, .factors = near.factors};
+  const FirstEquilibrium alone = first_equilibrium(system, problem);
+  EXPECT_EQ(alone.status, StartStatus::found);
+  EXPECT_NE(alone.factors, near.factors);
+  problem.foresight.enclosed = true;
+  const FirstEquilibrium enclosed = first_equilibrium(system, problem);
+  EXPECT_EQ(enclosed.status, StartStatus::found);
+  EXPECT_EQ(enclosed.factors, near.factors);
+  EXPECT_EQ(enclosed.z, alone.z);
+}
+
 TEST(Neighbours, WrongExpectationsAndFactorsDoNoHarm) {
   const System system = prepare(loaded(model::LinearSpring{0.1, 0}, 1));
   const FirstEquilibrium known = free_equilibrium(system, Vector::Zero(2));

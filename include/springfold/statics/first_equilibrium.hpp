@@ -24,6 +24,8 @@ enum class StartUnknowns {
 struct Foresight {
   Vector z{}, rho{};                    ///< where the solution is expected; empty: not known
   std::shared_ptr<const Lu> factors{};  ///< of the matrix of one of them; may be missing
+  /// They lie close by on both sides, and belong to each other: det J has been seen to keep its sign.
+  bool enclosed = false;
 };
 
 struct StartProblem {

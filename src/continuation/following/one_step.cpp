@@ -140,7 +140,10 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
     progress.here = *start;
   else
     std::swap(progress.here, next);
-  if (middle) std::swap(progress.middle, half_way);
+  if (middle) {
+    std::swap(progress.middle, half_way);
+    if (following.middles) following.middles->push_back(progress.middle);
+  }
   progress.left.clear();
   curve.points.push_back(progress.here);
   account_over_gap(curve);

@@ -14,6 +14,7 @@ struct Following {
   const Walker& walker;
   const std::vector<Event>& events;
   const HitObserver& at_hit;
+  std::vector<CurvePoint>* middles = nullptr;  ///< those of accepted steps, if anybody wants them
 };
 
 /// What became of a step that was refused.

@@ -12,6 +12,7 @@
 #include "continuation/kinks/beside.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/entry_checks.hpp"
+#include "continuation/points/middles.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/verification.hpp"
 
@@ -58,6 +59,56 @@ void follow(const Following& following, const StepObserver& observer, Progress& 
   curve.stop_detail = why_so_many(following.walker, curve);
 }
 
+/// trace_in_own_units(). @param middles  as Following has them
+Curve trace_inside(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                   const std::vector<Event>& events, const TraceOptions& options,
+                   const StepObserver& observer, const HitObserver& at_hit,
+                   std::vector<CurvePoint>* middles) {
+  const Walker walker{problem, problem.metric(), options};
+  const CurvePoint first{.x = x, .lambda = lambda};
+  Progress progress;
+  progress.here = point_on_ray(walker, first, start);
+  // At a limit point an eigenvalue is zero: its sign is rounding.
+  if (!told_from_zero(progress.here)) progress.here.negative.reset();
+  progress.left = active_switches(walker, x, lambda);
+  progress.ds = options.step.initial;
+  Curve curve{.points = {progress.here}};
+  const auto opening =
+      start.beyond ? opening_of(walker, progress.here, *start.beyond) : std::nullopt;
+  bool ended = false;
+  if (opening) {
+    progress.from_singular = true;
+    ended = pass_opening(walker, events, at_hit, *opening, progress, curve) == Outcome::stop;
+  } else if (start.start) {
+    // The piece may be singular at the point itself, and the next surface as near as the way's first point.
+    progress.from_singular = true;
+    progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
+    if (start.start->x != x || start.start->lambda != lambda) {
+      progress.here = *start.start;
+      progress.left.clear();
+      curve.points.push_back(progress.here);
+    }
+  }
+
+  if (!ended) follow({walker, events, at_hit, middles}, observer, progress, curve);
+  settle_families(curve);
+  check_narrow_places(walker, curve);
+  // A curve that was asked to end is handed over at once.
+  if (options.verify_arcs && curve.stop == StopReason::observer)
+    curve.arcs = {{.s_begin = curve.points.front().s, .s_end = curve.points.back().s}};
+  else if (options.verify_arcs)
+    curve.arcs = verified_arcs(problem, curve, options);
+  return curve;
+}
+
+/// Those whose steps were not taken back.
+void keep_middles_of(const Curve& curve, std::vector<CurvePoint>& middles) {
+  std::stable_sort(middles.begin(), middles.end(),
+                   [](const CurvePoint& a, const CurvePoint& b) { return a.s < b.s; });
+  const double end = curve.points.back().s;
+  std::erase_if(middles, [end](const CurvePoint& p) { return !(p.s < end); });
+}
+
 }  // namespace
 
 Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
@@ -88,40 +139,20 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
 Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                          const std::vector<Event>& events, const TraceOptions& options,
                          const StepObserver& observer, const HitObserver& at_hit) {
-  const Walker walker{problem, problem.metric(), options};
-  const CurvePoint first{.x = x, .lambda = lambda};
-  Progress progress;
-  progress.here = point_on_ray(walker, first, start);
-  // At a limit point an eigenvalue is zero: its sign is rounding.
-  if (!told_from_zero(progress.here)) progress.here.negative.reset();
-  progress.left = active_switches(walker, x, lambda);
-  progress.ds = options.step.initial;
-  Curve curve{.points = {progress.here}};
-  const auto opening =
-      start.beyond ? opening_of(walker, progress.here, *start.beyond) : std::nullopt;
-  bool ended = false;
-  if (opening) {
-    progress.from_singular = true;
-    ended = pass_opening(walker, events, at_hit, *opening, progress, curve) == Outcome::stop;
-  } else if (start.start) {
-    // The piece may be singular at the point itself, and the next surface as near as the way's first point.
-    progress.from_singular = true;
-    progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
-    if (start.start->x != x || start.start->lambda != lambda) {
-      progress.here = *start.start;
-      progress.left.clear();
-      curve.points.push_back(progress.here);
-    }
-  }
+  return trace_inside(problem, x, lambda, start, events, options, observer, at_hit, nullptr);
+}
 
-  if (!ended) follow({walker, events, at_hit}, observer, progress, curve);
-  settle_families(curve);
-  check_narrow_places(walker, curve);
-  // A curve that was asked to end is handed over at once.
-  if (options.verify_arcs && curve.stop == StopReason::observer)
-    curve.arcs = {{.s_begin = curve.points.front().s, .s_end = curve.points.back().s}};
-  else if (options.verify_arcs)
-    curve.arcs = verified_arcs(problem, curve, options);
+Curve trace_with_middles(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                         const std::vector<Event>& events, const TraceOptions& options,
+                         const StepObserver& observer, std::vector<CurvePoint>& middles) {
+  check_entry(problem, x, lambda, start.piece, options);
+  check_ray(problem, start);
+  const Normalised own(problem, x, lambda, start.piece);
+  Curve curve =
+      own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start), own.inside(events),
+                               options, own.inside(observer), {}, &middles));
+  keep_middles_of(curve, middles);
+  for (CurvePoint& middle : middles) middle = own.outside(std::move(middle));
   return curve;
 }
 

@@ -35,6 +35,14 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
       p.x = from.x + d * from.tangent.dx;
       p.lambda = from.lambda + d * from.tangent.dlambda;
     }
+    // The corrector has begun at the end, and will in the middle.
+    if (const Vector* known = known_residual(*walker.memory, p.x, p.lambda, from.piece))
+      return known->norm();
+    if (t == 0.5 && expected && !walker.problem.structured()) {
+      const Place* place =
+          place_with_residual(walker.problem, *walker.memory, p.x, p.lambda, from.piece);
+      return place ? place->F.norm() : 0.0;
+    }
     const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };

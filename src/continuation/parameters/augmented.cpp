@@ -243,6 +243,12 @@ bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& d
   return put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
 }
 
+bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  if (!derivatives(X, mu, dF_dX, dF_dmu)) return false;
+  const Differences* exact = known_differences(X, mu);
+  return exact == nullptr || exact->error <= root_of_rounding;
+}
+
 bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,
                           Vector& dF_dmu) const {
   const auto here = terms(X, mu);
@@ -263,41 +269,41 @@ bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) con
   return true;
 }
 
-bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
-                                Matrix& dF_dX, Vector& dF_dmu) const {
+const Augmented::Differences* Augmented::known_differences(const Vector& X, double mu) const {
+  if (exact_.X.size() != X.size()) return nullptr;
+  const double size = std::max(1.0, X.lpNorm<Eigen::Infinity>());
+  const double away = std::max((X - exact_.X).lpNorm<Eigen::Infinity>(), std::abs(mu - exact_.mu));
+  return away <= exact_model * size ? &exact_ : nullptr;
+}
+
+bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                            Differences& found) const {
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
+  const Index crossing = k_ > 0 && !held_ ? k_ : 0;
   const auto second = [&](const Vector& w, const Vector& along) {
     return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
   };
-  Vector last = Vector::Zero(n_ + 1);  // derivative of the last equation by (x, lambda)
+  found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
   if (is_bordered()) {
     for (Index i = 0; i < V.cols(); ++i) {
       Vector along = Vector::Zero(n_ + 1);
       along.head(n_) = V.col(i);
       const auto part = second(W.col(i), along);
       if (!part) return false;
-      last -= *part;
+      found.by_X.row(crossing) -= part->transpose();
     }
   } else {
     const auto gradient = surface_gradient(x, l, mu);
     if (!gradient) return false;
-    last = *gradient;
+    found.by_X.row(crossing) = gradient->transpose();
   }
-  dF_dX = Matrix::Zero(size(), size());
-  dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
-  if (k_ > 0) {
-    dF_dX.topRightCorner(n_, k_) = borders_.left;
-    if (held_) dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
-  }
-  const Index crossing = k_ > 0 && !held_ ? k_ : 0;  // equations W^T dF/dlambda = 0
   for (Index i = 0; i < crossing; ++i) {
     const auto part = second(W.col(i), terms.along.col(0));
     if (!part) return false;
-    dF_dX.row(n_ + i).head(n_ + 1) = part->transpose();
+    found.by_X.row(i) = part->transpose();
   }
-  dF_dX.bottomLeftCorner(1, n_ + 1) = last.transpose();
   BaseTerms there;
   const auto at_parameter = [&](double m) -> std::optional<Vector> {
     if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
@@ -314,11 +320,35 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
     return values;
   };
   // A member of the family is dear: neighbours share those of a grid.
-  const auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness);
+  auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness, found.error);
   if (!by_mu) return false;
+  found.by_mu = std::move(*by_mu);
+  found.X = X;
+  found.mu = mu;
+  return true;
+}
+
+bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                                Matrix& dF_dX, Vector& dF_dmu) const {
+  Differences own;
+  const Differences* at = known_differences(X, mu);
+  if (at == nullptr) {
+    if (!differences(X, mu, terms, exactness, own)) return false;
+    if (exactness == Exactness::exact) exact_ = std::move(own);
+    at = exactness == Exactness::exact ? &exact_ : &own;
+  }
+  dF_dX = Matrix::Zero(size(), size());
+  dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
+  if (k_ > 0) {
+    dF_dX.topRightCorner(n_, k_) = borders_.left;
+    if (held_) dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
+  }
+  const Index crossing = at->by_X.rows() - 1;  // equations W^T dF/dlambda = 0
+  dF_dX.block(n_, 0, crossing, n_ + 1) = at->by_X.topRows(crossing);
+  dF_dX.bottomLeftCorner(1, n_ + 1) = at->by_X.bottomRows(1);
   dF_dmu = Vector::Zero(size());
-  dF_dmu.head(n_ + crossing) = by_mu->head(n_ + crossing);
-  dF_dmu[n_ + k_] = (*by_mu)[n_ + crossing];
+  dF_dmu.head(n_ + crossing) = at->by_mu.head(n_ + crossing);
+  dF_dmu[n_ + k_] = at->by_mu[n_ + crossing];
   return dF_dX.allFinite() && dF_dmu.allFinite();
 }
 

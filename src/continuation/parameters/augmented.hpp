@@ -39,6 +39,8 @@ class Augmented {
   Index size() const { return n_ + 1 + k_; }
   bool residual(const Vector& X, double mu, Vector& F) const;
   bool derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
+  /// The same where no jump, bend or end of the family beside mu makes them inexact.
+  bool sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
   /// Both from one factorisation.
   bool equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX, Vector& dF_dmu) const;
   Vector metric() const;
@@ -69,6 +71,19 @@ class Augmented {
     double last = 0;
   };
   std::optional<Terms> terms(const Vector& X, double mu) const;
+  /// What only differences give of the derivatives at one place.
+  struct Differences {
+    Vector X{};
+    double mu = 0;
+    Matrix
+        by_X{};  ///< (x, lambda): of the equations W^T dF/dlambda, where there are any, and of the last one
+    Vector by_mu{};    ///< of F, of those equations and of the last one
+    double error = 0;  ///< expected of exact by_mu, relative
+  };
+  bool differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                   Differences& found) const;
+  /// Exact ones at this place, or as near to it as the corrector comes.
+  const Differences* known_differences(const Vector& X, double mu) const;
   /// May the components along the null vectors be held? Where all second derivatives vanish in which the branches bend or
   /// cross askew, as symmetry makes them: the branch point stays on the branch that does not move along the null vectors.
   bool may_hold() const;
@@ -83,6 +98,7 @@ class Augmented {
   bool held_ = false;    ///< branch points: C^T (x - x_start) = 0 instead of W^T dF/dlambda = 0
   Vector weights_{}, periods_{};
   std::vector<Index> covers_{};
+  mutable Differences exact_{};  ///< the last ones
 };
 
 }  // namespace springfold::continuation

@@ -67,7 +67,8 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
 }
 
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
-                                              double mu, double step, Exactness exactness) {
+                                              double mu, double step, Exactness exactness,
+                                              double& error) {
   const auto size_of = [](const Vector& value) {
     return std::max(1.0, value.lpNorm<Eigen::Infinity>());
   };
@@ -79,11 +80,12 @@ std::optional<Vector> derivative_by_parameter(const std::function<std::optional<
   for (double h = wider * step; h >= narrowest * step; h /= wider) {
     auto found = grid_derivative(f, mu, h, one_place);
     if (!found) continue;  // a grid that reaches less far may have all of its places
-    const double error = found->expected_error;
-    if (!best || error < best->expected_error) best = std::move(found);
-    if (error <= one_place * size_of(best->value)) break;
+    const double left = found->expected_error;
+    if (!best || left < best->expected_error) best = std::move(found);
+    if (left <= one_place * size_of(best->value)) break;
   }
   if (!best) return std::nullopt;
+  error = best->expected_error / size_of(best->value);
   return best->value;
 }
 

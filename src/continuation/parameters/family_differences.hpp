@@ -35,7 +35,9 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
 /// since neighbouring places share more of its members, or by the first narrower one whose last orders show that it is exact:
 /// no grid may reach across a place where the family jumps, bends or ends. If none shows it, the least doubtful one is
 /// taken. Rough: by the four places of the wide grid around mu, where they agree.
+/// @param error  what is expected to be wrong with an exact one
 std::optional<Vector> derivative_by_parameter(const std::function<std::optional<Vector>(double)>& f,
-                                              double mu, double step, Exactness exactness);
+                                              double mu, double step, Exactness exactness,
+                                              double& error);
 
 }  // namespace springfold::continuation

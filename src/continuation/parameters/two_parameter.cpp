@@ -9,7 +9,7 @@
 #include "continuation/parameters/degeneracy.hpp"
 #include "continuation/parameters/return_to_start.hpp"
 #include "continuation/points/entry_checks.hpp"
-#include "springfold/continuation/between.hpp"
+#include "continuation/points/middles.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -206,11 +206,13 @@ class Follower {
       renew = !place || place->largest() > poor_borders;
       return !renew;
     };
-    Curve curve = trace(system, X, mu, ray, events, options_, observe);
+    std::vector<CurvePoint> middles;
+    Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
     if (back.found()) close(*back.found(), curve);
-    for (CurvePoint& point : curve.points) point.s += length_;
+    for (auto* points : {&curve.points, &middles})
+      for (CurvePoint& point : *points) point.s += length_;
     for (Hit& hit : curve.hits) hit.point.s += length_;
-    add(curve, further_points(system, curve), watches, n);
+    add(curve, further_points(system, curve, middles), watches, n);
     if (lost) {
       curve_.kept = false;
       curve_.stop_detail = "the second parameter does not keep the branch";
@@ -266,14 +268,15 @@ class Follower {
     curve.stop_detail = std::string{to_string(StopReason::closed)};
   }
 
-  std::vector<CurvePoint> further_points(const Augmented& system, const Curve& curve) {
+  std::vector<CurvePoint> further_points(const Augmented& system, const Curve& curve,
+                                         const std::vector<CurvePoint>& middles) {
     if (!(further_.spacing > 0) || curve.points.size() < 2) return {};
     const double count = (curve.points.back().s - curve.points.front().s) / further_.spacing;
     if (count > further_.most) {
       curve_.left_out += count;
       return {};
     }
-    Between between = points_between(system, curve, further_.spacing, options_);
+    Between between = points_between(system, curve, middles, further_.spacing, options_);
     curve_.missed += between.missed;
     return std::move(between.points);
   }
@@ -380,7 +383,7 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
   if (!X) return std::nullopt;
   Matrix J;
   Vector by_mu;
-  if (!system->derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
+  if (!system->sure_derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
   const FullPivotLu lu(J);
   if (!lu.is_invertible()) return std::nullopt;
   const Vector rate = -lu.solve(by_mu);

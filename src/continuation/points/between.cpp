@@ -8,6 +8,7 @@
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/entry_checks.hpp"
+#include "continuation/points/middles.hpp"
 #include "continuation/points/normalised.hpp"
 #include "continuation/points/step.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 /// Part of a curve on one piece, from one of its points to another.
 struct PointGap {
   CurvePoint from{}, to{};
+  const CurvePoint* middle = nullptr;  ///< where one is known between them
   bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
   bool goes_on = false;  ///< `from` is the end of the gap before, on one smooth curve
 };
@@ -95,9 +97,11 @@ class Filler {
     const Node a = node_of(stretch.from, 0), b = node_of(stretch.to, length_);
     std::vector<Node> others = nodes_of(around);
     const auto wide = polynomial(a, b, others);
-    if (wide && is_exact_at(*wide, {0.5})) return on_curve(*wide, first, last);
+    const auto known = known_middle(stretch);
+    if (!known && wide && is_exact_at(*wide, {0.5})) return on_curve(*wide, first, last);
     const double half = 0.5 * length_;
-    const auto m = node_near(half, wide ? wide->at(half) : between_ends(a, b), nullptr);
+    const auto m =
+        known ? known : node_near(half, wide ? wide->at(half) : between_ends(a, b), nullptr);
     if (m && wide) {
       others.insert(others.begin(), *m);
       const auto finer = polynomial(a, b, others);
@@ -124,6 +128,15 @@ class Filler {
   /// The cubic through the ends predicts the middle.
   Vector between_ends(const Node& a, const Node& b) const {
     return 0.5 * (a.u + b.u) + length_ / 8 * (a.rate - b.rate);
+  }
+
+  std::optional<Node> known_middle(const PointGap& stretch) const {
+    if (stretch.middle == nullptr) return std::nullopt;
+    const CurvePoint &p = *stretch.middle, &from = stretch.from;
+    const double t = metric_product(walker_.weights, {p.x - from.x, p.lambda - from.lambda},
+                                    stretch.from.tangent);
+    if (!(t > 0 && t < length_)) return std::nullopt;
+    return node_of(p, t);
   }
 
   /// Points of the curve around the stretch, as far as it turns little: a quarter of a turn away it is no function of t any
@@ -282,7 +295,7 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
   const auto up_to = [&](const CurvePoint& to) {
     const bool counted = !special && from.negative == to.negative;
     if (to.s > from.s)
-      stretches.push_back({from, to, counted && (from.negative || !counts), goes_on});
+      stretches.push_back({from, to, nullptr, counted && (from.negative || !counts), goes_on});
     goes_on = goes_on || to.s > from.s;
     special = false;
   };
@@ -308,30 +321,49 @@ std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
   return stretches;
 }
 
-/// Ends of the stretches before and behind on the same smooth curve, the nearest ones first, as many as a polynomial can use:
-/// with more of them rounding of the tangents grows faster than the error falls.
+/// Ends of the stretches before and behind on the same smooth curve, and points between them, the nearest ones first, as many
+/// as a polynomial can use: with more of them rounding of the tangents grows faster than the error falls.
 std::vector<const CurvePoint*> points_around(const std::vector<PointGap>& stretches,
                                              std::size_t i) {
   constexpr std::size_t most = 7;
-  std::vector<const CurvePoint*> points;
-  std::size_t first = i, last = i;
-  while (points.size() < most) {
-    const bool before = stretches[first].goes_on;
-    const bool behind = last + 1 < stretches.size() && stretches[last + 1].goes_on;
-    if (!before && !behind) break;
-    const double back = before ? stretches[i].from.s - stretches[first - 1].from.s : infinity;
-    const double ahead = behind ? stretches[last + 1].to.s - stretches[i].to.s : infinity;
-    if (back <= ahead)
-      points.push_back(&stretches[--first].from);
-    else
-      points.push_back(&stretches[++last].to);
+  std::vector<const CurvePoint*> before, behind, points;
+  for (std::size_t k = i; before.size() < most && stretches[k].goes_on;) {
+    if (stretches[--k].middle) before.push_back(stretches[k].middle);
+    before.push_back(&stretches[k].from);
+  }
+  for (std::size_t k = i + 1; behind.size() < most && k < stretches.size() && stretches[k].goes_on;
+       ++k) {
+    if (stretches[k].middle) behind.push_back(stretches[k].middle);
+    behind.push_back(&stretches[k].to);
+  }
+  auto back = before.begin(), ahead = behind.begin();
+  while (points.size() < most && (back != before.end() || ahead != behind.end())) {
+    const double away = back != before.end() ? stretches[i].from.s - (*back)->s : infinity;
+    const double along = ahead != behind.end() ? (*ahead)->s - stretches[i].to.s : infinity;
+    points.push_back(away <= along ? *back++ : *ahead++);
   }
   return points;
+}
+
+/// Each of the points, in the order of s, belongs to the stretch that it lies in.
+void put_middles(const std::vector<CurvePoint>& middles, std::vector<PointGap>& stretches) {
+  auto middle = middles.begin();
+  for (PointGap& stretch : stretches) {
+    while (middle != middles.end() && middle->s <= stretch.from.s) ++middle;
+    if (middle == middles.end()) return;
+    if (middle->s < stretch.to.s && middle->piece == stretch.from.piece) stretch.middle = &*middle;
+  }
 }
 
 }  // namespace
 
 Between points_between(ProblemView problem, const Curve& curve, double spacing,
+                       const TraceOptions& options) {
+  return points_between(problem, curve, {}, spacing, options);
+}
+
+Between points_between(ProblemView problem, const Curve& curve,
+                       const std::vector<CurvePoint>& middles, double spacing,
                        const TraceOptions& options) {
   if (!(spacing > 0)) throw std::invalid_argument("spacing: must be positive");
   check_curve(problem, curve);
@@ -341,7 +373,8 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
   const Normalised own(problem, start.x, start.lambda, start.piece);
   const Walker walker{own, own.metric(), options};
   Filler filler(walker, spacing, result);
-  const std::vector<PointGap> stretches = stretches_of(curve, problem.symmetric());
+  std::vector<PointGap> stretches = stretches_of(curve, problem.symmetric());
+  put_middles(middles, stretches);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     PointGap stretch = stretches[i];
     stretch.from = own.inside(stretch.from);
@@ -354,6 +387,8 @@ Between points_between(ProblemView problem, const Curve& curve, double spacing,
       return p;
     };
     stretch.to = as_seen(stretch.to);
+    std::optional<CurvePoint> middle;
+    if (stretch.middle != nullptr) stretch.middle = &middle.emplace(as_seen(*stretch.middle));
     std::vector<CurvePoint> around;
     for (const CurvePoint* point : points_around(stretches, i)) around.push_back(as_seen(*point));
     filler.fill(stretch, around);

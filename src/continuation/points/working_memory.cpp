@@ -72,4 +72,11 @@ Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vec
   return take(problem, memory, place, x, lambda, piece);
 }
 
+const Vector* known_residual(const WorkingMemory& memory, const Vector& x, double lambda,
+                             const Piece& piece) {
+  for (const auto& p : memory.places)
+    if (p->knows_F && p->lambda == lambda && p->x == x && p->piece == piece) return &p->F;
+  return nullptr;
+}
+
 }  // namespace springfold::continuation

@@ -75,6 +75,10 @@ Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, dou
 Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vector& x,
                            double lambda, const Piece& piece);
 
+/// F at a place where it was asked for not long ago; nullptr where nobody did.
+const Vector* known_residual(const WorkingMemory& memory, const Vector& x, double lambda,
+                             const Piece& piece);
+
 /// correct() from memory.newton.x and .lambda on, with the result there.
 void correct(ProblemView problem, const Vector& weights, const Piece& piece,
              const Direction& border, const NewtonOptions& options, WorkingMemory& memory);
