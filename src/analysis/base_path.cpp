@@ -6,7 +6,9 @@
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "held_twice.hpp"
+#include "lambda_crawl.hpp"
 #include "limits.hpp"
+#include "settle_units.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "start_hits.hpp"
@@ -118,7 +120,8 @@ void refuse_start(const BasePath& path, StartReport& report) {
   report.advice = path.advice;
 }
 
-BasePath base_path(const Member& member, bool forward_only, const Observer& observer) {
+BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
+                   double largest_unit) {
   BasePath path;
   const PathProblem& problem = *member.problem;
   const Evaluator& evaluator = member.evaluator();
@@ -143,15 +146,22 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     std::swap(rays.rays[0], rays.rays[1]);
   const auto events = events_of(member.study, evaluator, member.quantities());
   int points = 0;
-  const auto observe = [&](const CurvePoint& p) { return !observer || observer(++points, p.s); };
+  LambdaCrawl crawl(problem, largest_unit, range_of_lambda(member.study, member.setup));
+  crawl.begin(rays.rays[0].tangent);
+  const auto observe = [&](const CurvePoint& p) {
+    return !crawl.sees(p) && (!observer || observer(++points, p.s));
+  };
   const Following with{problem, member.study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
     return trace_within_limits(with, start, ray, events, options, observe);
   };
   Curve forward = follow(rays.rays[0]);
-  Curve backward = forward_only || forward.stop == continuation::StopReason::closed
-                       ? nothing_behind(forward)
-                       : follow(rays.rays[1]);
+  Curve backward =
+      forward_only || forward.stop == continuation::StopReason::closed || crawl.factor() > 1
+          ? nothing_behind(forward)
+          : follow(rays.rays[1]);
+  path.lambda_unit = crawl.factor();
+  if (path.lambda_unit > 1) return path;
   const auto forward_end = end_at_zero_length(problem, forward);
   const auto backward_end = end_at_zero_length(problem, backward);
   BranchSource source{.backward = backward, .forward = forward};
@@ -173,6 +183,19 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   }
   path.forward = forward;
   return path;
+}
+
+CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool forward_only,
+                                const Observer& observer) {
+  CurvesWithPath result;
+  for (;;) {
+    result.curves = std::make_unique<CaseCurves>(study, parameter, result.lambda_unit);
+    if (!result.curves->base().report.found) return result;
+    result.path = base_path(result.curves->base(), forward_only, observer,
+                            largest_change_of_lambda_unit / result.lambda_unit);
+    if (!(result.path.lambda_unit > 1)) return result;
+    result.lambda_unit *= result.path.lambda_unit;
+  }
 }
 
 std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Member& member,

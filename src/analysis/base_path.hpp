@@ -20,6 +20,8 @@ struct BasePath {
   continuation::Curve forward{};       ///< the engine's curve towards growing lambda
   std::string problem{};               ///< why there is no path; empty: there is one
   std::string where{}, advice{};       ///< as StartReport has them, with `problem`
+  double lambda_unit =
+      1;  ///< > 1: the unit of lambda should be so many times larger; the rest is not to be used
 };
 
 /// "; it stopped early: " and why, of a path that ended before the limits of the study; otherwise nothing.
@@ -30,7 +32,20 @@ void refuse_start(const BasePath& path, StartReport& report);
 
 /// The branch through the start, both ways or only the one in which lambda grows. Special points that end it
 /// are left out.
-BasePath base_path(const Member& member, bool forward_only, const Observer& observer);
+/// @param largest_unit  by which factor the unit of lambda may grow where it turns out to be too small (LambdaCrawl)
+BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
+                   double largest_unit = 1);
+
+/// The curves of a study, and the path of the case's own one.
+struct CurvesWithPath {
+  std::unique_ptr<CaseCurves> curves{};
+  BasePath path{};         ///< where the curves have a base
+  double lambda_unit = 1;  ///< as CaseCurves has it
+};
+
+/// In a unit of lambda that serves the whole path: beside a limit point the response at the start is no measure of it.
+CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool forward_only,
+                                const Observer& observer);
 
 /// How the engine follows this special point; nothing for kinds that cannot be followed (`why` says it).
 std::optional<continuation::CriticalStart> critical_start(const CaseCurves& curves,

@@ -102,8 +102,14 @@ class Beyond {
               const CriticalHit* other) {
     FollowedCurve last{.start = start, .growing = side};
     for (int piece = 0; piece < most_pieces_beyond; ++piece) {
-      const auto begin = start_behind(last);
-      if (!begin || !take_way(*begin, last)) return false;
+      const auto begins = starts_behind(last);
+      if (begins.empty()) return false;
+      const std::string end = last.growing.stop_detail;
+      if (std::none_of(begins.begin(), begins.end(),
+                       [&](const auto& begin) { return take_way(begin, last); })) {
+        result_.doubts.push_back("no limit points were found behind: " + end);
+        return false;
+      }
       const auto& hits = last.growing.hits;
       if (other != nullptr && !hits.empty() && is_same(hits.back().point, other->point))
         return true;
@@ -118,31 +124,35 @@ class Beyond {
            std::abs(a.lambda - b.lambda) <= same_meeting && std::abs(a.mu - b.mu) <= same_meeting;
   }
 
-  /// Nothing where the curve ends for another reason.
-  std::optional<continuation::CriticalStart> start_behind(const FollowedCurve& last) const {
+  /// What may follow; nothing where the curve ends for another reason. Behind a threshold where the stiffness does not change
+  /// the limit point is one of the next piece.
+  std::vector<continuation::CriticalStart> starts_behind(const FollowedCurve& last) const {
     const CriticalCurve& curve = last.growing;
-    if (curve.stop != continuation::StopReason::event || curve.hits.empty()) return std::nullopt;
+    if (curve.stop != continuation::StopReason::event || curve.hits.empty()) return {};
     const CriticalHit& hit = curve.hits.back();
     continuation::CriticalStart next = last.start;
     next.x = hit.point.x;
     next.lambda = hit.point.lambda;
     next.mu = hit.point.mu;
     if (last.start.kind == continuation::CriticalKind::surface) {
-      if (!ends_limit_corner(hit) || hit.kind == Degeneracy::touches_surface) return std::nullopt;
+      if (!ends_limit_corner(hit) || hit.kind == Degeneracy::touches_surface) return {};
       next.kind = continuation::CriticalKind::limit_point;
       if (hit.kind == Degeneracy::corner_loses_reversal) next.piece = last.start.behind;
-      return next;
+      return {next};
     }
     const Member* member = curves_.at(hit.point.mu);
-    if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return std::nullopt;
+    if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return {};
     next.kind = continuation::CriticalKind::surface;
     const auto switching = switch_at(*member, hit);
-    if (!switching) return std::nullopt;
+    if (!switching) return {};
     next.switching = *switching;
     next.behind = next.piece;
     auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
     behind = static_cast<std::int8_t>(-behind);
-    return next;
+    continuation::CriticalStart same = next;
+    same.kind = continuation::CriticalKind::limit_point;
+    same.piece = next.behind;
+    return {next, same};
   }
 
   /// The way on which there are limit points. @returns false where there is none
@@ -160,7 +170,6 @@ class Beyond {
       follow_on(start, next, way > 0, last);
       return true;
     }
-    result_.doubts.push_back("no limit points were found behind: " + last.growing.stop_detail);
     return false;
   }
 
@@ -186,6 +195,7 @@ class Beyond {
     CriticalCurve& curve = piece.growing;
     curve = follow_critical(curves_.family(), next, growing, events, critical_options(study_),
                             observe, further);
+    say_switching_start(curves_, growing, curve);
     if (next.kind == continuation::CriticalKind::surface) {
       piece.of = EventKind::corner_limit_point;
       end_at_last_reversal(curve);
@@ -238,10 +248,9 @@ void mark_branch_point(const SpecialPoint& point, Branch& branch) {
   branch.events.insert(behind, std::move(event));
 }
 
-void run_curve(const CaseCurves& curves, const Study& study, const Observer& observer,
-               StudyResult& result) {
+void run_curve(const CaseCurves& curves, const BasePath& path, const Study& study,
+               const Observer& observer, StudyResult& result) {
   const Member& base = curves.base();
-  const BasePath path = base_path(base, false, observer);
   const auto point =
       std::find_if(path.points.begin(), path.points.end(),
                    [&](const SpecialPoint& p) { return p.label == study.critical.point; });
@@ -296,7 +305,9 @@ StudyResult run_critical(const Study& study, const Observer& observer) {
     const auto& names = study.critical.cases->names;
     const auto number = static_cast<std::size_t>(
         std::find(names.begin(), names.end(), study.critical.parameter) - names.begin());
-    const CaseCurves curves(study, number);
+    const bool forward_only = study.kind != StudyKind::critical_curve;
+    const CurvesWithPath begun = curves_with_path(study, number, forward_only, observer);
+    const CaseCurves& curves = *begun.curves;
     result.start = curves.base().report;
     if (result.start.found) {
       result.quantities = critical_quantities(curves);
@@ -306,7 +317,7 @@ StudyResult run_critical(const Study& study, const Observer& observer) {
       else if (study.kind == StudyKind::critical_load)
         run_critical_load(curves, study, observer, result);
       else
-        run_curve(curves, study, observer, result);
+        run_curve(curves, begun.path, study, observer, result);
     }
   }
   result.seconds = thread_seconds() - began;

@@ -91,7 +91,47 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
           action};
 }
 
+/// Where between two values do starts change their piece? The one nearer to `mu` on the far side, and which switch it is.
+std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& curves, double mu,
+                                                              double beyond) {
+  const auto piece_at = [&curves](double m) {
+    const Member* member = curves.at(m);
+    return member == nullptr ? Piece{} : member->first.piece;
+  };
+  const Piece here = piece_at(mu);
+  Piece there = piece_at(beyond);
+  if (here.empty() || there.size() != here.size() || there == here) return std::nullopt;
+  constexpr int halvings = 40;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = mu + 0.5 * (beyond - mu);
+    Piece piece = piece_at(middle);
+    if (piece.size() != here.size()) return std::nullopt;
+    if (piece == here) {
+      mu = middle;
+    } else {
+      beyond = middle;
+      there = std::move(piece);
+    }
+  }
+  const auto differs = std::mismatch(here.begin(), here.end(), there.begin()).first - here.begin();
+  return std::pair{beyond, curves.base().problem->switch_name(differs)};
+}
+
 }  // namespace
+
+void say_switching_start(const CaseCurves& curves, bool growing,
+                         continuation::CriticalCurve& curve) {
+  if (curve.points.empty() || curve.stop != continuation::StopReason::step_too_small) return;
+  // The narrowest differences in the parameter reach as far.
+  constexpr double near = 0x1p-9;
+  const CriticalPoint& last = curve.points.back();
+  const double sense = last.dmu != 0 ? last.dmu : (growing ? 1.0 : -1.0);
+  const auto found = switching_start(curves, last.mu, last.mu + std::copysign(near, sense));
+  if (!found) return;
+  curve.stop_detail = found->second + " switches at the start itself, at " + curves.name() + " = " +
+                      rounded(found->first * curves.scale()) +
+                      ": beyond, the paths begin otherwise, and the curve has a kink";
+}
 
 double most_rows(const CaseCurves& curves) {
   return most_memory / bytes_of_traced_row(curves.base().quantities().size() + 1,
@@ -132,6 +172,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   const auto options = critical_options(study);
   continuation::FurtherPoints further{.spacing = study.trace.spacing, .most = most_rows(curves)};
   followed.growing = follow_critical(family, start, true, events, options, observe, further);
+  say_switching_start(curves, true, followed.growing);
   if (followed.growing.stop ==
       continuation::StopReason::closed) {  // the other way round is the same curve
     followed.falling.stop = followed.growing.stop;
@@ -140,6 +181,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   }
   further.most -= static_cast<double>(followed.growing.points.size());
   followed.falling = follow_critical(family, start, false, events, options, observe, further);
+  say_switching_start(curves, false, followed.falling);
   return followed;
 }
 

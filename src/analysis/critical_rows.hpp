@@ -20,6 +20,11 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const continuation::CriticalStart& start, EventKind of,
                                const Observer& observer);
 
+/// A curve that breaks off just before a spring switches at the start of the path says so.
+/// @param growing  was the parameter growing at first?
+void say_switching_start(const CaseCurves& curves, bool growing,
+                         continuation::CriticalCurve& curve);
+
 /// As many as there is memory for.
 double most_rows(const CaseCurves& curves);
 

@@ -37,8 +37,7 @@ bool has_worst(const Study& study) { return !study.critical.parameters.empty(); 
 /// A parameter whose value is 0 says nothing of its size, and the steps of differences are parts of that. Of several sizes
 /// the one is taken about which the rates of the load change least: larger ones bend, smaller ones are lost in rounding.
 std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t number,
-                                              const Member& base, const BasePath& path,
-                                              std::size_t lambda) {
+                                              const CurvesWithPath& begun, std::size_t lambda) {
   constexpr double factor = 0x1p-3, smallest = 0x1p-18;
   std::unique_ptr<CaseCurves> best;
   double least = std::numeric_limits<double>::infinity();
@@ -47,10 +46,11 @@ std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t nu
     Study sized = study;
     sized.critical.low = -0.5 * size;
     sized.critical.high = 0.5 * size;
-    auto curves = std::make_unique<CaseCurves>(sized, number);
+    auto curves = std::make_unique<CaseCurves>(sized, number, begun.lambda_unit);
     std::vector<double> rates;
-    for (const SpecialPoint& point : path.points) {
-      const auto found = rates_at_special(*curves, base, point, column_values({lambda}));
+    for (const SpecialPoint& point : begun.path.points) {
+      const auto found =
+          rates_at_special(*curves, begun.curves->base(), point, column_values({lambda}));
       rates.push_back(found ? (*found)[0] : undefined);
     }
     std::optional<double> change;  // nothing where the parameter keeps no point
@@ -127,16 +127,20 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
 
 void run_sensitivity(const Study& study, const Observer& observer, StudyResult& result) {
   const auto& names = study.critical.cases->names;
-  BasePath path;
+  CurvesWithPath begun;
+  BasePath& path = begun.path;
   std::vector<std::size_t> columns;
   std::vector<PointLaws> laws;
   std::size_t lambda = 0;  // which of the rated columns
   for (const std::string& parameter : parameters_of(study)) {
     const auto number =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
-    auto own = std::make_unique<CaseCurves>(study, number);
-    if (result.quantities.empty()) {
-      const Member& base = own->base();
+    const bool is_first = result.quantities.empty();
+    if (is_first) begun = curves_with_path(study, number, false, observer);
+    std::unique_ptr<CaseCurves> own;
+    if (!is_first) own = std::make_unique<CaseCurves>(study, number, begun.lambda_unit);
+    if (is_first) {
+      const Member& base = begun.curves->base();
       result.start = base.report;
       if (!base.report.found) return;
       result.lambda_unit = lambda_unit_of(base.study, base.setup.system);
@@ -146,13 +150,12 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
         if (q.kind == QuantityDefinition::Kind::lambda) lambda = columns.size();
         if (is_rated(q, base.setup.system)) columns.push_back(i);
       }
-      path = base_path(base, false, observer);
       if (!path.problem.empty()) return refuse_start(path, result.start);
       for (const SpecialPoint& point : path.points) laws.emplace_back(point);
     }
-    if (own->value() == 0)
-      own = curves_about_zero(study, number, own->base(), path, columns[lambda]);
-    const CaseCurves& curves = *own;
+    const double value = is_first ? begun.curves->value() : own->value();
+    if (value == 0) own = curves_about_zero(study, number, begun, columns[lambda]);
+    const CaseCurves& curves = own ? *own : *begun.curves;
     const Member& base = curves.base();
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities()[i].name, parameter), Unit::none});

@@ -1,0 +1,71 @@
+// Special points in a second parameter do not depend on where on its path a study begins, be it just beside a limit point.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "case_runs.hpp"
+
+namespace springfold::io {
+namespace {
+
+/// Height and load of the limit points of a flat truss of two bars of stiffness 1, half a span of 1, rise 1/2:
+/// P(y) = 2 y (L / sqrt(1 + y^2) - 1) has dP/dy = 0 at 1 + y^2 = L^(2/3), and P = 2 y^3 there.
+const double height = std::sqrt(std::cbrt(1.25) - 1), limit_load = 2 * height * height * height;
+
+/// The truss loaded up to `remaining` below its limit load, with one more study.
+std::string truss(double remaining, const std::string& kind, const std::string& settings) {
+  std::ostringstream text;
+  text << std::setprecision(17)
+       << "[parameters]\nk = 1\n"
+          "[[node]]\nname = \"L\"\nat = [-1, 0]\nfixed = true\n"
+          "[[node]]\nname = \"R\"\nat = [1, 0]\nfixed = true\n"
+          "[[node]]\nname = \"apex\"\nat = [0, 0.5]\n"
+          "[[bar]]\nfrom = \"L\"\nto = \"apex\"\nstiffness = \"k\"\n"
+          "[[bar]]\nfrom = \"R\"\nto = \"apex\"\nstiffness = 1\n"
+          "[[study]]\nname = \"s\"\nkind = \""
+       << kind << "\"\nbody = \"apex\"\ncontrol = \"load\"\ndirection = [0, -1]\nload = [0, "
+       << remaining - limit_load << "]\nuntil = { apex.y = [-0.8, 0.8] }\nstart = { pose = [0, "
+       << height + std::sqrt(remaining / 3) << "] }\n"
+       << settings << "\n";
+  return text.str();
+}
+
+const std::vector<double> loads_remaining{1e-2, 1e-4, 1e-5, 3e-6, 1e-6};
+
+/// By symmetry each bar has half of dP/dk, and P is proportional to both stiffnesses together.
+TEST(BesideALimitPoint, RatesOfTheLimitLoadsAreTheirs) {
+  for (const double remaining : loads_remaining) {
+    const auto ran = run(truss(remaining, "sensitivity", "sensitivity = { parameters = [\"k\"] }"));
+    int found = 0;
+    for (const analysis::Event& event : ran.of("s").branches.at(0).events) {
+      if (event.kind != analysis::EventKind::limit_point) continue;
+      ++found;
+      const double sense = value(ran.of("s"), event.row, "lambda") > -limit_load ? 1 : -1;
+      const double rate = value(ran.of("s"), event.row, "d(lambda)/d(k)");
+      // Too near: the start vanishes within the narrowest differences.
+      if (remaining < 1e-4 && std::isnan(rate)) continue;
+      EXPECT_NEAR(rate, sense * limit_load / 2, 1e-9) << remaining;
+    }
+    EXPECT_EQ(found, 2) << remaining;
+  }
+}
+
+TEST(BesideALimitPoint, ItsCriticalCurveIsThatFromAfar) {
+  const auto end_of = [](double remaining) {
+    const auto ran = run(truss(remaining, "critical_curve",
+                               "critical_curve = { of = \"LP2\", parameter = \"k\", range = "
+                               "[1, 1.1] }"));
+    const analysis::StudyResult& result = ran.of("s");
+    if (result.branches.empty()) return std::nan("");
+    const analysis::Branch& branch = result.branches.front();
+    EXPECT_TRUE(branch.forward.complete) << remaining;
+    return value(result, branch.samples.size() - 1, "lambda") - remaining;
+  };
+  for (const double remaining : loads_remaining)
+    EXPECT_NEAR(end_of(remaining), end_of(0.03), 1e-9) << remaining;
+}
+
+}  // namespace
+}  // namespace springfold::io
