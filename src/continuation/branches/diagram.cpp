@@ -95,11 +95,6 @@ class Tracer {
   int depth_ = 0;           ///< its depth
 };
 
-bool is_junction(const Hit& hit) {
-  return hit.kind == HitKind::branch_point || hit.kind == HitKind::touch ||
-         hit.kind == HitKind::branching_kink;
-}
-
 /// The nearest junction that is the same point. Points that a curve has passed right before are others: between two
 /// passages of one point lies a whole loop.
 int Tracer::junction_at(const Hit& hit) {
@@ -191,12 +186,6 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   met_.push_back(met);
   if (!known) queue_ways(number);
   return go_on;
-}
-
-/// Two ways out: an ordinary kink of one curve, or none at all.
-bool is_one_curve(const Rays& rays) {
-  return rays.complete && rays.rays.size() == 2 &&
-         std::none_of(rays.rays.begin(), rays.rays.end(), [](const Ray& r) { return r.start; });
 }
 
 /// An ordinary point of a curve, perhaps with a kink there: its two curves belong to the start.

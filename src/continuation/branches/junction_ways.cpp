@@ -86,6 +86,16 @@ void add_exits(const Walker& walker, const DiagramOptions& options, const Hit& h
 
 }  // namespace
 
+bool is_junction(const Hit& hit) {
+  return hit.kind == HitKind::branch_point || hit.kind == HitKind::touch ||
+         hit.kind == HitKind::branching_kink;
+}
+
+bool is_one_curve(const Rays& rays) {
+  return rays.complete && rays.rays.size() == 2 &&
+         std::none_of(rays.rays.begin(), rays.rays.end(), [](const Ray& r) { return r.start; });
+}
+
 void find_ways(const Walker& walker, const DiagramOptions& options, const Hit& hit,
                Junction& junction) {
   const std::vector<Index> active = active_switches(walker, hit.point.x, hit.point.lambda);

@@ -6,6 +6,12 @@
 
 namespace springfold::continuation {
 
+/// May other curves leave there?
+bool is_junction(const Hit& hit);
+
+/// Two ways out: an ordinary kink of one curve, or none at all.
+bool is_one_curve(const Rays& rays);
+
 /// One algorithm for starts, kinks and branch points: on every piece around the point the ways of its own
 /// curve or, where it is singular, of its reduced equation; those that lead into their pieces; each with a
 /// start before the next switching surface.
