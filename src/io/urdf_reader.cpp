@@ -66,17 +66,49 @@ model::Vec3<double> turn_of_urdf(const urdf::Rotation& q) {
   return v * (2 * (q.w < 0 ? half - std::acos(-1.0) : half) / sine);
 }
 
+/// Elements that are read, or told of in words of their own, by the one around them.
+XmlUse use_of(const std::string& around, const std::string& name) {
+  struct Known {
+    const char *around, *name;
+    XmlUse use = XmlUse::read;
+  };
+  using enum XmlUse;
+  static constexpr Known all[]{{"", "robot"},
+                               {"robot", "link"},
+                               {"robot", "joint"},
+                               {"link", "inertial"},
+                               {"inertial", "origin"},
+                               {"inertial", "mass"},
+                               {"inertial", "inertia"},
+                               {"link", "visual", whole},
+                               {"link", "collision", whole},
+                               {"joint", "origin"},
+                               {"joint", "parent"},
+                               {"joint", "child"},
+                               {"joint", "axis"},
+                               {"joint", "limit"},
+                               {"joint", "dynamics"},
+                               {"joint", "mimic"},
+                               {"joint", "safety_controller"}};
+  for (const Known& known : all)
+    if (around == known.around && name == known.name) return known.use;
+  return unread;
+}
+
 class UrdfTree {
  public:
   UrdfTree(const std::string& file, Problems& problems) : place_{file, 0, 0}, problems_{problems} {}
 
-  Robot read(const urdf::ModelInterface& model) {
+  Robot read(const urdf::ModelInterface& model, const std::string& bytes) {
     robot_.name = model.getName();
+    if (!every_link_has_one_parent(model)) return {};
     add(*model.getRoot());
     if (robot_.links.size() != model.links_.size())
       refuse("", "only " + std::to_string(robot_.links.size()) + " of " +
                      std::to_string(model.links_.size()) +
                      " links hang on the root, need a tree: joints in a circle have none");
+    for (const auto& [names, count] : unread_elements(bytes, use_of))
+      counts_["<" + names.second + "> in <" + names.first + ">"] = count;
     tell();
     return std::move(robot_);
   }
@@ -84,7 +116,20 @@ class UrdfTree {
  private:
   void refuse(const std::string& key, const std::string& what) { problems_.add(place_, key, what); }
 
-  /// The root and all that hang on it, level by level.
+  /// Otherwise links would be met again on their own way.
+  bool every_link_has_one_parent(const urdf::ModelInterface& model) {
+    std::map<std::string, std::string> joints;  // by their links
+    for (const auto& [name, joint] : model.joints_) {
+      const auto [found, is_first] = joints.emplace(joint->child_link_name, name);
+      if (!is_first)
+        refuse("joint \"" + name + "\"",
+               "leads to link \"" + found->first + "\" as joint \"" + found->second +
+                   "\" does, need a tree: one joint to every link, and no joints in a circle");
+    }
+    return joints.size() == model.joints_.size();
+  }
+
+  /// The root and all that hang on it, level by level. @pre every link has one parent
   void add(const urdf::Link& root) {
     std::vector<std::pair<const urdf::Link*, std::size_t>> waiting{{&root, 0}};
     for (std::size_t next = 0; next < waiting.size(); ++next) {
@@ -197,7 +242,7 @@ Robot read_urdf(const std::string& bytes, const std::string& file, Problems& pro
                      ", need a robot of links and joints");
     return {};
   }
-  return UrdfTree(file, problems).read(*model);
+  return UrdfTree(file, problems).read(*model, bytes);
 }
 
 }  // namespace springfold::io

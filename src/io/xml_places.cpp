@@ -80,4 +80,36 @@ std::optional<BrokenXml> broken_xml(const std::string& bytes, const std::string&
   return BrokenXml{place_in(bytes, open.back().at, file), "<" + open.back().name + "> has no end"};
 }
 
+std::map<std::pair<std::string, std::string>, int> unread_elements(
+    const std::string& bytes,
+    const std::function<XmlUse(const std::string& around, const std::string& name)>& use) {
+  std::map<std::pair<std::string, std::string>, int> unread;
+  std::vector<std::string> open;
+  std::size_t closed_within = std::string::npos;  // depth of what is not looked into
+  for (std::size_t at = bytes.find('<'); at < bytes.size();) {
+    if (const std::size_t behind = behind_other(bytes, at); behind != at) {
+      at = bytes.find('<', behind);
+      continue;
+    }
+    const auto behind = end_of_tag(bytes, at);
+    if (!behind) break;
+    if (bytes.compare(at, 2, "</") == 0) {
+      if (!open.empty()) open.pop_back();
+      if (open.size() <= closed_within) closed_within = std::string::npos;
+    } else {
+      const std::string name = name_at(bytes, at + 1);
+      const bool is_open = bytes[*behind - 2] != '/';
+      if (closed_within == std::string::npos) {
+        const std::string around = open.empty() ? "" : open.back();
+        const XmlUse found = use(around, name);
+        if (found == XmlUse::unread) ++unread[{around, name}];
+        if (found != XmlUse::read && is_open) closed_within = open.size();
+      }
+      if (is_open) open.push_back(name);
+    }
+    at = bytes.find('<', *behind);
+  }
+  return unread;
+}
+
 }  // namespace springfold::io

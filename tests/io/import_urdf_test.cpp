@@ -180,6 +180,44 @@ TEST_F(ImportedRobot, IsRefusedWhereJointsMakeACircle) {
   EXPECT_THAT(problems(circle), ElementsAre(HasSubstr("only 4 of 6 links hang on the root")));
 }
 
+TEST_F(ImportedRobot, IsRefusedWhereALinkHasTwoParents) {
+  const auto joint = [](const std::string& name, const std::string& parent,
+                        const std::string& child) {
+    return "<joint name=\"" + name + "\" type=\"continuous\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/></joint>";
+  };
+  const std::string links =
+      "<robot name=\"r\"><link name=\"b\"/><link name=\"a\"/><link name=\"c\"/>" +
+      joint("j", "b", "a");
+  const std::string in_a_circle = joint("k", "a", "c") + joint("l", "c", "a") + "</robot>";
+  EXPECT_THAT(problems(links + in_a_circle),
+              ElementsAre(HasSubstr("joint \"l\": leads to link \"a\" as joint \"j\" does, "
+                                    "need a tree")));
+  const std::string two_ways = joint("k", "b", "c") + joint("l", "a", "c") + "</robot>";
+  EXPECT_THAT(problems(links + two_ways),
+              ElementsAre(HasSubstr("joint \"l\": leads to link \"c\" as joint \"k\" does")));
+  EXPECT_THAT(problems(links + joint("k", "b", "a") + joint("m", "a", "c") + "</robot>"),
+              ElementsAre(HasSubstr("joint \"k\": leads to link \"a\" as joint \"j\" does")));
+}
+
+TEST_F(ImportedRobot, NamesEveryElementThatItPassesOver) {
+  std::string text =
+      replaced(arm_urdf, "</robot>",
+               "<transmission name=\"t\"><joint name=\"elbow\"/><new/></transmission>"
+               "<transmission name=\"u\"/><gazebo>1 &lt; 2</gazebo><!-- <ghost/> -->"
+               "<xacro:leg xmlns:xacro=\"q\" side=\"/>\"/></robot>");
+  text = replaced(text, "<dynamics damping=\"0.1\"/>", "<calibration rising=\"0\"/>");
+  text = replaced(text, "<mass value=\"3\"/>", "<mass value=\"3\"/><sensor/>");
+  std::vector<std::string> named;
+  for (const std::string& line : import(text).report)
+    if (line.find('<') != std::string::npos) named.push_back(line);
+  EXPECT_THAT(
+      named,
+      ElementsAre("left out: <calibration> in <joint> (1)", "left out: <gazebo> in <robot> (1)",
+                  "left out: <sensor> in <inertial> (1)", "left out: <transmission> in <robot> (2)",
+                  "left out: <xacro:leg> in <robot> (1)"));
+}
+
 TEST_F(ImportedRobot, HasNamesThatACaseMayHave) {
   std::string text =
       replaced(arm_urdf, "<link name=\"hand\">", "<link name=\"the &quot;hand&quot;\">");
