@@ -16,23 +16,28 @@ constexpr Assignment assignments[]{{"M", Crease::fold}, {"V", Crease::fold}, {"U
                                    {"F", Crease::flat}, {"J", Crease::flat}, {"B", Crease::border},
                                    {"C", Crease::cut}};
 
+/// Units of length that the format has; "unit" is none.
+const std::vector<std::string> fold_units{"in", "pt", "m", "cm", "mm", "um", "nm"};
+
 class FoldReader {
  public:
   FoldReader(const Node& root, Problems& problems) : root_{root}, problems_{problems} {}
 
   Mesh read() {
     read_vertices();
+    if (is_full_) return std::move(mesh_);
     read_edges();
     read_assignments();
     for (const Node* face : list("faces_vertices", false))
       mesh_.faces.push_back({numbers(*face, "faces_vertices", 3, 0), face->place, key_});
-    const std::vector<std::string> known{"vertices_coords", "edges_vertices", "edges_assignment",
-                                         "faces_vertices"};
+    const bool knows_unit = read_unit();
     for (const NodeEntry& entry : root_.entries) {
-      const bool describes = (entry.key.starts_with("file_") && entry.key != "file_frames") ||
-                             entry.key.starts_with("frame_");
-      if (!describes && std::find(known.begin(), known.end(), entry.key) == known.end())
-        mesh_.left_out.push_back(entry.key);
+      static const std::vector<std::string> known{"file_spec", "vertices_coords", "edges_vertices",
+                                                  "edges_assignment", "faces_vertices"};
+      const bool is_read = entry.key == "frame_unit"
+                               ? knows_unit
+                               : std::find(known.begin(), known.end(), entry.key) != known.end();
+      if (!is_read) mesh_.left_out.push_back(entry.key);
     }
     return std::move(mesh_);
   }
@@ -84,19 +89,32 @@ class FoldReader {
     mesh_.is_planar = true;
     for (const Node* node : list("vertices_coords", true)) {
       const std::string key = "vertices_coords[" + std::to_string(++at_) + "]";
-      if (at_ > most_vertices)
+      is_full_ = at_ > most_vertices;
+      if (is_full_)
         return refuse(*node, key, "at most " + std::to_string(most_vertices) + " vertices");
       const std::size_t size = node->items.size();
       if (node->kind != Node::Kind::array || (size != 2 && size != 3))
         refuse(*node, key, "[x, y] or [x, y, z]");
       model::Vec3<double> at = model::Vec3<double>::Zero();
       for (std::size_t i = 0; i < std::min<std::size_t>(size, 3); ++i) {
-        if (node->items[i].kind != Node::Kind::number) refuse(node->items[i], key, "a number");
-        at[static_cast<Index>(i)] = node->items[i].number;
+        const Node& item = node->items[i];
+        if (item.kind != Node::Kind::number || !(std::abs(item.number) <= largest_coordinate))
+          refuse(item, key, coordinate_need);
+        at[static_cast<Index>(i)] = item.number;
       }
       mesh_.is_planar = mesh_.is_planar && size == 2;
       mesh_.vertices.push_back(at);
     }
+  }
+
+  /// @returns whether it is one of the format
+  bool read_unit() {
+    const Node* unit = root_.find("frame_unit");
+    if (unit == nullptr || unit->kind != Node::Kind::text) return false;
+    if (std::find(fold_units.begin(), fold_units.end(), unit->text) == fold_units.end())
+      return unit->text == "unit";
+    mesh_.length_unit = unit->text;
+    return true;
   }
 
   void read_edges() {
@@ -131,8 +149,9 @@ class FoldReader {
   const Node& root_;
   Problems& problems_;
   Mesh mesh_{};
-  std::size_t at_ = 0;  ///< in the list that is read
-  std::string key_{};   ///< of its last entry
+  bool is_full_ = false;  ///< there are too many vertices: nothing more is read
+  std::size_t at_ = 0;    ///< in the list that is read
+  std::string key_{};     ///< of its last entry
 };
 
 }  // namespace

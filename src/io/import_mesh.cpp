@@ -23,6 +23,8 @@ class CaseText {
     text_ =
         "# Made by `springfold import`: bars along the edges of a mesh, folds between its faces.\n";
     text_ += "title = " + toml_text(name) + "\n\n";
+    if (!mesh.length_unit.empty())
+      text_ += "[units]\nlength = " + toml_text(mesh.length_unit) + "\n\n";
   }
 
   std::string write() {

@@ -36,11 +36,16 @@ struct Mesh {
   std::vector<MeshEdge> edges{};
   std::vector<MeshFace> faces{};
   bool names_edges = false;             ///< do `edges` hold the sides of all faces?
+  std::string length_unit{};            ///< as the file has it; empty: none
   std::vector<std::string> left_out{};  ///< what the file has besides: its own words
 };
 
 /// Of a triangle mesh with more of them bars and folds want more than the 2 GB that a case may need.
 inline constexpr std::size_t most_vertices = 1'800;
+
+/// Larger coordinates are no numbers of a case file.
+inline constexpr double largest_coordinate = 1e100;
+inline constexpr const char* coordinate_need = "a finite number, at most 1e100 in size";
 
 /// Each reports everything that is wrong, with its place. The result is of use only without problems.
 Mesh read_obj(std::string_view bytes, const std::string& file, Problems& problems);

@@ -10,15 +10,18 @@ namespace {
 
 struct Word {
   std::string_view text{};
-  int column = 1;
+  int line = 1, column = 1;
 };
 
 bool is_obj_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Words of one line up to a comment.
-std::vector<Word> obj_words(std::string_view line) {
-  std::vector<Word> words;
+/// Adds the words of one line up to a comment.
+/// @returns whether the next line continues it: a backslash stands at its end
+bool add_obj_words(std::string_view line, int number, std::vector<Word>& words) {
   line = line.substr(0, line.find('#'));
+  while (!line.empty() && is_obj_blank(line.back())) line.remove_suffix(1);
+  const bool goes_on = line.ends_with('\\');
+  if (goes_on) line.remove_suffix(1);
   for (std::size_t at = 0; at < line.size();) {
     if (is_obj_blank(line[at])) {
       ++at;
@@ -26,10 +29,10 @@ std::vector<Word> obj_words(std::string_view line) {
     }
     std::size_t end = at;
     while (end < line.size() && !is_obj_blank(line[end])) ++end;
-    words.push_back({line.substr(at, end - at), static_cast<int>(at) + 1});
+    words.push_back({line.substr(at, end - at), number, static_cast<int>(at) + 1});
     at = end;
   }
-  return words;
+  return goes_on;
 }
 
 class ObjReader {
@@ -41,19 +44,26 @@ class ObjReader {
   Mesh read(std::string_view bytes) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
-    while (!bytes.empty()) {
+    std::vector<Word> words;
+    for (int line = 1; !bytes.empty() && !is_full_; ++line) {
       const std::size_t end = bytes.find('\n');
-      ++line_;
-      read_line(obj_words(bytes.substr(0, end)));
+      const bool goes_on = add_obj_words(bytes.substr(0, end), line, words);
       bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+      if (goes_on && !bytes.empty()) continue;
+      read_line(words);
+      words.clear();
     }
     return std::move(mesh_);
   }
 
  private:
   void refuse(const Word& word, const std::string& key, const std::string& need) {
-    problems_.add({file_, line_, word.column}, key,
+    problems_.add({file_, word.line, word.column}, key,
                   "got \"" + std::string{word.text} + "\", need " + need);
+  }
+
+  Place place_of(const std::vector<Word>& words) const {
+    return {file_, words.front().line, words.front().column};
   }
 
   void read_line(const std::vector<Word>& words) {
@@ -67,11 +77,11 @@ class ObjReader {
       read_polyline(words);
     else if (std::find(mesh_.left_out.begin(), mesh_.left_out.end(), what) == mesh_.left_out.end())
       mesh_.left_out.push_back(what);
-    if (words.back().text == "\\") refuse(words.back(), what, "the whole of it in one line");
   }
 
   void read_vertex(const std::vector<Word>& words) {
-    if (mesh_.vertices.size() == most_vertices)
+    is_full_ = mesh_.vertices.size() == most_vertices;
+    if (is_full_)
       return refuse(words.front(), "v", "at most " + std::to_string(most_vertices) + " vertices");
     model::Vec3<double> at = model::Vec3<double>::Zero();
     if (words.size() < 4) refuse(words.front(), "v", "three coordinates behind it");
@@ -79,8 +89,9 @@ class ObjReader {
       const std::string_view text = words[i].text;
       double& value = at[static_cast<Index>(i) - 1];
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        refuse(words[i], "v", "a finite number");
+      const bool is_number = error == std::errc{} && end == text.data() + text.size();
+      if (!is_number || !(std::abs(value) <= largest_coordinate))
+        refuse(words[i], "v", coordinate_need);
     }
     mesh_.vertices.push_back(at);
   }
@@ -115,21 +126,19 @@ class ObjReader {
 
   void read_face(const std::vector<Word>& words) {
     std::vector<std::size_t> corners = vertices(words, 3);
-    if (!corners.empty())
-      mesh_.faces.push_back({std::move(corners), {file_, line_, words.front().column}, "f"});
+    if (!corners.empty()) mesh_.faces.push_back({std::move(corners), place_of(words), "f"});
   }
 
   void read_polyline(const std::vector<Word>& words) {
     const std::vector<std::size_t> list = vertices(words, 2);
     for (std::size_t i = 0; i + 1 < list.size(); ++i)
-      mesh_.edges.push_back(
-          {{list[i], list[i + 1]}, Crease::fold, {file_, line_, words.front().column}, "l"});
+      mesh_.edges.push_back({{list[i], list[i + 1]}, Crease::fold, place_of(words), "l"});
   }
 
   const std::string& file_;
   Problems& problems_;
   Mesh mesh_{};
-  int line_ = 0;
+  bool is_full_ = false;  ///< there are too many vertices: nothing more is read
 };
 
 }  // namespace

@@ -247,6 +247,57 @@ TEST_F(ImportedMesh, IsRefusedWhereItsCaseWouldBeTooLarge) {
       Contains(testing::HasSubstr("large.obj:1801:1: v: got \"v\", need at most 1800 vertices")));
 }
 
+TEST_F(ImportedMesh, SaysOnceThatThereAreTooManyVertices) {
+  std::string obj, fold;
+  for (int i = 0; i < 2000; ++i) {
+    obj += "v " + std::to_string(i) + " 0 0\n";
+    fold += (i == 0 ? "[" : ",\n[") + std::to_string(i) + ", 0]";
+  }
+  EXPECT_THAT(problems("large.obj", obj + "f 1900 1901 1902\n"), testing::SizeIs(1));
+  EXPECT_THAT(problems("large.fold", "{\"vertices_coords\": [" + fold +
+                                         "],\n\"edges_vertices\": [[1900, 1901]]}"),
+              ElementsAre(HasSubstr("vertices_coords[1801]: got a list of 2, need at most 1800 "
+                                    "vertices")));
+}
+
+TEST_F(ImportedMesh, RefusesCoordinatesThatNoCaseMayHave) {
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 -1e200 0")),
+              ElementsAre("a.obj:6:5: v: got \"-1e200\", need a finite number, at most 1e100 in "
+                          "size"));
+  EXPECT_THAT(problems("a.fold", replaced(square_fold, "[1, 0]", "[1, 1e101]")),
+              ElementsAre(HasSubstr("vertices_coords[2]: got 1e+101, need a finite number, at most "
+                                    "1e100")));
+}
+
+TEST_F(ImportedMesh, ReadsLinesThatABackslashContinues) {
+  const std::string broken = replaced(replaced(square_obj, "f -4 -2 -1", "f -4 \\\n-2\\\r\n  -1"),
+                                      "v 1 1 0", "v 1\\\n1 \\  \n0");
+  EXPECT_EQ(import("square.obj", broken).text, import("square.obj", square_obj).text);
+  EXPECT_EQ(import("square.obj", square_obj + "# no line \\\n").text,
+            import("square.obj", square_obj).text);
+  EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 \\\n 7 4 \\")),
+              ElementsAre(HasSubstr("a.obj:9:2: f: got \"7\", need the number of a vertex")));
+}
+
+TEST_F(ImportedMesh, HasTheUnitOfLengthOfItsFrame) {
+  const auto made = [&](const std::string& keys) {
+    return import("square.fold", replaced(square_fold, "\"faceOrders\": []", keys));
+  };
+  const ImportedCase millimetres = made("\"frame_unit\": \"mm\"");
+  EXPECT_EQ(load(millimetres.text).units.length, "mm");
+  EXPECT_THAT(millimetres.report, testing::Each(testing::Not(HasSubstr("left out"))));
+  const ImportedCase none = made("\"frame_unit\": \"unit\"");
+  EXPECT_EQ(load(none.text).units.length, "m");
+  EXPECT_THAT(none.report, testing::Each(testing::Not(HasSubstr("left out"))));
+  EXPECT_THAT(made("\"frame_unit\": \"ell\"").report,
+              Contains("left out, having no meaning here: frame_unit"));
+  EXPECT_THAT(made("\"file_title\": \"t\", \"frame_title\": \"a\", \"frame_classes\": [], "
+                   "\"own:key\": 1")
+                  .report,
+              Contains("left out, having no meaning here: file_title, frame_title, "
+                       "frame_classes, own:key"));
+}
+
 TEST_F(ImportedMesh, IsTheSameWithAByteOrderMark) {
   EXPECT_EQ(import("marked.obj", "\xef\xbb\xbf" + square_obj).report,
             import("square.obj", square_obj).report);
@@ -259,8 +310,9 @@ TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInObjFiles) {
   EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 7 4")),
               ElementsAre("a.obj:8:5: f: got \"7\", need the number of a vertex that stands before "
                           "it, 1 to 4, or -1 for the last one"));
-  EXPECT_THAT(problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 one 0")),
-              ElementsAre("a.obj:6:5: v: got \"one\", need a finite number"));
+  EXPECT_THAT(
+      problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 one 0")),
+      ElementsAre("a.obj:6:5: v: got \"one\", need a finite number, at most 1e100 in size"));
   EXPECT_THAT(problems("a.obj", replaced(square_obj, "v 0 1 0", "v 0 1")),
               ElementsAre("a.obj:6:1: v: got \"v\", need three coordinates behind it"));
   EXPECT_THAT(problems("a.obj", replaced(square_obj, "-4 -2 -1", "1 3")),
@@ -282,7 +334,8 @@ TEST_F(ImportedMesh, NamesLineAndColumnOfMistakesInFoldFiles) {
       problems("a.fold", replaced(square_fold, "[1, 2]", "[1, 9]")),
       Contains("a.fold:4:34: edges_vertices[2]: got 9, need the number of a vertex, 0 to 3"));
   EXPECT_THAT(problems("a.fold", replaced(square_fold, "[1, 0]", "[1, \"0\"]")),
-              ElementsAre("a.fold:3:35: vertices_coords[2]: got \"0\", need a number"));
+              ElementsAre("a.fold:3:35: vertices_coords[2]: got \"0\", need a finite number, at "
+                          "most 1e100 in size"));
   EXPECT_THAT(problems("a.fold", replaced(square_fold, "\"V\"", "\"X\"")),
               ElementsAre(HasSubstr("a.fold:5:44: edges_assignment[5]: got \"X\", need \"M\", ")));
   EXPECT_THAT(problems("a.fold", replaced(square_fold, ", \"V\"", "")),
