@@ -164,8 +164,7 @@ bool ControlProblem::switches(const Vector& y, double lambda, Vector& g) const {
   const Vector z = expand(y, lambda);
   const Vector rho = inputs(y, lambda).rho;
   g.resize(switch_count());
-  for (Index j = 0; j < g.size(); ++j)
-    g[j] = switch_value(setup_.system, static_cast<std::size_t>(j), z, rho);
+  put_switch_values(setup_.system, 0, z, rho, g);
   return g.allFinite();
 }
 

@@ -10,8 +10,7 @@ bool PathProblem::put_shape_switches(const Vector& y, double lambda, Index first
   put_local(y, lambda, z_);
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
-  for (Index j = first; j < g.size(); ++j)
-    g[j] = switch_value(present, static_cast<std::size_t>(j), z_, inputs_.rho);
+  put_switch_values(present, static_cast<std::size_t>(first), z_, inputs_.rho, g);
   return g.allFinite();
 }
 
@@ -23,8 +22,14 @@ bool PathProblem::put_shape_gradients(const Vector& y, double lambda, Index firs
   put_inputs(lambda, inputs_);
   const statics::System& present = turned(y, lambda);
   for (Index j = first; j < dg_dy.rows(); ++j) {
+    const auto number = static_cast<std::size_t>(j);
+    if (j > first && same_spring(present.switches[number], present.switches[number - 1])) {
+      dg_dy.row(j) = dg_dy.row(j - 1);
+      dg_dlambda[j] = dg_dlambda[j - 1];
+      continue;
+    }
     statics::SwitchGradient& at = switch_gradient_;
-    if (!switch_gradient(present, static_cast<std::size_t>(j), z_, inputs_.rho, at)) return false;
+    if (!switch_gradient(present, number, z_, inputs_.rho, at)) return false;
     reduce_rows(at.z, v_);
     put_quaternions(y, v_, F_);
     dg_dy.row(j) = F_.transpose();

@@ -215,6 +215,13 @@ double value_of(const System& system, const PointShape& shape, const Vector& z, 
                              : at.value;
 }
 
+/// Where the spring of a switch stands: its joint's coordinate, or its own part of alpha.
+double place_of(const System& system, const Switch& s, const Vector& z, const Vector& rho) {
+  if (!s.of_shape()) return z[s.coordinate];
+  const PointShape& shape = system.shapes[s.spring];
+  return own_part(shape, value_of(system, shape, z, rho), z);
+}
+
 }  // namespace
 
 bool is_smooth_at_edge(const PointShape& shape, double alpha) {
@@ -288,9 +295,17 @@ double pressure_potential(const System& system, const Vector& z, const Inputs& i
 
 double switch_value(const System& system, std::size_t number, const Vector& z, const Vector& rho) {
   const Switch& s = system.switches[number];
-  if (!s.of_shape()) return z[s.coordinate] - s.breakpoint;
-  const PointShape& shape = system.shapes[s.spring];
-  return own_part(shape, value_of(system, shape, z, rho), z) - s.breakpoint;
+  return place_of(system, s, z, rho) - s.breakpoint;
+}
+
+void put_switch_values(const System& system, std::size_t first, const Vector& z, const Vector& rho,
+                       Vector& values) {
+  double place = 0;
+  for (std::size_t j = first; j < system.switches.size(); ++j) {
+    const Switch& s = system.switches[j];
+    if (j == first || !same_spring(s, system.switches[j - 1])) place = place_of(system, s, z, rho);
+    values[static_cast<Index>(j)] = place - s.breakpoint;
+  }
 }
 
 bool switch_gradient(const System& system, std::size_t number, const Vector& z, const Vector& rho,

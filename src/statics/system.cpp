@@ -378,10 +378,11 @@ Vector guess(const System& system) {
 }
 
 Piece piece_at(const System& system, const Vector& z, const Vector& rho) {
+  Vector values(std::ssize(system.switches));
+  put_switch_values(system, 0, z, rho, values);
   Piece piece;
   piece.reserve(system.switches.size());
-  for (std::size_t j = 0; j < system.switches.size(); ++j)
-    piece.push_back(switch_value(system, j, z, rho) >= 0 ? std::int8_t{1} : std::int8_t{-1});
+  for (const double value : values) piece.push_back(value >= 0 ? std::int8_t{1} : std::int8_t{-1});
   return piece;
 }
 

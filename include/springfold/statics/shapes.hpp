@@ -31,9 +31,19 @@ double shape_energy(const System& system, const Vector& z, const Vector& rho);
 /// Potential of all pressures.
 double pressure_potential(const System& system, const Vector& z, const Inputs& inputs);
 
+/// Are two switches breakpoints of one spring?
+inline bool same_spring(const Switch& a, const Switch& b) {
+  return a.spring == b.spring && a.of_shape() == b.of_shape();
+}
+
 /// What the sign of a switch is that of: a joint's coordinate, or alpha, minus the breakpoint.
 /// @param number  of the switch
 double switch_value(const System& system, std::size_t number, const Vector& z, const Vector& rho);
+
+/// The same of all switches from number `first` on. The place of a spring is found once for all its breakpoints.
+/// @param values  one for every switch; those before `first` are left as they are
+void put_switch_values(const System& system, std::size_t first, const Vector& z, const Vector& rho,
+                       Vector& values);
 
 /// Storage of switch_gradient(): by z, by rho.
 struct SwitchGradient {
