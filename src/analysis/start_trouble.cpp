@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape_units.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/number_text.hpp"
 #include "springfold/statics/kinematics.hpp"
@@ -153,6 +154,15 @@ void explain_imbalance(const Setup& setup, const Study& study, const statics::St
       "control = \"pose\" or \"mixed\"), or take away the load along it";
 }
 
+/// @param volume  or area, as its points are drawn, in `unit`
+std::string gas_trouble(const model::Gas& gas, double volume, double unit) {
+  if (volume * gas.initial < 0)
+    return "its gas is drawn with " + rounded(unit * volume) + " and rests at " +
+           rounded(unit * gas.initial) +
+           ": the other sign, need its points in the other order, or the other sign of initial";
+  return "its gas has no volume there, or a negative one";
+}
+
 /// A spring of a shape that has no force in the guess. @returns whether there is one
 bool explain_shape(const Setup& setup, const Study& study, const statics::StartProblem& problem,
                    StartReport& report) {
@@ -163,7 +173,8 @@ bool explain_shape(const Setup& setup, const Study& study, const statics::StartP
     if (std::isfinite(at.value) && std::isfinite(at.slope) && !vanishes) continue;
     report.where = pose_key(setup, study);
     report.message = "\"" + shape.name + "\" has no force in this guess: " +
-                     (shape.gas ? "its gas has no volume there, or a negative one"
+                     (shape.gas ? gas_trouble(*shape.gas, at.value,
+                                              unit_of_value(shape.shape.kind, setup.scales))
                                 : "some of its points coincide there, or lie in line");
     report.advice = "start from another guess";
     return true;

@@ -94,6 +94,10 @@ void read_ends(const TableReader& table, MechanismDraft& draft, AnchorDraft& fro
                 reading);
   if (table.required_text("to", "the name of a body, or \"chain.point\""))
     find_anchor({table.find("to"), table.key_of("to")}, draft, true, to, draft.numbers, reading);
+  const auto from_name = table.text("from"), to_name = table.text("to");
+  if (from_name && from_name == to_name && !table.has("from_at") && !table.has("to_at"))
+    reading.problems.add(table.find("to")->place, table.key_of("to"),
+                         "got \"" + *to_name + "\" a second time, need another point");
   from.at = read_at(table, "from_at", draft, from, draft.numbers, reading);
   to.at = read_at(table, "to_at", draft, to, draft.numbers, reading);
 }

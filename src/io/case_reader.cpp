@@ -147,8 +147,9 @@ void read_expectations(const std::vector<Document>& files, CaseDraft& draft, Rea
   }
 }
 
+/// @param others  tables that do instead of it
 void require_table(const std::vector<Document>& documents, const std::string& name,
-                   Problems& problems) {
+                   Problems& problems, const std::string& others = "") {
   for (const Document& document : documents) {
     if (document.root.find(name)) return;
     constexpr std::size_t most_looked_at = 100;
@@ -156,7 +157,8 @@ void require_table(const std::vector<Document>& documents, const std::string& na
     for (const NodeEntry& entry : document.root.entries)
       if (++looked_at <= most_looked_at && nearest(entry.key, case_keys) == name) return;
   }
-  problems.add({documents.back().name, 0, 0}, name, "missing, need at least one [[" + name + "]]");
+  problems.add({documents.back().name, 0, 0}, name,
+               "missing, need at least one [[" + name + "]]" + others);
 }
 
 }  // namespace
@@ -189,8 +191,10 @@ CaseDraft read_case(const std::vector<Document>& documents,
   const std::vector<Item> nodes = tables_of(documents, "node", reading);
   const std::vector<Item> springs = tables_of(documents, "spring", reading);
   const std::vector<Item> bars = tables_of(documents, "bar", reading);
-  if (nodes.empty()) require_table(documents, "body", problems);
-  if (springs.empty() && bars.empty()) require_table(documents, "chain", problems);
+  if (nodes.empty()) require_table(documents, "body", problems, " or [[node]]");
+  if (springs.empty() && bars.empty())
+    require_table(documents, "chain", problems,
+                  ", [[bar]] or [[spring]]: nothing holds what moves");
   require_table(documents, "study", problems);
   read_bodies(bodies, draft.mechanism, reading);
   read_nodes(nodes, draft.mechanism, reading);

@@ -173,8 +173,10 @@ std::vector<std::string> curve_outline(const Told& told, std::size_t most) {
   std::vector<std::string> lines;
   if (!result.non_conservative.empty() || !column_of(result, "index")) {  // nothing is counted
     const std::string points = counted_points(first);
-    lines.push_back("followed from end to end, stability not known" +
-                    (points.empty() ? "" : "; special points: " + points));
+    const bool is_whole = first.forward.complete && first.backward.complete;
+    lines.push_back(
+        std::string{is_whole ? "followed from end to end" : "followed, but not to the end"} +
+        ", stability not known" + (points.empty() ? "" : "; special points: " + points));
   } else {
     const std::string onward = way_text(told, first, true, most);
     const std::string back = way_text(told, first, false, most);

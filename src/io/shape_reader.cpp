@@ -141,6 +141,24 @@ void read_energy(const TableReader& table, NumberTable& numbers, ShapeSpringDraf
       LinearDraft{stiffness, table.number("free", {Range::finite, units.coordinate}, numbers, 0)};
 }
 
+bool is_shape_word(const Node* shape) {
+  return shape != nullptr && shape->kind == Node::Kind::text &&
+         std::any_of(std::begin(shape_words), std::end(shape_words),
+                     [shape](const ShapeWord& word) { return shape->text == word.text; });
+}
+
+/// What a spring needs follows from its shape: of one that is unknown nothing else is said.
+void refuse_shape(const Item& item, MechanismDraft& draft, Reading& reading) {
+  std::vector<std::string> words, keys;
+  for (const ShapeWord& word : shape_words) words.emplace_back(word.text);
+  for (const NodeEntry& entry : item.node->entries) keys.push_back(entry.key);
+  const TableReader table{*item.node, item.key, keys, reading};
+  table.choice("shape", words, 0);
+  ShapeSpringDraft spring{.place = item.node->place, .key = item.key};
+  spring.name = read_own_name(table, draft, reading);
+  draft.shape_springs.push_back(std::move(spring));
+}
+
 void read_shape_spring(const Item& item, MechanismDraft& draft, Reading& reading) {
   const bool ends = item.node->find("to") != nullptr || item.node->find("from") != nullptr;
   std::vector<std::string> keys{"name", "shape",  "stiffness", "free",
@@ -259,7 +277,9 @@ ShapeDraft read_shape(const TableReader& table, const std::vector<std::string>& 
 void read_springs(const std::vector<Item>& tables, MechanismDraft& draft, Reading& reading) {
   for (const Item& item : tables) {
     const auto has = [&](const char* key) { return item.node->find(key) != nullptr; };
-    if (has("shape") || has("of") || has("law") || has("series") || has("gas"))
+    if (has("shape") && !is_shape_word(item.node->find("shape")))
+      refuse_shape(item, draft, reading);
+    else if (has("shape") || has("of") || has("law") || has("series") || has("gas"))
       read_shape_spring(item, draft, reading);
     else
       read_line_spring(item, draft, reading);

@@ -140,19 +140,24 @@ std::optional<DeformationRange> falling_stretch(const FormulaSpring& law) {
   const auto falls = [&](double u, double near) { return slope(u) < -rounding * near; };
   const std::vector<double> places = sample_places(law.range);
   const auto around = [&](double u) { return stretch_around(slope, u, places, law.range); };
+  std::optional<double> nearest;  // to 0, where people look first
+  const auto note = [&nearest](double u) {
+    if (!nearest || std::abs(u) <= std::abs(*nearest)) nearest = u;
+  };
   Jet<double> last{};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Jet<double> here = jet(places[i]);
     const double near = i > 0 && std::isfinite(last.slope) ? std::abs(last.slope) : 0;
-    if (std::isfinite(here.slope) && falls(places[i], near)) return around(places[i]);
-    if (i > 0 && last.bend < 0 && here.bend > 0) {
+    if (std::isfinite(here.slope) && falls(places[i], near))
+      note(places[i]);
+    else if (i > 0 && last.bend < 0 && here.bend > 0) {
       const double least =
           sign_change([&](double u) { return jet(u).bend; }, places[i - 1], places[i]);
-      if (falls(least, std::max(near, std::abs(here.slope)))) return around(least);
+      if (falls(least, std::max(near, std::abs(here.slope)))) note(least);
     }
     last = here;
   }
-  return std::nullopt;
+  return nearest ? std::optional(around(*nearest)) : std::nullopt;
 }
 
 }  // namespace springfold::model

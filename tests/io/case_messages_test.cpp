@@ -62,8 +62,9 @@ TEST_F(CaseMessages, NameMissingKeysAtTheirTable) {
 
 TEST_F(CaseMessages, NameMissingTablesOfTheWholeFile) {
   EXPECT_THAT(messages("title = \"nothing\"\n"),
-              ElementsAre("case.toml: body: missing, need at least one [[body]]",
-                          "case.toml: chain: missing, need at least one [[chain]]",
+              ElementsAre("case.toml: body: missing, need at least one [[body]] or [[node]]",
+                          "case.toml: chain: missing, need at least one [[chain]], [[bar]] or "
+                          "[[spring]]: nothing holds what moves",
                           "case.toml: study: missing, need at least one [[study]]"));
   EXPECT_THAT(after("[[study]]", "[study]"),
               ElementsAre("case.toml:27:1: study: got a table, need a list of tables: [[study]] "
