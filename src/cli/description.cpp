@@ -9,6 +9,7 @@
 #include "law_text.hpp"
 #include "selection.hpp"
 #include "springfold/io/shown_text.hpp"
+#include "study_details.hpp"
 
 namespace springfold::cli {
 
@@ -362,9 +363,10 @@ std::string study_text(const io::Case& the_case, const std::string& name) {
                   is_curve ? ", control " + std::string(to_string(first->plan.control)) : "",
                   io::shown(more), counted(runs, "run"), io::shown(labels));
   const bool has_lambda = is_curve || analysis::is_of_critical_points(first->plan.kind);
-  return has_lambda
-             ? line + "            lambda: " + io::shown(lambda_text(*first, the_case.units)) + "\n"
-             : line;
+  const std::string lambda =
+      has_lambda ? "            lambda: " + io::shown(lambda_text(*first, the_case.units)) + "\n"
+                 : "";
+  return line + lambda + study_details(*first);
 }
 
 }  // namespace

@@ -115,6 +115,13 @@ body = "n0"
 control = "mixed"
 direction = [0, 1]
 start = { from = "press", at = "start" }
+[[study]]
+name = "late"
+body = "n0"
+control = "load"
+direction = [1, 0]
+load = [0.1, -0.2]
+start = { from = "press", at = "start", hold = ["foot.x", "n1.y"] }
 )",
                              {"--no-solve"});
   EXPECT_EQ(good.code, all_done) << good.err;
@@ -126,7 +133,8 @@ start = { from = "press", at = "start" }
         "load      1: force [0, -1, 0] on n0, times lambda",
         "lambda: force [N] on foot along [-1, 0], and factor of load 1",
         "starts from study \"press\" at start",
-        "lambda: way [m] of n0 along [0, 1], free across it"})
+        "lambda: way [m] of n0 along [0, 1], free across it", "load: [0.1, -0.2] on n0, constant",
+        "hold: foot.x, n1.y"})
     EXPECT_THAT(good.out, HasSubstr(line));
 }
 
