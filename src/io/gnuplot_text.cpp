@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "springfold/io/shown_text.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "drawn_frames.hpp"
 #include "problems.hpp"
 #include "toml_reader.hpp"
 
@@ -12,12 +13,21 @@ namespace springfold::io {
 /// Keys of `pattern` beside its index.
 bool is_pattern_key(std::string_view key);
 
-/// Turns a copy, in the frames in which its numbers stand: places and poses about the axis through `about`,
-/// frames with them, forces and moments without them. Angles are index times `angle`.
-/// @param part      "node", "chain", "study[1].loads", ...: what kind of table it is
-/// @param pattern   the table `pattern`; its index is `index`, which `bindings` knows
-/// @param key       of the copy, for messages
-void turn_copy(Node& copy, const std::string& part, const Node& pattern, const std::string& index,
-               const Bindings& bindings, const std::string& key, Problems& problems);
+/// A copy of a table.
+struct PatternCopy {
+  Node& table;
+  std::string part{};        ///< "node", "chain", "study[1].loads", ...: what kind of table it is
+  const Node& pattern;       ///< the table `pattern`
+  std::string index{};       ///< its index, which `bindings` knows
+  const Bindings& bindings;  ///< of this copy
+  const Node& at_zero;       ///< the copy of index 0: for the names of bodies in it
+  std::string key{};         ///< for messages
+};
+
+/// Turns a copy about the axis in the base: places and poses, frames with them, forces and moments without their place.
+/// Numbers that stand in the frame of a body are turned so that the whole is turned as the case draws it. Where that is
+/// not known, a problem is reported. Angles are index times `angle`.
+/// @param parts  is told of bodies, nodes and chains that are turned
+void turn_copy(const PatternCopy& copy, DrawnParts& parts, Problems& problems);
 
 }  // namespace springfold::io

@@ -47,9 +47,18 @@ class Expander {
       collect_templates(document.root);
     }
     for (const auto& [name, table] : templates_) check_defaults(name, *table);
+    const auto expand = [this](const auto& wanted) {
+      for (Document& document : documents_)
+        for (const std::string& part : parts_of_mechanism())
+          if (Node* list = wanted(part) ? document.root.find(part) : nullptr)
+            expand_list(*list, part, {}, 0);
+    };
+    const auto has_frame = [](const std::string& part) { return part == "body" || part == "node"; };
+    expand(has_frame);  // first: patterns of the others ask where they stand
+    for (const Document& document : documents_) drawn_.add(document.root);
+    expand([&](const std::string& part) { return part == "chain"; });
+    expand([&](const std::string& part) { return !has_frame(part) && part != "chain"; });
     for (Document& document : documents_) {
-      for (const std::string& part : parts_of_mechanism())
-        if (Node* list = document.root.find(part)) expand_list(*list, part, {}, 0);
       Node* studies = document.root.find("study");
       if (studies == nullptr) continue;
       for (std::size_t n = 0; n < studies->items.size(); ++n)
@@ -185,8 +194,11 @@ class Expander {
       remove_key(copy, "pattern");
       fill(copy, own_key, bindings, depth);
       if (!apply_template(copy, own_key, bindings, depth)) return false;
-      if (const Node* pattern = item.find("pattern"))
-        turn_copy(copy, key, *pattern, index_of(*pattern), *bindings, own_key, problems_);
+      if (const Node* pattern = item.find("pattern")) {
+        const std::string index = index_of(*pattern);
+        const Node at_zero = copy_at_zero(item, own_key, *bindings, index, depth);
+        turn_copy({copy, key, *pattern, index, *bindings, at_zero, own_key}, drawn_, problems_);
+      }
       // A group: elements that are no chain of their own.
       Node* elements = copy.find("elements");
       const bool is_group = elements && key.ends_with(".elements");
@@ -206,6 +218,25 @@ class Expander {
     }
     copies.push_back(std::move(copy));
     return true;
+  }
+
+  /// The copy of a pattern that would not be turned, for the names in it. It may be one that the case has not.
+  Node copy_at_zero(const Node& item, const std::string& key, Bindings bindings,
+                    const std::string& index, std::size_t depth) {
+    for (Binding& binding : bindings.list)
+      if (binding.name == index) binding = {.name = index, .text = "0", .whole = 0};
+    Problems unheard;  // the copies that the case has are judged
+    const std::size_t values = values_;
+    const bool is_full = is_full_;
+    Node copy = item;
+    const auto shared = std::make_shared<const Bindings>(std::move(bindings));
+    std::swap(problems_, unheard);
+    fill(copy, key, shared, depth);
+    apply_template(copy, key, shared, depth);
+    std::swap(problems_, unheard);
+    values_ = values;
+    is_full_ = is_full;
+    return copy;
   }
 
   /// Adds what the template says and the table does not.
@@ -344,6 +375,7 @@ class Expander {
   std::set<std::string> parameters_{};
   std::map<std::string, const Node*> templates_{};
   std::set<std::string> used_{};  ///< names of templates
+  DrawnParts drawn_{};
   std::size_t values_ = 0;
   bool is_full_ = false;  ///< there are too many values: nothing more is copied
 };
