@@ -381,7 +381,6 @@ Piece piece_at(const System& system, const Vector& z, const Vector& rho) {
   Vector values(std::ssize(system.switches));
   put_switch_values(system, 0, z, rho, values);
   Piece piece;
-  piece.reserve(system.switches.size());
   for (const double value : values) piece.push_back(value >= 0 ? std::int8_t{1} : std::int8_t{-1});
   return piece;
 }
