@@ -142,7 +142,7 @@ std::optional<DeformationRange> falling_stretch(const FormulaSpring& law) {
   const auto around = [&](double u) { return stretch_around(slope, u, places, law.range); };
   std::optional<double> nearest;  // to 0, where people look first
   const auto note = [&nearest](double u) {
-    if (!nearest || std::abs(u) <= std::abs(*nearest)) nearest = u;
+    if (!nearest || std::abs(u) < std::abs(*nearest)) nearest = u;
   };
   Jet<double> last{};
   for (std::size_t i = 0; i < places.size(); ++i) {

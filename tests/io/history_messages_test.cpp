@@ -193,12 +193,12 @@ TEST_F(HistoryMessages, RefuseToDriveWhatIsHeld) {
                             "another direction, or start.release = [\"foot.x\"]")));
 }
 
-TEST_F(HistoryMessages, RefuseKindsWithoutSingleStates) {
+TEST_F(HistoryMessages, RefuseKindsWithoutStatesOfOneMechanism) {
   EXPECT_THAT(
       after("name = \"second\"\nbody = \"top\"\ncontrol = \"load\"",
             "name = \"second\"\nkind = \"sensitivity\"\nbody = \"top\"\ncontrol = \"load\""),
-      testing::Contains(HasSubstr("study[2].start.from: both studies need a kind with single "
-                                  "states")));
+      testing::Contains(HasSubstr("study[2].start.from: both studies need a kind that "
+                                  "follows or finds states of one mechanism")));
 }
 
 }  // namespace

@@ -188,10 +188,8 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
         !result.corrections.empty() &&
         (result.residual_norm == 0 || (before > 0 && left_over() <= refined_step * scale) ||
          (rounded() && at_its_least()));
-    // Terms of F that are much larger than x and lambda, as those of stiff springs, leave more than the tolerance.
-    const bool is_coarse = !small && !result.corrections.empty() && at_its_least() && rounded();
     before = result.residual_norm;
-    if ((small && refined) || is_coarse) return ends(NewtonStatus::converged);
+    if (small && refined) return ends(NewtonStatus::converged);
     const bool settled =
         small && (result.corrections.empty() || result.corrections.back() < noise_step);
     if (result.iterations == options.maximum_iterations)
