@@ -49,16 +49,18 @@ std::string three_springs(const std::string& pose, const std::string& about) {
 }
 
 TEST_F(PatternsAsDrawn, PatternsTurnWhatStandsInABodyAsTheBodyIsDrawn) {
-  const double third = 2 * std::numbers::pi / 3;
+  const double third_of_a_turn = 2 * std::numbers::pi / 3;
   const std::string about = ", about = [0.5, \"0.2\"]";
   for (const char* pose : {"pose = [0.5, 0.2, 0]\n", "pose = [0.5, \"0.2\", 0.3]\n",
                            "pose = [\"0.1 + 0.2\", -0.7, 0.3]\n"})
-    expect_turned_springs(load(three_springs(pose, about)).runs[0].mechanism, third, {0.5, 0.2, 0});
+    expect_turned_springs(load(three_springs(pose, about)).runs[0].mechanism, third_of_a_turn,
+                          {0.5, 0.2, 0});
   for (const char* pose : {"", "pose = [0, 0, 0.3]\n", "pose = [1, 2, 0.3]\n"})
-    expect_turned_springs(load(three_springs(pose, "")).runs[0].mechanism, third, {0, 0, 0});
+    expect_turned_springs(load(three_springs(pose, "")).runs[0].mechanism, third_of_a_turn,
+                          {0, 0, 0});
   expect_turned_springs(
       load(three_springs("pose = [1, 2, 0.3]\n", about + ", axis = \"-z\"")).runs[0].mechanism,
-      -third, {0.5, 0.2, 0});
+      -third_of_a_turn, {0.5, 0.2, 0});
 }
 
 // By symmetry it is at rest with its centre on the axis, wherever that is.
