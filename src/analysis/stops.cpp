@@ -2,6 +2,7 @@
 #include "closure_rank.hpp"
 #include "neutral_motions.hpp"
 #include "vanishing_lengths.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 

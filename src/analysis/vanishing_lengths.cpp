@@ -1,14 +1,11 @@
 #include "vanishing_lengths.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "springfold/core/number_text.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/system.hpp"
-#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -133,20 +130,6 @@ std::vector<LengthWords> words_of(const statics::System& system) {
 }
 
 }  // namespace
-
-std::optional<std::string> angle_near_jump(const PathProblem& problem, const CurvePoint& end) {
-  constexpr double beside = 1e-3;  // of half a turn
-  const statics::System& system = problem.system(end.lambda);
-  Vector z;
-  statics::Inputs inputs;
-  problem.put_expanded(end.x, end.lambda, nullptr, z);
-  problem.put_inputs(end.lambda, inputs);
-  for (std::size_t i = 0; i < system.shapes.size(); ++i)
-    if (std::abs(shape_state(system, i, z, inputs).off_middle) > (1 - beside) * std::numbers::pi)
-      return "the angle of " + system.shapes[i].name + " would jump by a whole turn here: it is " +
-             half_turn_words(system.shapes[i]);
-  return std::nullopt;
-}
 
 std::optional<std::string> vanishing_length(const PathProblem& problem,
                                             const continuation::Curve& curve,

@@ -17,9 +17,4 @@ std::optional<std::string> vanishing_length(const PathProblem& problem,
                                             const continuation::Curve& curve,
                                             const continuation::CurvePoint& end);
 
-/// Does the curve end where an angle with a sign, or that of a fold, is half a turn from `near`, beyond which it would jump?
-/// @returns so in words, with the spring's name; nothing where it does not
-std::optional<std::string> angle_near_jump(const PathProblem& problem,
-                                           const continuation::CurvePoint& end);
-
 }  // namespace springfold::analysis

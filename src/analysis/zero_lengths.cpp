@@ -74,6 +74,14 @@ std::string words_of_vector(const statics::System& system, std::size_t i) {
   return {};
 }
 
+/// What to do about an angle that is half a turn from `near`.
+std::string half_turn_words(const PointShape& shape) {
+  const std::string text = "half a turn from near = " + rounded(shape.shape.near);
+  return shape.shape.kind == model::ShapeKind::angle
+             ? text + "; give another `near`, or for nodes `turns = true`"
+             : text + "; give another `near`";
+}
+
 SpringEdges edges_at(const PathProblem& problem, const CurvePoint& point) {
   Vector z;
   statics::Inputs inputs;
@@ -115,13 +123,6 @@ SpringEdges spring_edges(const statics::System& system, const Vector& z,
   return edges;
 }
 
-std::string half_turn_words(const PointShape& shape) {
-  const std::string text = "half a turn from near = " + rounded(shape.shape.near);
-  return shape.shape.kind == model::ShapeKind::angle
-             ? text + "; give another `near`, or for nodes `turns = true`"
-             : text + "; give another `near`";
-}
-
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
                                          const SpringEdges& after) {
   for (std::size_t i = 0; i < std::min(before.vectors.size(), after.vectors.size()); ++i) {
@@ -148,6 +149,18 @@ std::optional<Stop> end_at_zero_length(const PathProblem& problem, Curve& curve)
     }
     before = std::move(after);
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> angle_near_jump(const PathProblem& problem, const CurvePoint& end) {
+  constexpr double beside = 1e-3;  // of half a turn
+  const std::vector<double> angles = edges_at(problem, end).angles;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    if (std::abs(angles[i]) > (1 - beside) * std::numbers::pi) {
+      const PointShape& shape = problem.system(end.lambda).shapes[i];
+      return "the angle of " + shape.name + " would jump by a whole turn here: it is " +
+             half_turn_words(shape);
+    }
   return std::nullopt;
 }
 

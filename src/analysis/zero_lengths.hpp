@@ -23,9 +23,6 @@ struct SpringEdges {
 SpringEdges spring_edges(const statics::System& system, const Vector& z,
                          const statics::Inputs& inputs);
 
-/// What to do about an angle that is half a turn from `near`.
-std::string half_turn_words(const statics::PointShape& shape);
-
 /// Why a curve does not lead from the first of these states to the second: a spring is turned round there without being
 /// turned aside, or an angle jumps by whole turns. Nothing where it does.
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
@@ -40,5 +37,11 @@ std::optional<Stop> end_at_zero_length(const PathProblem& problem, continuation:
 
 /// The same for both ways of a branch.
 void end_at_zero_lengths(const Tracing& tracing, BranchSource& source);
+
+/// Does the curve end where an angle with a sign, or that of a fold, has a moment and is half a turn from `near`, beyond
+/// which it would jump?
+/// @returns so in words, with the spring's name; nothing where it does not
+std::optional<std::string> angle_near_jump(const PathProblem& problem,
+                                           const continuation::CurvePoint& end);
 
 }  // namespace springfold::analysis
