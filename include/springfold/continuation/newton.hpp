@@ -64,6 +64,12 @@ struct NewtonResult {
   return result.status == NewtonStatus::converged;
 }
 
+/// Residuals of corrected points are at most this: the tolerance, or the rounding of terms that are larger
+/// on this piece than at the start, see ProblemView::growth.
+/// @param size  of the point: the largest of 1, |x|, |lambda|
+double residual_bound(ProblemView problem, const Piece& piece, const NewtonOptions& options,
+                      double size);
+
 /// Newton's method with the exact matrix on F(u) = 0, border . (u - u_predicted) = 0, u = (x, lambda).
 /// No clamping, no state: callers decide what a failure means.
 NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,

@@ -81,6 +81,11 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 ///                                     are then found without dF/dx ever being formed; where
 ///                                     curves cross or meet kinks `derivatives` is still asked
 ///     bool structured() const         is that to be used? Without this member: yes
+///     double growth(const Piece&) const
+///                                     how many times larger the terms of F are on this piece than at
+///                                     the start, at least 1: stiff springs that act there. Residuals
+///                                     may then be as many times the rounding of terms of size one.
+///                                     Without this member: 1
 class ProblemView {
  public:
   template <class P>
@@ -117,6 +122,7 @@ class ProblemView {
   Vector periods() const { return calls_->periods(problem_); }
   std::vector<Index> double_covers() const { return calls_->double_covers(problem_); }
   std::string switch_name(Index j) const { return calls_->switch_name(problem_, j); }
+  double growth(const Piece& piece) const { return calls_->growth(problem_, piece); }
 
  private:
   struct Calls {
@@ -135,6 +141,7 @@ class ProblemView {
     Vector (*periods)(const void*);
     std::vector<Index> (*double_covers)(const void*);
     std::string (*switch_name)(const void*, Index);
+    double (*growth)(const void*, const Piece&);
   };
 
   template <class P>
@@ -233,6 +240,12 @@ class ProblemView {
           return as<P>(p).switch_name(j);
         else
           return "switch " + std::to_string(j + 1);
+      },
+      [](const void* p, const Piece& piece) -> double {
+        if constexpr (requires { as<P>(p).growth(piece); })
+          return as<P>(p).growth(piece);
+        else
+          return 1;
       }};
 
   const void* problem_;

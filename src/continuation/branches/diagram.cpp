@@ -367,6 +367,18 @@ Diagram Tracer::take() {
   return std::move(diagram_);
 }
 
+Diagram diagram_inside(ProblemView problem, const std::vector<DiagramStart>& starts,
+                       const std::vector<Event>& events, const DiagramOptions& options,
+                       const StepObserver& observer) {
+  const Walker walker{problem, problem.metric(), options.trace};
+  Tracer tracer(walker, events, options, observer);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    tracer.add_start(starts[i], static_cast<int>(i));
+    tracer.run();
+  }
+  return tracer.take();
+}
+
 }  // namespace
 
 Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& starts,
@@ -376,19 +388,10 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
   for (const DiagramStart& start : starts)
     check_entry(problem, start.x, start.lambda, start.piece, options.trace);
   const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
-  if (!own.trivial()) {
-    std::vector<DiagramStart> inside = starts;
-    for (DiagramStart& start : inside) start.x = own.inside(start.x);
-    return own.outside(
-        trace_diagram(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
-  }
-  const Walker walker{problem, problem.metric(), options.trace};
-  Tracer tracer(walker, events, options, observer);
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    tracer.add_start(starts[i], static_cast<int>(i));
-    tracer.run();
-  }
-  return tracer.take();
+  std::vector<DiagramStart> inside = starts;
+  for (DiagramStart& start : inside) start.x = own.inside(start.x);
+  return own.outside(
+      diagram_inside(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
 }
 
 }  // namespace springfold::continuation

@@ -259,7 +259,8 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     ray.c = e.N.transpose() * (ray.U - e.U0);
     if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
     const bool small =
-        F.lpNorm<Eigen::Infinity>() <= e.walker->options.newton.residual_tolerance * e.scale;
+        F.lpNorm<Eigen::Infinity>() <=
+        residual_bound(e.walker->problem, e.piece, e.walker->options.newton, e.scale);
     if (has_settled(moved, before, function_noise * rho,
                     small ? near_share * told_apart * rho : 0)) {
       ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;

@@ -198,7 +198,8 @@ const CurvePoint* WatchedStep::straight_point(double ds) const {
 /// Does the model's own point satisfy F as corrected ones do?
 bool WatchedStep::is_on_curve(const CurvePoint& point, const Vector& F) const {
   const double allowed =
-      small_share * walker_.options.newton.residual_tolerance * std::max(1.0, size_of(point));
+      small_share * residual_bound(walker_.problem, point.piece, walker_.options.newton,
+                                   std::max(1.0, size_of(point)));
   return F.size() == 0 || F.lpNorm<Eigen::Infinity>() <= allowed;
 }
 

@@ -122,6 +122,11 @@ std::string_view to_string(NewtonStatus status) {
   return "unknown";
 }
 
+double residual_bound(ProblemView problem, const Piece& piece, const NewtonOptions& options,
+                      double size) {
+  return std::max(options.residual_tolerance, few_roundings * problem.growth(piece)) * size;
+}
+
 bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
                 const Direction& reference, Direction& tangent) {
   if (!place.factors.set_border(weights, reference)) return false;
@@ -169,7 +174,10 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
     result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
     const double scale =
         std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
-    const bool small = result.residual_norm <= options.residual_tolerance * scale;
+    const bool fine = !result.corrections.empty() && result.corrections.back() < noise_step;
+    const bool small =
+        result.residual_norm <= options.residual_tolerance * scale ||
+        (fine && result.residual_norm <= residual_bound(problem, piece, options, scale));
     // What is left to correct: the residual times the size of the inverse matrix that the last
     // correction has shown.
     const auto left_over = [&] {
@@ -190,8 +198,7 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
          (rounded() && at_its_least()));
     before = result.residual_norm;
     if (small && refined) return ends(NewtonStatus::converged);
-    const bool settled =
-        small && (result.corrections.empty() || result.corrections.back() < noise_step);
+    const bool settled = small && (result.corrections.empty() || fine);
     if (result.iterations == options.maximum_iterations)
       return ends(settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
     if (!here) here = place_at(problem, memory, result.x, result.lambda, piece);

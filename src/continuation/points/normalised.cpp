@@ -23,31 +23,39 @@ constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 }  // namespace
 
 Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : problem_{problem} {
+    : problem_{problem}, start_{x}, start_lambda_{lambda}, start_piece_{piece} {
   const Index n = problem.size();
   unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
   scale_equations(x, lambda, piece);
   scale_switches(x, lambda);
-  trivial_ =
-      (unit_.array() == 1).all() && (force_.array() == 1).all() && (surface_.array() == 1).all();
+}
+
+/// Largest entry of [dG/dy dG/dlambda] at a point, 0 where there is none.
+double Normalised::largest_at(const Vector& x, double lambda, const Piece& piece) const {
+  Linearisation at;
+  if (unit_.size() == 0 || !linearise(problem_, x, lambda, piece, at)) return 0;
+  double largest = force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff();
+  if (at.structured) return std::max(largest, scaled(*at.structured, force_, unit_).largest);
+  const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
+  return std::max(largest, K.cwiseAbs().maxCoeff());
 }
 
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
   double largest = 0;
-  for (const double d : distances_beside) {
-    Linearisation at;
-    if (unit_.size() == 0 || !linearise(problem_, x + d * unit_, lambda + d, piece, at)) continue;
-    if (at.structured) {
-      largest = std::max(largest, scaled(*at.structured, force_, unit_).largest);
-    } else {
-      const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
-      largest = std::max(largest, K.cwiseAbs().maxCoeff());
-    }
-    largest = std::max(largest, force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff());
-  }
+  for (const double d : distances_beside)
+    largest = std::max(largest, largest_at(x + d * unit_, lambda + d, piece));
   force_ /= power_of_two_near(largest);
+}
+
+double Normalised::growth(const Piece& piece) const {
+  if (piece == start_piece_) return 1;
+  for (const auto& [known, growth] : growths_)
+    if (known == piece) return growth;
+  const double growth = std::max(1.0, largest_at(start_, start_lambda_, piece));
+  growths_.emplace_back(piece, growth);
+  return growth;
 }
 
 void Normalised::scale_switches(const Vector& x, double lambda) {

@@ -2,6 +2,7 @@
 // every caller. Private to the engine.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "springfold/continuation/diagram.hpp"
@@ -23,9 +24,6 @@ class Normalised {
   /// @param x, lambda, piece  a point of the curve
   Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece);
 
-  /// Nothing to do: the problem is in the engine's units already.
-  bool trivial() const { return trivial_; }
-
   // What the engine asks for.
   Index size() const { return problem_.size(); }
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
@@ -44,6 +42,7 @@ class Normalised {
   Vector periods() const { return problem_.periods().cwiseQuotient(unit_); }
   std::vector<Index> double_covers() const { return problem_.double_covers(); }
   std::string switch_name(Index j) const { return problem_.switch_name(j); }
+  double growth(const Piece& piece) const;
 
   Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
   Ray inside(const Ray& ray) const;
@@ -61,6 +60,7 @@ class Normalised {
 
  private:
   void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
+  double largest_at(const Vector& x, double lambda, const Piece& piece) const;
   void scale_equations(const Vector& x, double lambda, const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 
@@ -68,8 +68,11 @@ class Normalised {
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
-  bool trivial_ = true;
+  Vector start_{};  ///< n, in the caller's units, with its lambda and piece
+  double start_lambda_ = 0;
+  Piece start_piece_{};
 
+  mutable std::vector<std::pair<Piece, double>> growths_{};
   mutable Vector x_{};
   mutable ScaledMatrices matrices_{};
 };
