@@ -57,6 +57,15 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurveP
                  });
 }
 
+/// Where the force turns back at a corner and lambda does not: its rate along the curve of either side.
+continuation::RateFunction force_turns(const CaseCurves& curves) {
+  return [&curves](const CurvePoint& point, double mu) -> std::optional<double> {
+    const Member* member = curves.at(mu);
+    if (member == nullptr) return std::nullopt;
+    return member->evaluator().force_rate(point).value;
+  };
+}
+
 /// The rate of the column whose extremum the point is. Its curve may turn back in lambda: the tangent's sense is the one there.
 continuation::StateFunction column_rate_of(const CaseCurves& curves, const CurvePoint& at,
                                            const std::string& column) {
@@ -222,6 +231,8 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       start.kind = CriticalKind::surface;
       start.switching = hit.switches.front();
       start.behind = hit.leaving.front().piece;
+      if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
+        start.turns = force_turns(curves);
       return start;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;

@@ -161,6 +161,20 @@ std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study
   return events;
 }
 
+std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const Study& study,
+                                              const Piece& piece) {
+  std::vector<CriticalEvent> events = critical_events(curves, study, piece);
+  events.push_back({"it reaches the start of the path",
+                    [&curves](const CriticalPoint& p) {
+                      const Member* member = curves.at(p.mu);
+                      if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
+                      return p.lambda - member->start().lambda;
+                    },
+                    EventAction::stop, true});
+  events.back().inside = 1;
+  return events;
+}
+
 FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const continuation::CriticalStart& start, EventKind of,
                                const Observer& observer) {

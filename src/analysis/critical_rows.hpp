@@ -16,6 +16,10 @@ struct FollowedCurve {
 std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curves,
                                                          const Study& study, const Piece& piece);
 
+/// The same for the first point on paths along which lambda grows: it may come to the start, and goes no farther.
+std::vector<continuation::CriticalEvent> first_point_events(const CaseCurves& curves,
+                                                            const Study& study, const Piece& piece);
+
 FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const continuation::CriticalStart& start, EventKind of,
                                const Observer& observer);

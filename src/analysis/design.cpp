@@ -8,6 +8,7 @@
 
 #include "critical_runs.hpp"
 #include "design_search.hpp"
+#include "first_unwanted.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -116,8 +117,19 @@ class Design {
     for (double& change : changes)
       if (std::abs(change) < rounding_change) change = 0;
     if (changes == found.changes) return false;
-    const auto there = search_.assess(changes, search_.first_ways());
-    return !there || !all_hold(there->requirements);
+    const auto holds_at = [&](const Vector& at) {
+      const auto there = search_.assess(at, search_.first_ways());
+      return there && all_hold(there->requirements);
+    };
+    if (holds_at(changes)) return false;
+    // On a limit whether it is met is rounding itself: a little inside by what was really changed it is not.
+    const bool is_open =
+        std::any_of(changes.begin(), changes.end(), [](double c) { return c != 0; });
+    if (!is_open) return true;
+    Vector inside = search_.inwards(found, one_point);
+    for (Index i = 0; i < inside.size(); ++i)
+      if (changes[i] == 0) inside[i] = 0;
+    return !holds_at(changes + inside);
   }
 
   /// The path of the answer is traced again; where limit points are born there, the one a little inside too.
@@ -139,11 +151,23 @@ class Design {
       for (const std::size_t i : found.limiting)
         if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
     }
+    doubt_unstable_start(found);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
     if (!report_.verified)
       result_.doubts.push_back("traced again, the path does not confirm the design: " +
                                cause(climbs && !jumps, rows_fit));
+  }
+
+  /// A path that begins unstable has no first critical load, and meets what is wanted of it in words only.
+  void doubt_unstable_start(const FoundDesign& found) {
+    if (study_.design.critical.empty()) return;
+    const DesignPath path(search_.requirements().designs(), search_.values(found.changes));
+    const auto modes =
+        path.has_start() ? unstable_at_start(path.base(), study_.critical) : std::optional<Index>{};
+    if (modes && *modes > 0)
+      result_.doubts.push_back(
+          "the start of this design is unstable itself: stability is lost before the path begins");
   }
 
   /// Why an answer is not confirmed.

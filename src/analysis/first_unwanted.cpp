@@ -1,5 +1,10 @@
 #include "first_unwanted.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/core/number_text.hpp"
+
 namespace springfold::analysis {
 
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
@@ -28,11 +33,29 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
   }
 }
 
+std::optional<Index> unstable_at_start(const Member& member,
+                                       const CriticalPointSettings& settings) {
+  const bool dead = settings.stability == StabilityOf::dead_load;
+  const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
+  if (index == nullptr) return std::nullopt;
+  const double value = member.evaluator().value(*index, member.start());
+  if (std::isnan(value)) return std::nullopt;
+  return static_cast<Index>(value);
+}
+
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
                              const Observer& observer) {
   FirstUnwanted first;
   if (member == nullptr) {
     first.why = "there is no start";
+    return first;
+  }
+  // Stability that is not there cannot be lost.
+  const bool only_turns = settings.unwanted == Unwanted::limit_point;
+  if (const auto modes = unstable_at_start(*member, settings); !only_turns && modes && *modes > 0) {
+    first.why = "the start is unstable itself, " + std::to_string(*modes) +
+                (*modes == 1 ? " mode is" : " modes are") +
+                ": stability is lost before the path begins";
     return first;
   }
   const BasePath path = base_path(*member, true, observer);
@@ -44,6 +67,27 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
   if (!path.problem.empty() || !path.branch.forward.complete)
     first.why = path.problem.empty() ? path.branch.forward.reason : path.problem;
   return first;
+}
+
+void DoubtedValues::add(double value, const std::string& why) {
+  const auto same = std::find_if(by_reason_.begin(), by_reason_.end(),
+                                 [&](const auto& one) { return one.first == why; });
+  if (same == by_reason_.end())
+    by_reason_.emplace_back(why, std::vector<double>{value});
+  else
+    same->second.push_back(value);
+}
+
+std::vector<std::string> DoubtedValues::told(const std::string& parameter) const {
+  std::vector<std::string> doubts;
+  for (const auto& [why, values] : by_reason_) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    std::string place = "at " + parameter + " = " + rounded(*low);
+    if (*low < *high)
+      place += " to " + rounded(*high) + ", " + std::to_string(values.size()) + " values";
+    doubts.push_back(place + ": " + why);
+  }
+  return doubts;
 }
 
 bool ends_piece(continuation::Degeneracy kind) {

@@ -1,6 +1,10 @@
 // The first unwanted point on the path from the start. Private to analysis.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base_path.hpp"
 
 namespace springfold::analysis {
@@ -10,13 +14,29 @@ struct FirstUnwanted {
   std::string why{};                    ///< why it is not known; empty: it is known
 };
 
-/// Follows the curve from the start in the direction in which lambda grows. @param member  nullptr: no start
+/// Follows the curve from the start in the direction in which lambda grows. Where stability counts and the start has none,
+/// there is no first loss of it. @param member  nullptr: no start
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
                              const Observer& observer);
+
+/// Modes that are unstable at the start, held as the study's load is or under dead load, whichever counts; nothing where that
+/// is not known.
+std::optional<Index> unstable_at_start(const Member& member, const CriticalPointSettings& settings);
 
 /// Is this special point of the path one of those that are not wanted?
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point);
+
+/// Why something is not known at values of a parameter: what holds at several of them is told once.
+class DoubtedValues {
+ public:
+  void add(double value, const std::string& why);
+  /// "at p = -1 to -0.2, 9 values: why"
+  std::vector<std::string> told(const std::string& parameter) const;
+
+ private:
+  std::vector<std::pair<std::string, std::vector<double>>> by_reason_{};
+};
 
 /// Does the critical curve turn back in the parameter there, or is the point another one behind?
 bool ends_piece(continuation::Degeneracy kind);

@@ -88,10 +88,7 @@ class LoadsOverParameter {
         .first->second;
   }
 
-  void doubt(double mu, const std::string& why) {
-    result_.doubts.push_back("at " + curves_.name() + " = " + rounded(mu * curves_.scale()) + ": " +
-                             why);
-  }
+  void doubt(double mu, const std::string& why) { doubted_.add(mu * curves_.scale(), why); }
 
   /// The piece of the point that comes first at `mu`, within [from, to]; nothing if it cannot be followed.
   std::optional<LoadPiece> piece_of(const SpecialPoint& point, double mu, double from, double to) {
@@ -182,7 +179,7 @@ class LoadsOverParameter {
     };
     Side side;
     side.curve = follow_critical(curves_.family(), piece.start, sense > 0,
-                                 critical_events(curves_, within, piece.start.piece),
+                                 first_point_events(curves_, within, piece.start.piece),
                                  critical_options(study_), observe);
     const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
                                    [](const CriticalHit& hit) { return ends_piece(hit.kind); });
@@ -318,6 +315,8 @@ class LoadsOverParameter {
   }
 
   void finish() {
+    for (std::string& text : doubted_.told(curves_.name()))
+      result_.doubts.push_back(std::move(text));
     leave_out_points();
     for (const LoadPiece& piece : pieces_) {
       const FollowedCurve followed{.start = piece.start,
@@ -377,6 +376,7 @@ class LoadsOverParameter {
   double low_ = 0, high_ = 0, width_ = 1;
   std::vector<double> grid_{};  ///< of the parameter, dimensionless
   std::map<double, FirstUnwanted> known_{};
+  DoubtedValues doubted_{};
   std::vector<LoadPiece> pieces_{};
 };
 

@@ -17,6 +17,9 @@ using continuation::HitKind;
 /// Points closer than this, relative to their size, are one.
 constexpr double same_place = 1e-6;
 
+/// Cosine of the angle within which a point's tangent is that of the branch between two of its points.
+constexpr double one_way = 0.7;
+
 class Watcher {
  public:
   explicit Watcher(const Tracing& tracing)
@@ -58,19 +61,34 @@ class Watcher {
     return std::isnan(value) ? std::nullopt : std::optional{static_cast<int>(std::lround(value))};
   }
 
-  /// The curve's point on the plane across the chord at a part of the way.
+  /// The curve's point on the plane across the chord at a part of the way, from the cubic through both ends. Nothing where the
+  /// point that is found has another direction: it is one of a branch that crosses.
   std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part) const {
     Direction chord{b.x - a.x, b.lambda - a.lambda};
     const double length = std::sqrt(continuation::metric_product(weights_, chord, chord));
     if (!(length > 0)) return std::nullopt;
     const Direction border{chord.dx / length, chord.dlambda / length};
-    const auto solved = correct(t_.problem, weights_, a.x + part * chord.dx,
-                                a.lambda + part * chord.dlambda, a.piece, border, options_);
+    const auto along = [&](double from, double to, double by_a, double by_b) {
+      by_a *= length;
+      by_b *= length;
+      return Direction{
+          from * a.x + to * b.x + by_a * a.tangent.dx + by_b * b.tangent.dx,
+          from * a.lambda + to * b.lambda + by_a * a.tangent.dlambda + by_b * b.tangent.dlambda};
+    };
+    const double p = part, q = 1 - part;
+    const Direction place = along(q * q * (1 + 2 * p), p * p * (1 + 2 * q), p * q * q, -p * p * q);
+    const Direction way = along(-6 * p * q / length, 6 * p * q / length, q * (q - 2 * p) / length,
+                                p * (p - 2 * q) / length);
+    const auto solved =
+        correct(t_.problem, weights_, place.dx, place.dlambda, a.piece, border, options_);
     continuation::Linearisation at;
     if (!converged(solved) || !linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
       return std::nullopt;
     const auto tangent = tangent_at(at, weights_, a.tangent);
     if (!tangent) return std::nullopt;
+    const double size = std::sqrt(continuation::metric_product(weights_, way, way));
+    if (!(continuation::metric_product(weights_, *tangent, way) > one_way * size))
+      return std::nullopt;
     CurvePoint point = a;
     point.x = solved.x;
     point.lambda = solved.lambda;
@@ -111,7 +129,13 @@ class Watcher {
       for (int i = 0; i < halvings && high - low > 1e-15; ++i) {
         const double middle = low + (high - low) / 2;
         const auto trial = point_at(a, b, middle);
-        if (!trial) break;
+        if (!trial) {
+          // Beside the branch point at which the curve begins or ends there are no points: it changes there.
+          const bool begins = low == 0 && a.s == curve.points.front().s;
+          const bool ends = high == 1 && b.s == curve.points.back().s;
+          if (begins || ends) return;
+          break;
+        }
         const auto count = count_at(*trial);
         at = trial;
         if (!count) break;  // singular to rounding: the place itself

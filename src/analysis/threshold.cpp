@@ -1,5 +1,6 @@
 // The study kind `threshold`: from which value of a parameter on does nothing unwanted happen?
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "branch_rows.hpp"
@@ -15,8 +16,10 @@ using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 
-/// Relative distance at which an answer is traced again, on both sides.
+/// Relative distance at which an answer is traced again, on both sides; farther away where what comes first lies so near to
+/// another point there that a path does not tell them apart.
 constexpr double traced_beside = 1e-6;
+constexpr std::array<double, 3> distances_traced{traced_beside, 1e-5, 1e-4};
 /// Pieces of the boundary that are followed one after the other.
 constexpr int most_boundary_pieces = 40;
 
@@ -81,11 +84,12 @@ class Threshold {
     };
     Study limits = base_study(study_);
     std::erase_if(limits.marks, [](const Mark&) { return true; });
-    const auto events = critical_events(curves_, limits, start->piece);
+    const auto events = first_point_events(curves_, limits, start->piece);
     FollowedCurve followed{.start = *start, .of = bad.kind};
     CriticalCurve& curve = followed.growing;
     curve = follow_critical(curves_.family(), *start, towards_ > 0, events,
                             critical_options(study_), observe);
+    say_switching_start(curves_, towards_ > 0, curve);
     const auto end = std::find_if(curve.hits.begin(), curve.hits.end(),
                                   [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     const bool left = end == curve.hits.end() && curve.stop == continuation::StopReason::event;
@@ -142,10 +146,16 @@ class Threshold {
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;
     if (any) {
-      why_.clear();
-      const double side = towards_ * traced_beside * std::max(std::abs(mu), 1e-3);
-      report_.verified =
-          unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
+      for (const double distance : distances_traced) {
+        why_.clear();
+        const double side = towards_ * distance * std::max(std::abs(mu), 1e-3);
+        report_.verified =
+            unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
+        if (!report_.verified) continue;
+        if (distance > traced_beside)
+          report_.message += ", confirmed at a relative distance of " + rounded(distance);
+        break;
+      }
       if (!report_.verified)
         result_.doubts.push_back("traced again beside " + study_.critical.parameter + " = " +
                                  rounded(report_.value) + ", the path does not confirm it");

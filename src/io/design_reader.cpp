@@ -74,17 +74,21 @@ class DesignReader {
     }
   }
 
+  static analysis::StabilityOf stability_of(const TableReader& table) {
+    static const std::vector<std::string> index{"control", "dead_load"};
+    return table.choice("index", index, 0) == 0 ? analysis::StabilityOf::control
+                                                : analysis::StabilityOf::dead_load;
+  }
+
   void read_critical_load() {
     const auto table = part("critical_load", "a table such as { at_least = 3 }",
                             {"at_least", "of", "index", "quantity"});
     if (!table) return;
     analysis::CriticalRequirement wanted{.name = "critical_load"};
     static const std::vector<std::string> of{"limit_point", "loss_of_stability"};
-    static const std::vector<std::string> index{"control", "dead_load"};
     wanted.unwanted = table->choice("of", of, 0) == 0 ? analysis::Unwanted::limit_point
                                                       : analysis::Unwanted::loss_of_stability;
-    wanted.stability = table->choice("index", index, 0) == 0 ? analysis::StabilityOf::control
-                                                             : analysis::StabilityOf::dead_load;
+    wanted.stability = stability_of(*table);
     wanted.quantity = table->text("quantity").value_or(wanted.quantity);
     draft_.critical.emplace_back(wanted, table->required_number("at_least", {}, numbers_));
   }
@@ -92,9 +96,10 @@ class DesignReader {
   void read_no_limit_point() {
     const auto table =
         part("no_limit_point", "a table such as { up_to = 0.5 }, or { } for none at all",
-             {"up_to", "quantity"});
+             {"up_to", "index", "quantity"});
     if (!table) return;
     analysis::CriticalRequirement wanted{.name = "no_limit_point", .quantity = "deflection"};
+    wanted.stability = stability_of(*table);
     wanted.quantity = table->text("quantity").value_or(wanted.quantity);
     std::optional<NumberId> up_to;
     if (table->has("up_to"))

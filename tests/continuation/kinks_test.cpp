@@ -30,6 +30,22 @@ double force_of(const PiecewiseLine& line, double x) {
   return force;
 }
 
+TEST(Kink, LeadsOntoAStopThatIsManyTimesAsStiffAsTheRest) {
+  for (const double stiffness : {1e3, 1e5, 1e6, 1e9}) {
+    const PiecewiseLine line{1, {{stiffness, 0.3, 1}}};
+    const StartPoint start = at(-1, -1, 1, 0, line.piece_at(-1));
+    const TraceOptions options;
+    const Curve curve = trace(line, start.x, start.lambda, ray_of(line, start, options),
+                              {x_reaches(0.3 + 10 / stiffness)}, options);
+    ASSERT_EQ(curve.stop, StopReason::event) << stiffness << ": " << to_string(curve.stop);
+    ASSERT_EQ(curve.hits.size(), 2u);  // the kink and the end
+    EXPECT_EQ(curve.hits[0].kind, HitKind::kink);
+    EXPECT_NEAR(curve.hits[0].point.x[0], 0.3, 1e-13);
+    for (const CurvePoint& p : curve.points)
+      EXPECT_NEAR(p.lambda, force_of(line, p.x[0]), 4e-15 * std::max(1.0, stiffness)) << stiffness;
+  }
+}
+
 TEST(Kink, LiesExactlyOnItsBreakpointWithBothTangents) {
   const PiecewiseLine line{1, {{2, 0.3, 1}, {0.5, -0.4, -1}, {4, 1.1, 1}}};
   const Curve curve = follow_line(line);

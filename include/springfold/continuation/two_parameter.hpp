@@ -23,6 +23,9 @@ struct Family {
 using StateFunction =
     std::function<std::optional<double>(const Vector& x, double lambda, double mu)>;
 
+/// The rate of something along the tangent of a point, at a second parameter; nothing outside its domain.
+using RateFunction = std::function<std::optional<double>(const CurvePoint& point, double mu)>;
+
 enum class CriticalKind {
   limit_point,   ///< dF/dx singular, dF/dlambda outside its range: F = 0, bordered function g = 0
   branch_point,  ///< dF/dx singular on a branch that the parameters keep
@@ -40,6 +43,7 @@ struct CriticalStart {
   Index switching = -1;   ///< kind surface: which switch is zero
   int corank = 1;         ///< kind branch_point: how many eigenvalues vanish
   StateFunction value{};  ///< kind zero
+  RateFunction turns{};   ///< kind surface, a corner: of what turns back there; none: of lambda
 };
 
 /// A point of a critical curve. Rates are by its arc length, in the problem's metric.

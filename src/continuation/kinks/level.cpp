@@ -33,7 +33,8 @@ bool same_level(const Walker& walker, const std::vector<const CurvePoint*>& poin
   return std::all_of(points.begin(), points.end(), [&](const CurvePoint* p) {
     const double scale = std::max({1.0, p->x.lpNorm<Eigen::Infinity>(), std::abs(p->lambda)});
     return walker.problem.residual(p->x, best->lambda, p->piece, F) &&
-           F.lpNorm<Eigen::Infinity>() <= 2 * residual_bound(walker.problem, p->piece, walker.options.newton, scale);
+           F.lpNorm<Eigen::Infinity>() <=
+               2 * residual_bound(walker.problem, p->piece, walker.options.newton, scale);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/numerics/numerics.hpp"
@@ -56,6 +57,40 @@ EventValue value_of(const Event& event, const CurvePoint& point) {
   return {event.value(point), event.noise ? event.noise(point) : 0};
 }
 
+/// How far values scatter at points of the curve that are corrected again, from a little aside of it: where the curve is nearly
+/// singular, its places and tangents are as rough as that, whatever the terms of the value are.
+double scatter_of(const WatchedStep& arc, Samples samples, const Event& event,
+                  std::span<const double> values) {
+  const Walker& walker = arc.walker();
+  double scatter = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const CurvePoint& p = *samples[i];
+    const double size = std::max({1.0, p.x.lpNorm<Eigen::Infinity>(), std::abs(p.lambda)});
+    Direction aside{Vector(p.x.size()), 0};
+    for (Index j = 0; j < p.x.size(); ++j)
+      aside.dx[j] = uneven_share(static_cast<int>(j + 1)) - 0.5;
+    aside.dlambda = 0.5;
+    const double along = metric_product(walker.weights, aside, p.tangent);
+    const double far = root_of_rounding * size;
+    const auto again =
+        correct(walker.problem, walker.weights, p.x + far * (aside.dx - along * p.tangent.dx),
+                p.lambda + far * (aside.dlambda - along * p.tangent.dlambda), p.piece, p.tangent,
+                walker.options.newton);
+    Linearisation at;
+    if (!converged(again) || !linearise(walker.problem, again.x, again.lambda, p.piece, at))
+      continue;
+    const auto tangent = tangent_at(at, walker.weights, p.tangent);
+    if (!tangent) continue;
+    CurvePoint q = p;
+    q.x = again.x;
+    q.lambda = again.lambda;
+    q.tangent = *tangent;
+    const double difference = std::abs(event.value(q) - values[i]);
+    if (difference > scatter) scatter = difference;
+  }
+  return scatter;
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
@@ -89,6 +124,11 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
     return point ? std::optional<double>(event.value(*point)) : std::nullopt;
   };
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
+  const bool is_met = !search.zeros.empty() || !search.resolved;
+  // Values that are no larger than they scatter are zero to rounding all along the step, and have no zeros.
+  if (is_met && !event.of_place &&
+      scale <= clear_of_rounding * scatter_of(arc, samples, event, values))
+    return true;
   const auto add = [&](CurvePoint point, double before, double after) {
     Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
     hit.point = std::move(point);

@@ -124,7 +124,8 @@ std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoi
   Vector F;
   Linearisation at;
   if (!walker.problem.residual(point.x, point.lambda, e.piece, F) ||
-      !(F.lpNorm<Eigen::Infinity>() <= residual_bound(walker.problem, e.piece, walker.options.newton, e.scale)) ||
+      !(F.lpNorm<Eigen::Infinity>() <=
+        residual_bound(walker.problem, e.piece, walker.options.newton, e.scale)) ||
       !linearise(walker.problem, point.x, point.lambda, e.piece, at))
     return std::nullopt;
   const auto tangent = tangent_at(at, walker.weights, direction_of(e, ray.U - e.U0));

@@ -65,8 +65,8 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
                                                            : Degeneracy::corank_two;
 }
 
-/// Rates of lambda and of the surface along the curve of one side, dlambda dh / |t|^2: zero where
-/// one of them turns back; whichever way the curve is walked.
+/// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side, their
+/// product for a unit tangent: zero where one of them turns back; whichever way the curve is walked.
 double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   const Vector x = s.state(p.x);
   const double lambda = s.lambda(p.x);
@@ -75,7 +75,12 @@ double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   const auto h = s.surface_gradient(x, lambda, p.lambda);
   if (!h) return not_a_number;
   const Vector t = jacobi_svd(base.J, SingularVectors::none, SingularVectors::full).V.col(s.n());
-  return unless_still(t[s.n()] * h->dot(t) / std::max(smallest_number, h->norm()));
+  std::optional<double> rate = t[s.n()];
+  if (s.start().turns)
+    rate = s.start().turns(
+        {.x = x, .lambda = lambda, .tangent = {t.head(s.n()), t[s.n()]}, .piece = side}, p.lambda);
+  if (!rate) return not_a_number;
+  return unless_still(*rate * h->dot(t) / std::max(smallest_number, h->norm()));
 }
 
 void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {

@@ -209,11 +209,17 @@ std::optional<ImperfectionLaw> law_of_two_modes(const ReducedForm& form, const V
     const auto L = first_critical(terms, towards);
     if (!L) continue;
     const ImperfectionLaw one{terms.exponent(), -towards * *L * terms.unit(), sign};
-    if (!law || one.coefficient > law->coefficient) law = one;
     if (by_path) {  // odd in xi: the same with the other sign
+      law = one;
       law->sign = 0;
       break;
     }
+    // As in a symmetric problem, both signs may lose the same.
+    if (law &&
+        std::abs(one.coefficient - law->coefficient) <= vanishing_term * std::abs(law->coefficient))
+      law->sign = 0;
+    else if (!law || one.coefficient > law->coefficient)
+      law = one;
   }
   return law;
 }

@@ -68,7 +68,7 @@ class Normalised {
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
-  Vector start_{};  ///< n, in the caller's units, with its lambda and piece
+  Vector start_{};    ///< n, in the caller's units, with its lambda and piece
   double start_lambda_ = 0;
   Piece start_piece_{};
 
