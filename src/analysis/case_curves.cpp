@@ -93,6 +93,10 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   const CaseFamily& cases = *study_.critical.cases;
   const double value = near == nullptr ? value_ : scale_ * mu;
   Variant variant = cases.at({{parameter_, value}});
+  if (near != nullptr && !variant.problem.empty()) {
+    why_none_ = std::move(variant.problem);
+    return nullptr;
+  }
   const bool again = spare != nullptr;
   auto member = again ? std::move(spare) : std::make_unique<Member>();
   member->forget_columns();
@@ -113,7 +117,13 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   Setup& setup = member->setup;
   setup = set_up(variant.mechanism, member->study, along ? &*along : nullptr,
                  near == nullptr ? nullptr : &near->setup, again ? &setup.system : nullptr);
+  if (!variant.problem.empty()) {
+    member->report.message = std::move(variant.problem);
+    member->report.where = "start.from";
+    return member;
+  }
   if (near == nullptr) {
+    if (variant.is_in_state) ways_.emplace(variant.way, 0);
     member->first = find_start(setup, member->study, member->report);
     // The units that the curve is traced in, which those of neighbours keep.
     if (member->report.found) {
@@ -125,7 +135,9 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
                             setup);
       member->first.factors = start_factors(*member);
     }
-  } else if (!solve_near(*member, *near)) {
+  } else if (!(variant.is_in_state ? solve_in_state(*member, variant.way)
+                                   : solve_near(*member, *near))) {
+    why_none_.clear();
     return nullptr;
   }
   if (near == nullptr && !member->report.found) return member;
@@ -192,6 +204,16 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   const auto own = [&] { return start_problem(member.setup, member.study.body, how); };
   member.report.found = (!keeps && is_found(own())) || is_found(problem);
   if (member.report.found) member.first.factors = start_factors(member);
+  return member.report.found;
+}
+
+/// The start is the state that the earlier studies lead to, whatever the neighbours are.
+bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
+  const auto problem =
+      start_problem(member.setup, member.study.body, start_beside(member.study));
+  member.sheet = ways_.emplace(way, static_cast<int>(ways_.size())).first->second;
+  member.first = first_equilibrium(member.setup.system, problem, start_work_);
+  member.report.found = member.first.status == statics::StartStatus::found;
   return member.report.found;
 }
 
@@ -275,11 +297,17 @@ const Member* CaseCurves::at(double mu) const {
   auto made = make(mu, near, std::move(oldest));
   if (!made) {
     if (without_start_.size() >= members_kept) without_start_.clear();
-    without_start_.insert(mu);
+    without_start_.emplace(mu, why_none_);
     return nullptr;
   }
   calls_.push_front(mu);
   return recent_.emplace(mu, Recent{std::move(made), calls_.begin()}).first->second.member.get();
+}
+
+std::string CaseCurves::why_none(double mu) const {
+  const auto known = without_start_.find(mu);
+  const bool is_told = known != without_start_.end() && !known->second.empty();
+  return "there is no start" + (is_told ? ": " + known->second : std::string{});
 }
 
 continuation::Family CaseCurves::family() const {

@@ -4,7 +4,6 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 
 #include "quantities.hpp"
@@ -57,6 +56,8 @@ class CaseCurves {
   const Member& base() const { return *base_; }  ///< base().report.found: can be used
   /// Nothing where the case has no start. Valid for the next two dozen calls.
   const Member* at(double mu) const;
+  /// Why there is no start, where the last at(mu) gave nothing: in words.
+  std::string why_none(double mu) const;
   continuation::Family family() const;
   /// A point of `member`'s curve on the given piece.
   static continuation::CurvePoint point_of(const continuation::CriticalPoint& point,
@@ -66,6 +67,7 @@ class CaseCurves {
   std::unique_ptr<Member> make(double mu, const Member* near,
                                std::unique_ptr<Member> spare = nullptr) const;
   bool solve_near(Member& member, const Member& near) const;
+  bool solve_in_state(Member& member, const std::string& way) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
   bool keeps_commands(const Study& study) const;
   StartOptions start_beside(const Study& study) const;
@@ -82,7 +84,10 @@ class CaseCurves {
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
-  mutable std::set<double> without_start_{};  ///< where none was found, which is dearer than one
+  /// Where none was found, which is dearer than one, and why.
+  mutable std::map<double, std::string> without_start_{};
+  mutable std::string why_none_{};  ///< of the member that was made last
+  mutable std::map<std::string, int> ways_{};  ///< to starts that earlier studies lead to: their sheets
   mutable int sheets_ = 0;                    ///< so many are known besides the first member's
   mutable statics::Workspace start_work_{};   ///< of equations at starts
 };

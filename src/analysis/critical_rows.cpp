@@ -117,6 +117,24 @@ std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& 
   return std::pair{beyond, curves.base().problem->switch_name(differs)};
 }
 
+/// Where between two values do starts end? The one nearer to `mu` on the far side, and why.
+std::optional<std::pair<double, std::string>> ending_start(const CaseCurves& curves, double mu,
+                                                           double beyond) {
+  if (curves.at(mu) == nullptr || curves.at(beyond) != nullptr) return std::nullopt;
+  std::string why = curves.why_none(beyond);
+  constexpr int halvings = 30;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = mu + 0.5 * (beyond - mu);
+    if (curves.at(middle) != nullptr) {
+      mu = middle;
+    } else {
+      beyond = middle;
+      why = curves.why_none(middle);
+    }
+  }
+  return std::pair{beyond, std::move(why)};
+}
+
 }  // namespace
 
 void say_switching_start(const CaseCurves& curves, bool growing,
@@ -126,6 +144,11 @@ void say_switching_start(const CaseCurves& curves, bool growing,
   constexpr double near = 0x1p-9;
   const CriticalPoint& last = curve.points.back();
   const double sense = last.dmu != 0 ? last.dmu : (growing ? 1.0 : -1.0);
+  if (const auto end = ending_start(curves, last.mu, last.mu + std::copysign(near, sense))) {
+    curve.stop_detail = "beyond " + curves.name() + " = " + rounded(end->first * curves.scale()) +
+                        " " + end->second;
+    return;
+  }
   const auto found = switching_start(curves, last.mu, last.mu + std::copysign(near, sense));
   if (!found) return;
   curve.stop_detail = found->second + " switches at the start itself, at " + curves.name() + " = " +

@@ -90,6 +90,13 @@ std::vector<std::string> DoubtedValues::told(const std::string& parameter) const
   return doubts;
 }
 
+FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
+                             const CriticalPointSettings& settings, const Observer& observer) {
+  const Member* member = curves.at(mu);
+  if (member == nullptr) return {.why = curves.why_none(mu)};
+  return first_unwanted(member, settings, observer);
+}
+
 bool ends_piece(continuation::Degeneracy kind) {
   using continuation::Degeneracy;
   switch (kind) {

@@ -23,6 +23,10 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
 /// is not known.
 std::optional<Index> unstable_at_start(const Member& member, const CriticalPointSettings& settings);
 
+/// The same on the path of a member, with the reason where it has no start.
+FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
+                             const CriticalPointSettings& settings, const Observer& observer);
+
 /// Is this special point of the path one of those that are not wanted?
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point);

@@ -80,6 +80,7 @@ class NodeMaker {
     MapGround own;
     if (varies_) {
       const Situation situation = study_.map.situation(parameters);
+      if (!situation.problem.empty()) return without_values(at, "no start: " + situation.problem);
       if (const auto mistakes = model::problems_in(situation.mechanism); !mistakes.empty())
         return without_values(at, "no mechanism: " + mistakes.front());
       own = ground_of(situation.mechanism, study_, situation.constant_load);

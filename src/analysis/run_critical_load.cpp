@@ -83,7 +83,7 @@ class LoadsOverParameter {
     if (known != known_.end()) return known->second;
     return known_
         .emplace(mu,
-                 first_unwanted(curves_.at(mu), study_.critical,
+                 first_unwanted(curves_, mu, study_.critical,
                                 [this](int, double s) { return !observer_ || observer_(0, s); }))
         .first->second;
   }

@@ -57,7 +57,7 @@ class Threshold {
  private:
   /// The first unwanted point on the path from the start at this value.
   std::optional<SpecialPoint> unwanted_at(double mu) {
-    FirstUnwanted first = first_unwanted(curves_.at(mu), study_.critical, observer_);
+    FirstUnwanted first = first_unwanted(curves_, mu, study_.critical, observer_);
     if (first.point)
       why_.clear();
     else if (!first.why.empty())

@@ -35,7 +35,8 @@ analysis::StudyResult run_planned(const io::PlannedRun& planned,
 analysis::StudyResult run_planned_map(const io::PlannedRun& planned,
                                       const analysis::Observer& observer,
                                       const analysis::RunOptions& options) {
-  return analysis::run_study(planned.mechanism, planned.plan, nullptr, observer, options);
+  return analysis::run_study_after(planned.history, planned.mechanism, planned.plan, nullptr,
+                                   observer, options);
 }
 
 /// A command that has nothing to keep when a signal comes.

@@ -6,6 +6,7 @@
 #include "compared_quantity.hpp"
 #include "figure.hpp"
 #include "flat_shapes.hpp"
+#include "history_rules.hpp"
 #include "hold_draft.hpp"
 #include "jump_access.hpp"
 #include "memory_limits.hpp"
@@ -117,6 +118,7 @@ class Builder {
     earlier.common_loads = draft_->mechanism.loads.size();
     earlier.parameter = before.parameter.value_or(0);
     earlier.cases = cases_of(draft_, i, run, parameters);
+    earlier.own_cases = cases_of(draft_, *history.study, run_before, own);
     return std::make_shared<const analysis::Earlier>(std::move(earlier));
   }
 
@@ -200,7 +202,7 @@ class Builder {
       const bool has_better_place = text.find(": no quantity ") != std::string::npos;
       if (!has_better_place) add_study_problem(text, study, planned.run, problems_);
     }
-    if (const std::string text = held_drive(study.history, draft_->mechanism, planned);
+    if (const std::string text = history_problem(study.history, draft_->mechanism, planned);
         !text.empty())
       add_study_problem(text, study, planned.run, problems_);
     return problems_.size() == before;

@@ -28,14 +28,16 @@ class CaseNumbers {
 
   analysis::Variant at(const std::vector<std::pair<std::size_t, double>>& values) const {
     std::vector<double> numbers = mechanism_, own = own_;
-    if (values.size() == 1 && all_usable_ && put(values.front(), numbers, own))
-      return built(numbers, own);
+    std::vector<double> variables = parameters_.values;
+    if (values.size() == 1 && all_usable_ && put(values.front(), variables, numbers, own))
+      return built(numbers, own, std::move(variables));
     Redefinitions changes = from().changes(run_);
     for (const auto& [number, value] : values) changes[number] = Definition{.constant = value};
     Problems ignored;  // what has no value becomes NaN, and the curve ends there
-    const Values all = evaluate(draft_->parameters, changes, draft_->book, "", ignored);
-    return built(draft_->mechanism.numbers.values(draft_->book, all).values,
-                 from().numbers.values(draft_->book, all).values);
+    Values all = evaluate(draft_->parameters, changes, draft_->book, "", ignored);
+    const auto mechanism = draft_->mechanism.numbers.values(draft_->book, all).values;
+    own = from().numbers.values(draft_->book, all).values;
+    return built(mechanism, own, std::move(all.values));
   }
 
  private:
@@ -57,10 +59,9 @@ class CaseNumbers {
   }
 
   /// False where a parameter has no value: nothing that needs it has one then, whatever its formula gives.
-  bool put(const std::pair<std::size_t, double>& value, std::vector<double>& numbers,
-           std::vector<double>& own) const {
+  bool put(const std::pair<std::size_t, double>& value, std::vector<double>& variables,
+           std::vector<double>& numbers, std::vector<double>& own) const {
     const MovedFormulas& moved = moved_by(value.first);
-    std::vector<double> variables = parameters_.values;
     variables[value.first] = value.second;
     if (!std::isfinite(value.second)) return false;
     for (const Update& update : moved.parameters) {
@@ -74,12 +75,13 @@ class CaseNumbers {
     return true;
   }
 
-  analysis::Variant built(const std::vector<double>& numbers,
-                          const std::vector<double>& own) const {
+  analysis::Variant built(const std::vector<double>& numbers, const std::vector<double>& own,
+                          std::vector<double> parameters) const {
     const auto body = static_cast<std::size_t>(from().body - 1);
     analysis::Variant variant{
         build_mechanism(draft_->mechanism, numbers),
-        build_study(from(), draft_->mechanism.bodies[body].task_space, own, draft_->parameters)};
+        build_study(from(), draft_->mechanism.bodies[body].task_space, own, draft_->parameters),
+        std::move(parameters)};
     for (model::Load& load : build_loads(from().loads, own))
       variant.mechanism.loads.push_back(std::move(load));
     add_holds(from().history, variant.mechanism);

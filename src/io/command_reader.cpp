@@ -363,7 +363,7 @@ class CommandReader {
 }  // namespace
 
 std::vector<std::string> command_keys(StudyKind kind) {
-  std::vector<std::string> keys{"name", "kind", "body", "load", "set", "vary"};
+  std::vector<std::string> keys{"name", "kind", "body", "load", "start", "set", "vary"};
   const auto add = [&keys](const std::vector<std::string>& more) {
     keys.insert(keys.end(), more.begin(), more.end());
   };

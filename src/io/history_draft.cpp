@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "hold_draft.hpp"
+#include "springfold/analysis/history.hpp"
 #include "study_draft.hpp"
 
 namespace springfold::io {
 namespace {
-
-using analysis::StudyKind;
 
 constexpr std::size_t most_steps = 16;  ///< studies one after the other, each runs those before it
 
@@ -19,11 +18,6 @@ bool is_label(const std::string& text) {
   const std::size_t code = text.size() > 1 && upper(text[1]) ? 2 : 1;
   return text.size() > code && text.size() <= 12 && upper(text[0]) &&
          std::all_of(text.begin() + static_cast<std::ptrdiff_t>(code), text.end(), digit);
-}
-
-bool has_states(const StudyDraft& study) {
-  return study.kind == StudyKind::force_deflection || study.kind == StudyKind::equilibrium ||
-         study.kind == StudyKind::equilibria;
 }
 
 /// A joint whose spring is counted from the start pose; empty: none.
@@ -58,11 +52,16 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
   const NamedPlace& at = study.history.from;
   const StudyDraft& earlier = studies[*study.history.study];
   const auto refuse = [&](const std::string& what) { problems.add(at.place, at.key, what); };
-  if (!has_states(study) || !has_states(earlier))
+  if (!analysis::may_start_after(study.kind))
     return refuse(
-        "both studies need a kind that follows or finds states of one mechanism: "
-        "\"force_deflection\", "
-        "\"load_cycle\", \"snap_through\", \"transitions\", \"equilibrium\" or \"equilibria\"");
+        "a workspace is a matter of closed chains alone, which no load step changes, and starts in no "
+        "state: need no from; the assembly is chosen by pose and initial");
+  if (!analysis::has_states(earlier.kind))
+    return refuse("study \"" + earlier.name + "\" is of kind \"" +
+                  std::string(to_string(earlier.kind)) +
+                  "\", which has no states of one mechanism to start from, need a study of kind "
+                  "\"force_deflection\", \"load_cycle\", \"snap_through\", \"transitions\", "
+                  "\"equilibrium\" or \"equilibria\"");
   if (earlier.runs() != 1 && earlier.runs() != study.runs())
     return refuse("study \"" + earlier.name + "\" has " + std::to_string(earlier.runs()) +
                   " runs and this one " + std::to_string(study.runs()) +

@@ -146,7 +146,9 @@ std::string held_drive(const HistoryDraft& history, const MechanismDraft& mechan
   const analysis::Study& study = planned.plan;
   const auto hold = std::find_if(history.holds.begin(), history.holds.end(),
                                  [&study](const HoldDraft& h) { return h.body == study.body; });
-  if (hold == history.holds.end() || study.kind != analysis::StudyKind::force_deflection) return {};
+  const bool drives =
+      study.kind == analysis::StudyKind::force_deflection || is_of_critical_points(study.kind);
+  if (hold == history.holds.end() || !drives) return {};
   std::string held, since;
   bool also_free = false;
   const bool drives_all = study.control == analysis::ControlMode::pose;

@@ -236,9 +236,14 @@ class StudyReader {
   void read_start() {
     const analysis::StartOptions defaults;
     std::vector<std::string> keys{"pose", "solve", "solver", "attempts", "seed", "maximum_move"};
+    if (analysis::is_of_commands(draft_.kind)) keys.clear();
     keys.insert(keys.end(), history_keys().begin(), history_keys().end());
     const TableReader start = table_or_nothing("start", "a table such as { pose = [...] }", keys);
     draft_.history = read_history(start, mechanism_, reading_);
+    if (analysis::is_of_commands(draft_.kind) && table_.has("start") && !start.has("from"))
+      reading_.problems.add(table_.find("start")->place, table_.key_of("start"),
+                            "a study of this kind has a start only after another study, need from = "
+                            "\"...\", its name");
     draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
     draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
                                     StartSolve::wrench}[start.choice("solve", solve_words, 0)];

@@ -18,7 +18,7 @@ struct CaseFamily {
   std::vector<std::string> names{};
   std::vector<double> values{};  ///< as the run has them
   /// Mechanism and study where the parameters with these numbers have other values; parameters that
-  /// are formulas of them follow. One thread at a time.
+  /// are formulas of them follow. Several threads may call it.
   std::function<Variant(const std::vector<std::pair<std::size_t, double>>&)> at{};
 };
 

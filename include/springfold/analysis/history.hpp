@@ -40,16 +40,31 @@ struct Earlier {
   bool keeps_loads = true;  ///< what acts there goes on acting, with the later study's own loads
   std::size_t common_loads =
       0;                      ///< the first loads of both mechanisms are the case's, not a study's
-  std::size_t parameter = 0;  ///< control mode parameter: its number in `cases`
+  std::size_t parameter = 0;  ///< control mode parameter: its number in `cases` and `own_cases`
   /// The later study for other values of the parameters; needed where an earlier one moves one.
   std::shared_ptr<const CaseFamily> cases{};
+  /// This study for other values of the parameters; needed where the later one changes some.
+  std::shared_ptr<const CaseFamily> own_cases{};
 };
+
+/// Can a study of this kind be the earlier one? It follows or finds states of one mechanism.
+constexpr bool has_states(StudyKind kind) {
+  return kind == StudyKind::force_deflection || kind == StudyKind::equilibrium ||
+         kind == StudyKind::equilibria;
+}
+
+/// Can a study of this kind start where an earlier one ended? Workspaces have no state to start in.
+constexpr bool may_start_after(StudyKind kind) { return kind != StudyKind::workspace; }
 
 /// As run_study, after the studies before it: their states and loads are taken over. Poses, joint
 /// coordinates and commands begin as they are there; loads become constant ones, and so does the
 /// force that drove a pose; chains of History::held hold their bodies where they are then. The later
 /// equilibrium is solved again, from that state alone.
-/// @pre if history.earlier: the kinds of both are force_deflection, equilibrium or equilibria
+///
+/// Kinds that change parameters (those of critical points, maps over parameters): for all values the
+/// earlier studies are run with these, each value once, so that every member has the history that it would
+/// have in a case with these values. Where an earlier study has no such point, that member has no start.
+/// @pre if history.earlier: has_states(kind of that study), may_start_after(study.kind)
 StudyResult run_study_after(const History& history, const model::Mechanism& mechanism,
                             const Study& study, const ParameterFamily* family = nullptr,
                             const Observer& observer = {}, const RunOptions& options = {});

@@ -176,6 +176,13 @@ struct Study {
 struct Variant {
   model::Mechanism mechanism{};
   Study study{};
+  std::vector<double> parameters{};  ///< values of all parameters of the case
+  /// The mechanism is drawn in the state in which an earlier study left it, and starts there.
+  bool is_in_state = false;
+  /// What the earlier studies passed on their way: of two values of a parameter with another one the
+  /// starts do not belong to each other.
+  std::string way{};
+  std::string problem{};  ///< why there is no such state, in words; empty: there is one, or none is needed
 };
 
 /// The case as a function of one parameter; `value` is where the study starts.
