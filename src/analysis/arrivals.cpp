@@ -73,9 +73,8 @@ std::string trouble_with(const Arrival& arrival, const ParameterChanges& changes
 std::string trouble_with_loads(const Study& study, const model::Mechanism& mechanism) {
   if (!is_of_commands(study.kind)) return "";
   const bool fit =
-      std::all_of(mechanism.loads.begin(), mechanism.loads.end(), [&](const model::Load& load) {
-        return model::is_conservative(mechanism, load);
-      });
+      std::all_of(mechanism.loads.begin(), mechanism.loads.end(),
+                  [&](const model::Load& load) { return model::is_conservative(mechanism, load); });
   return fit ? "" : "a load that is kept has no potential, which a study of this kind needs";
 }
 
@@ -107,7 +106,8 @@ Continued changed(const CaseStudy& of, const ParameterChanges& changes) {
 
 Continued continued_with(const Arrivals& arrivals, const CaseStudy& of,
                          const ParameterChanges& changes) {
-  const auto arrival = arrivals.at(moves_parameter(of.study) ? without(changes, of.lambda) : changes);
+  const auto arrival =
+      arrivals.at(moves_parameter(of.study) ? without(changes, of.lambda) : changes);
   std::string problem = trouble_with(*arrival, changes, *of.cases);
   if (problem.empty() && !arrival->moved.empty() && of.family != nullptr)
     problem = "an earlier study moved a parameter, and this one is to move one again";
@@ -142,7 +142,9 @@ Arrivals::Arrivals(History history, Observer observer)
 
 std::shared_ptr<const Arrival> Arrivals::at(ParameterChanges changes) const {
   const auto& own = history_.earlier->own_cases;
-  const auto is_own = [&own](const auto& one) { return own && own->values[one.first] == one.second; };
+  const auto is_own = [&own](const auto& one) {
+    return own && own->values[one.first] == one.second;
+  };
   if (std::all_of(changes.begin(), changes.end(), is_own)) changes.clear();
   std::sort(changes.begin(), changes.end());
   {
@@ -199,8 +201,8 @@ Arrival Arrivals::run(const ParameterChanges& changes) const {
 
 Continued continued(const Arrivals& arrivals, const model::Mechanism& mechanism, const Study& study,
                     const ParameterFamily* family) {
-  return continued_with(arrivals,
-                        {mechanism, study, family, arrivals.history().earlier->cases}, {});
+  return continued_with(arrivals, {mechanism, study, family, arrivals.history().earlier->cases},
+                        {});
 }
 
 std::shared_ptr<const CaseFamily> after(std::shared_ptr<const Arrivals> arrivals,
@@ -211,7 +213,8 @@ std::shared_ptr<const CaseFamily> after(std::shared_ptr<const Arrivals> arrivals
   std::optional<std::size_t> lambda;
   if (study.control == ControlMode::parameter && !is_of_commands(study.kind))
     lambda = static_cast<std::size_t>(
-        std::find(cases->names.begin(), cases->names.end(), study.parameter) - cases->names.begin());
+        std::find(cases->names.begin(), cases->names.end(), study.parameter) -
+        cases->names.begin());
   family->at = [arrivals = std::move(arrivals), cases = std::move(cases),
                 lambda](const ParameterChanges& changes) {
     const auto arrival = arrivals->at(without(changes, lambda));

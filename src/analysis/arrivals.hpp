@@ -55,7 +55,8 @@ class Arrivals {
 
   History history_;
   Observer observer_;
-  std::unique_ptr<const Arrivals> before_{};  ///< of the earlier study itself; null: it starts on its own
+  std::unique_ptr<const Arrivals>
+      before_{};  ///< of the earlier study itself; null: it starts on its own
   mutable std::mutex busy_{};
   mutable std::map<ParameterChanges, std::shared_ptr<const Arrival>> known_{};
 };

@@ -209,8 +209,7 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
 
 /// The start is the state that the earlier studies lead to, whatever the neighbours are.
 bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
-  const auto problem =
-      start_problem(member.setup, member.study.body, start_beside(member.study));
+  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
   member.sheet = ways_.emplace(way, static_cast<int>(ways_.size())).first->second;
   member.first = first_equilibrium(member.setup.system, problem, start_work_);
   member.report.found = member.first.status == statics::StartStatus::found;

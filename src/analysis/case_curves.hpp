@@ -87,9 +87,10 @@ class CaseCurves {
   /// Where none was found, which is dearer than one, and why.
   mutable std::map<double, std::string> without_start_{};
   mutable std::string why_none_{};  ///< of the member that was made last
-  mutable std::map<std::string, int> ways_{};  ///< to starts that earlier studies lead to: their sheets
-  mutable int sheets_ = 0;                    ///< so many are known besides the first member's
-  mutable statics::Workspace start_work_{};   ///< of equations at starts
+  mutable std::map<std::string, int>
+      ways_{};              ///< to starts that earlier studies lead to: their sheets
+  mutable int sheets_ = 0;  ///< so many are known besides the first member's
+  mutable statics::Workspace start_work_{};  ///< of equations at starts
 };
 
 }  // namespace springfold::analysis

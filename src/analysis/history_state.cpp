@@ -39,7 +39,8 @@ ResultPoint point_at(const StudyResult& result, const std::string& at) {
       if (event.label == at) return point_on(branch, event.row);
   if (result.snap)
     for (const Jump& jump : result.snap->jumps)
-      if (jump.label == at && !jump.landing.values.empty()) return {&jump.landing.values, jump.landing.piece};
+      if (jump.label == at && !jump.landing.values.empty())
+        return {&jump.landing.values, jump.landing.piece};
   return {};
 }
 
@@ -102,8 +103,8 @@ void put_poses(const NamedValues& state, const std::vector<std::string>& held,
 }
 
 /// The wrench on the study's body that holds it in the state, beside the mechanism's loads.
-Vector holding_wrench(const model::Mechanism& mechanism, const Study& study, const NamedValues& state,
-                      double lambda) {
+Vector holding_wrench(const model::Mechanism& mechanism, const Study& study,
+                      const NamedValues& state, double lambda) {
   const statics::System system = statics::prepare(mechanism);
   Vector z = Vector::Zero(system.size);
   for (Index i = 0; i < system.size; ++i)
@@ -199,7 +200,8 @@ std::vector<model::Load> kept_loads(const Earlier& earlier, const model::Mechani
   return kept;
 }
 
-std::vector<model::Load> holding_forces(const std::vector<Released>& released, const NamedValues& state) {
+std::vector<model::Load> holding_forces(const std::vector<Released>& released,
+                                        const NamedValues& state) {
   std::vector<model::Load> forces;
   for (const Released& one : released) {
     const auto on_chain = state.find(one.chain + ".F" + "xyz"[one.coordinate]);
@@ -212,7 +214,7 @@ std::vector<model::Load> holding_forces(const std::vector<Released>& released, c
 }
 
 void put_in_state(const NamedValues& state, const std::vector<std::string>& held,
-                      model::Mechanism& mechanism) {
+                  model::Mechanism& mechanism) {
   const bool counts =
       std::any_of(mechanism.shape_springs.begin(), mechanism.shape_springs.end(),
                   [](const auto& s) { return s.shape.kind == model::ShapeKind::angle; });

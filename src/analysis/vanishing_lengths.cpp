@@ -30,10 +30,13 @@ class CriticalLengths {
     for (std::size_t i = 0; i < system_.shapes.size(); ++i) {
       // A slack cable pulls nowhere, and what has no force at the length 0 passes it.
       const statics::ShapeState state = statics::shape_state(system_, i, z_, inputs_);
-      const bool pulls = state.slope != 0 && (system_.shapes[i].shape.kind != ShapeKind::path ||
-                                              !is_smooth_at_edge(system_.shapes[i], state.value));
+      // The coordinates of springs in series turn back there, whatever their forces are.
+      const PointShape& shape = system_.shapes[i];
+      const bool is_kink = shape.shape.kind != ShapeKind::path || shape.inner_count > 0 ||
+                           !is_smooth_at_edge(shape, state.value);
+      const bool pulls = state.slope != 0 && is_kink;
       const std::size_t first = lengths.size();
-      add(system_.shapes[i]);
+      add(shape);
       if (!pulls) std::fill(lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(), 1);
     }
   }
@@ -102,7 +105,10 @@ std::vector<LengthWords> words_of(const statics::System& system) {
     const std::string no_angle = "where it is 0 the angle is not defined";
     switch (shape.shape.kind) {
       case ShapeKind::path:
-        if (n == 2) add("the length of " + shape.name, no_direction);
+        if (n == 2)
+          add("the length of " + shape.name, shape.inner_count > 0
+                                                 ? "at the length 0 its springs in series turn back"
+                                                 : no_direction);
         for (std::size_t k = 0; n > 2 && k + 1 < n; ++k)
           between(k, k + 1, "where it is 0 its force has no direction");
         if (shape.shape.closed) between(n - 1, 0, "where it is 0 its force has no direction");

@@ -54,7 +54,8 @@ void check_history(const MechanismDraft& mechanism, const std::vector<StudyDraft
   const auto refuse = [&](const std::string& what) { problems.add(at.place, at.key, what); };
   if (!analysis::may_start_after(study.kind))
     return refuse(
-        "a workspace is a matter of closed chains alone, which no load step changes, and starts in no "
+        "a workspace is a matter of closed chains alone, which no load step changes, and starts in "
+        "no "
         "state: need no from; the assembly is chosen by pose and initial");
   if (!analysis::has_states(earlier.kind))
     return refuse("study \"" + earlier.name + "\" is of kind \"" +

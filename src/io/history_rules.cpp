@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hold_draft.hpp"
-#include "springfold/core/number_text.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 namespace {
@@ -41,10 +41,11 @@ std::string changed_twice(const PlannedRun& planned) {
       const std::string study = "start.from: study \"" + earlier->study.name + "\" ";
       if (earlier->study.control == analysis::ControlMode::parameter &&
           earlier->study.parameter == all[i])
-        return study + "moves the parameter \"" + all[i] + "\", which this study changes, need another";
+        return study + "moves the parameter \"" + all[i] +
+               "\", which this study changes, need another";
       if (earlier->own_cases->values[i] != values[i])
-        return study + "has " + all[i] + " = " + rounded(earlier->own_cases->values[i]) +
-               " and this one, which changes it, " + rounded(values[i]) +
+        return study + "has " + all[i] + " = " + rounded(earlier->own_cases->values[i], 12) +
+               " and this one, which changes it, " + rounded(values[i], 12) +
                ", need one value: with vary in both, or in neither";
     }
   return {};

@@ -241,9 +241,10 @@ class StudyReader {
     const TableReader start = table_or_nothing("start", "a table such as { pose = [...] }", keys);
     draft_.history = read_history(start, mechanism_, reading_);
     if (analysis::is_of_commands(draft_.kind) && table_.has("start") && !start.has("from"))
-      reading_.problems.add(table_.find("start")->place, table_.key_of("start"),
-                            "a study of this kind has a start only after another study, need from = "
-                            "\"...\", its name");
+      reading_.problems.add(
+          table_.find("start")->place, table_.key_of("start"),
+          "a study of this kind has a start only after another study, need from = "
+          "\"...\", its name");
     draft_.start_pose = read_vector(start, "pose", reading_.units.length, "rad");
     draft_.start_solve = std::array{StartSolve::pose, StartSolve::actuators,
                                     StartSolve::wrench}[start.choice("solve", solve_words, 0)];

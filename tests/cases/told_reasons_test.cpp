@@ -155,6 +155,29 @@ TEST(CurveThatEndsWhereASpringHasNoLength, NamesTheSpringAndWhatIsLeftOfIt) {
   EXPECT_NEAR(ends[1], -along + root, 1e-5);
 }
 
+// Together F = 2/7 x: without a force at the length 0, and still the two coordinates turn back there.
+TEST(CurveThatEndsWhereASpringHasNoLength, NamesSpringsInSeriesThatPullNowhereThere) {
+  const StudyResult result = run(R"toml(
+[[node]]
+name = "t"
+at = [0.05, 0]
+fixed = ["y"]
+[[spring]]
+name = "s"
+to = "t"
+series = [{ law = "linear", stiffness = 1 }, { law = "linear", stiffness = 0.4 }]
+[[study]]
+name = "through"
+control = "mixed"
+direction = [1, 0]
+until = { t.x = [-1, 3] }
+)toml").of("through");
+  const analysis::Stop& stop = result.branches.front().backward;
+  EXPECT_FALSE(stop.complete);
+  EXPECT_THAT(stop.reason, AllOf(HasSubstr("the length of s has come down to "),
+                                 HasSubstr("at the length 0 its springs in series turn back")));
+}
+
 /// A bar of length 4 on a hinge between two cables that rest, r and l.
 const std::string guyed = R"toml(
 [[body]]

@@ -193,12 +193,64 @@ TEST_F(HistoryMessages, RefuseToDriveWhatIsHeld) {
                             "another direction, or start.release = [\"foot.x\"]")));
 }
 
-TEST_F(HistoryMessages, RefuseKindsWithoutStatesOfOneMechanism) {
+const std::string rates = R"([[study]]
+name = "rates"
+kind = "sensitivity"
+sensitivity = { parameters = ["k"] }
+body = "top"
+control = "load"
+direction = [0, -1]
+start = { from = "first" }
+)";
+
+TEST_F(HistoryMessages, RefuseAnEarlierStudyWithoutStatesOfOneMechanism) {
+  EXPECT_THAT(messages(steps + rates + "vary = { parameter = \"k\", values = [1, 2] }\n" + third +
+                       "start = { from = \"rates\" }\n"),
+              ElementsAre(HasSubstr("study[4].start.from: study \"rates\" is of kind "
+                                    "\"sensitivity\", which has no states of one mechanism to "
+                                    "start from, need a study of kind \"force_deflection\"")));
+}
+
+TEST_F(HistoryMessages, RefuseAStartOfAWorkspace) {
+  EXPECT_THAT(messages(steps + R"([[study]]
+name = "region"
+kind = "workspace"
+body = "top"
+start = { from = "first" }
+)"),
+              testing::Contains(HasSubstr("study[3].start.from: a workspace is a matter of closed "
+                                          "chains alone, which no load step changes")));
+}
+
+TEST_F(HistoryMessages, WantOneValueOfAParameterThatIsChanged) {
+  EXPECT_THAT(messages(steps + rates + "vary = { parameter = \"k\", values = [1, 2] }\n"),
+              IsEmpty());
+  const std::string single =
+      replaced(steps, "vary = { parameter = \"k\", values = [1, 2] }\n[[study]]", "[[study]]");
+  EXPECT_THAT(messages(single + rates + "vary = { parameter = \"k\", values = [1, 2] }\n"),
+              testing::Contains(
+                  HasSubstr("study[3].start.from: study \"first\" has k = 1 and this one, which "
+                            "changes it, 2, need one value: with vary in both, or in neither")));
+}
+
+TEST_F(HistoryMessages, RefuseToChangeAParameterThatAnEarlierStudyMoves) {
+  const std::string moved = replaced(
+      steps,
+      "control = \"load\"\ndirection = [-1, 0]\nvary = { parameter = \"k\", values = [1, 2] }",
+      "control = \"parameter\"\nparameter = \"k\"\nuntil = { lambda = [1, 2] }");
   EXPECT_THAT(
-      after("name = \"second\"\nbody = \"top\"\ncontrol = \"load\"",
-            "name = \"second\"\nkind = \"sensitivity\"\nbody = \"top\"\ncontrol = \"load\""),
-      testing::Contains(HasSubstr("study[2].start.from: both studies need a kind that "
-                                  "follows or finds states of one mechanism")));
+      messages(moved + rates),
+      testing::Contains(HasSubstr("study[3].start.from: study \"first\" moves the parameter "
+                                  "\"k\", which this study changes, need another")));
+}
+
+TEST_F(HistoryMessages, RefuseToFollowAPointOfADirectionThatIsHeld) {
+  std::string of_foot = replaced(rates, "body = \"top\"", "body = \"foot\"");
+  of_foot = replaced(of_foot, "direction = [0, -1]", "direction = [1, 0]");
+  of_foot = replaced(of_foot, "from = \"first\"", "from = \"second\"");
+  EXPECT_THAT(messages(steps + of_foot + "vary = { parameter = \"k\", values = [1, 2] }\n"),
+              testing::Contains(HasSubstr(
+                  "study[3].direction: pushes only on foot.x, which study \"second\" holds")));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ struct Situation {
   model::Mechanism mechanism{};
   Vector constant_load{};  ///< on the study's body, d entries; empty: none
   Vector pose{};           ///< of the study's body, for maps; empty: its own pose
-  std::string problem{};   ///< why no state is known in which it starts, in words; empty: all is well
+  std::string
+      problem{};  ///< why no state is known in which it starts, in words; empty: all is well
 };
 
 }  // namespace springfold::analysis

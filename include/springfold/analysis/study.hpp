@@ -182,7 +182,8 @@ struct Variant {
   /// What the earlier studies passed on their way: of two values of a parameter with another one the
   /// starts do not belong to each other.
   std::string way{};
-  std::string problem{};  ///< why there is no such state, in words; empty: there is one, or none is needed
+  std::string
+      problem{};  ///< why there is no such state, in words; empty: there is one, or none is needed
 };
 
 /// The case as a function of one parameter; `value` is where the study starts.
