@@ -81,6 +81,9 @@ class CriticalLengths {
   statics::Inputs inputs_{};
 };
 
+/// Dimensionless: far above the rounding of positions, far below what a step moves.
+constexpr double no_length = 1e-9;
+
 /// What each of those lengths is, in words before its value and behind it.
 struct LengthWords {
   std::string what{}, reason{};
@@ -157,6 +160,11 @@ std::optional<std::string> vanishing_length(const PathProblem& problem,
     if (here[i] <= share * largest[i] && here[i] < before[i] &&
         (!nearest || here[i] * largest[*nearest] < here[*nearest] * largest[i]))
       nearest = i;
+  if (!nearest && curve.points.size() == 1) {  // the start itself, which the curve does not leave
+    const auto gone =
+        std::find_if(here.begin(), here.end(), [](double l) { return l <= no_length; });
+    if (gone != here.end()) nearest = static_cast<std::size_t>(gone - here.begin());
+  }
   if (!nearest) return std::nullopt;
   const LengthWords words = words_of(problem.system(end.lambda))[*nearest];
   return words.what + " has come down to " + rounded(problem.rule().length * here[*nearest]) +

@@ -62,6 +62,7 @@ body = "foot"
 control = "mixed"
 direction = [-1, 0]
 until = { lambda = [0, "d"] }
+trace = { maximum_step = 0.2 }
 )toml" + studies;
 }
 
@@ -69,7 +70,7 @@ const std::string pushed_apex = R"toml(body = "apex"
 control = "load"
 direction = [0, -1]
 start = { from = "preload" }
-until = { apex.y = [0.1, 0.75] }
+until = { apex.y = [0.1, 0.9] }
 )toml";
 
 double limit_load(const StudyResult& result) {
@@ -160,7 +161,7 @@ TEST(HistoriesOfMembers, ADesignChangesTheStepBefore) {
   const Ran ran =
       run(squeezed_frame(1, 0.4,
                          "[[study]]\nname = \"stronger\"\nkind = \"design\"\n" + held_and_pushed +
-                             "[study.design]\nparameters = { d = [0, 0.5] }\n"
+                             "[study.design]\nstarts = 1\nparameters = { d = [0.1, 0.4] }\n"
                              "critical_load = { at_least = " +
                              digits(wanted) + ", of = \"limit_point\" }\n"));
   const StudyResult& stronger = ran.of("stronger");
@@ -170,7 +171,7 @@ TEST(HistoriesOfMembers, ADesignChangesTheStepBefore) {
   EXPECT_NEAR(stronger.design->parameters.at(0).after, 0.3, 1e-9);
 }
 
-/// A spring kv acts on the apex along y alone: P(y) = 2 k (1/l - 1) y - kv y has limit points as long as kv < 2 k (1/a - 1).
+/// A spring kv acts on the apex along y alone: P(y) = 2 k (1/l - 1) y - kv (y - 1/2) has limit points as long as kv < 2 k (1/a - 1).
 std::string propped_frame(double kv, const std::string& studies, double d) {
   return squeezed_frame(1, 0.4, "", d) + R"toml(
 [[chain]]
@@ -178,8 +179,8 @@ name = "prop"
 to = "apex"
 elements = [
   { joint = "prismatic", axis = "x", name = "across" },
-  { joint = "prismatic", axis = "y", name = "up", spring = { stiffness = )toml" +
-         digits(kv) + R"toml( } },
+  { joint = "prismatic", axis = "y", name = "up", role = "preloaded", spring = { law = "linear", stiffness = )toml" +
+         digits(kv) + R"toml(, free = 0.5 } },
 ]
 )toml" + studies;
 }
@@ -235,6 +236,8 @@ body = "apex"
 control = "load"
 direction = [0, -1]
 until = { apex.y = [-0.9, 0.9] }
+snap = { starts = 0 }
+trace = { maximum_step = 0.2 }
 [[study]]
 name = "pull back"
 kind = "critical_curve"
@@ -243,7 +246,8 @@ control = "load"
 direction = [0, 1]
 start = { from = "press", at = "J1" }
 until = { apex.y = [-0.9, 0.9] }
-critical_curve = { of = "LP1", parameter = "a", range = [0.8, 0.95] }
+critical_curve = { of = "LP1", parameter = "a", range = [0.88, 0.92] }
+trace = { maximum_step = 0.2 }
 )toml";
 
 // The load P of the jump goes on acting: from the landing it takes 2 P to come back.
@@ -269,7 +273,8 @@ body = "apex"
 control = "load"
 direction = [0, -1]
 start = { from = "drive", hold = ["foot.x"], loads = "own" }
-until = { apex.y = [-0.9, 0.9] }
+until = { apex.y = [-0.3, 0.9] }
+trace = { maximum_step = 0.2 }
 [[study]]
 name = "onwards"
 kind = "critical_curve"
@@ -279,7 +284,8 @@ direction = [0, -1]
 start = { from = "press", at = "LP1" }
 until = { lambda = [-0.01, 0.01] }
 mark = { lambda = [0.001] }
-critical_curve = { of = "UZ1", parameter = "d", range = [0, 0.3] }
+critical_curve = { of = "UZ1", parameter = "d", range = [0, 0.11] }
+trace = { maximum_step = 0.2 }
 )toml",
                                     0.2));
   const StudyResult& onwards = ran.of("onwards");
@@ -305,15 +311,15 @@ task_space = "xy"
 [[chain]]
 name = "x"
 elements = [
-  { joint = "prismatic", axis = "x", name = "drive", role = "actuated" },
-  { joint = "prismatic", axis = "x", name = "spring", spring = { stiffness = "k" } },
+  { joint = "prismatic", axis = "x", name = "drive", role = "actuated", value = 0 },
+  { joint = "prismatic", axis = "x", name = "spring", role = "preloaded", spring = { law = "linear", stiffness = "k" } },
   { joint = "prismatic", axis = "y", name = "free" },
 ]
 [[chain]]
 name = "y"
 elements = [
-  { joint = "prismatic", axis = "y", name = "drive", role = "actuated" },
-  { joint = "prismatic", axis = "y", name = "spring", spring = { stiffness = "k" } },
+  { joint = "prismatic", axis = "y", name = "drive", role = "actuated", value = 0 },
+  { joint = "prismatic", axis = "y", name = "spring", role = "preloaded", spring = { law = "linear", stiffness = "k" } },
   { joint = "prismatic", axis = "x", name = "free" },
 ]
 [[study]]

@@ -166,15 +166,17 @@ fixed = ["y"]
 name = "s"
 to = "t"
 series = [{ law = "linear", stiffness = 1 }, { law = "linear", stiffness = 0.4 }]
+initial = 0.01
 [[study]]
 name = "through"
 control = "mixed"
 direction = [1, 0]
 until = { t.x = [-1, 3] }
-)toml").of("through");
-  const analysis::Stop& stop = result.branches.front().backward;
+)toml")
+                                 .of("through");
+  const analysis::Stop& stop = result.branches.front().forward;
   EXPECT_FALSE(stop.complete);
-  EXPECT_THAT(stop.reason, AllOf(HasSubstr("the length of s has come down to "),
+  EXPECT_THAT(stop.reason, AllOf(HasSubstr("the length of s has come down to 0"),
                                  HasSubstr("at the length 0 its springs in series turn back")));
 }
 
