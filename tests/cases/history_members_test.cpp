@@ -171,7 +171,8 @@ TEST(HistoriesOfMembers, ADesignChangesTheStepBefore) {
   EXPECT_NEAR(stronger.design->parameters.at(0).after, 0.3, 1e-9);
 }
 
-/// A spring kv acts on the apex along y alone: P(y) = 2 k (1/l - 1) y - kv (y - 1/2) has limit points as long as kv < 2 k (1/a - 1).
+/// A spring kv acts on the apex along y alone: P(y) = 2 k (1/l - 1) y - kv (y - 1/2) has limit points as long as
+/// kv < 2 k (1/a - 1).
 std::string propped_frame(double kv, const std::string& studies, double d) {
   return squeezed_frame(1, 0.4, "", d) + R"toml(
 [[chain]]
@@ -287,7 +288,7 @@ mark = { lambda = [0.001] }
 critical_curve = { of = "UZ1", parameter = "d", range = [0, 0.11] }
 trace = { maximum_step = 0.2 }
 )toml",
-                                    0.2));
+                                    0.1));
   const StudyResult& onwards = ran.of("onwards");
   ASSERT_TRUE(onwards.start.found) << onwards.start.message;
   const auto& branch = onwards.branches.at(0);
