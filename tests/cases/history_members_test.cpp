@@ -265,16 +265,16 @@ TEST(HistoriesOfMembers, ACurveBeginsAtTheLandingOfAJump) {
   }
 }
 
-// Flatter than a = 200/(200 + kv) the frame on its prop has no limit point to start from.
+// The mark y = 0.4 is reached under P = 2 k (1/l - 1) y, which is more than 14 where l < 1/1.175.
 TEST(HistoriesOfMembers, ACurveEndsWhereTheStudyBeforeLosesItsPoint) {
-  const double kv = 40, a = 200 / (200 + kv);
-  const Ran ran = run(propped_frame(kv, R"toml([[study]]
+  const Ran ran = run(squeezed_frame(1, 0.4, R"toml([[study]]
 name = "press"
 body = "apex"
 control = "load"
 direction = [0, -1]
 start = { from = "drive", hold = ["foot.x"], loads = "own" }
-until = { apex.y = [-0.3, 0.9] }
+until = { lambda = [0, 14], apex.y = [0.35, 0.9] }
+mark = { apex.y = 0.4 }
 trace = { maximum_step = 0.2 }
 [[study]]
 name = "onwards"
@@ -282,23 +282,22 @@ kind = "critical_curve"
 body = "apex"
 control = "mixed"
 direction = [0, -1]
-start = { from = "press", at = "LP1" }
+start = { from = "press", at = "UZ1" }
 until = { lambda = [-0.01, 0.01] }
-mark = { lambda = [0.001] }
-critical_curve = { of = "UZ1", parameter = "d", range = [0, 0.11] }
+mark = { lambda = 0.001 }
+critical_curve = { of = "UZ1", parameter = "d", range = [0.19, 0.3] }
 trace = { maximum_step = 0.2 }
-)toml",
-                                    0.1));
+)toml"));
   const StudyResult& onwards = ran.of("onwards");
   ASSERT_TRUE(onwards.start.found) << onwards.start.message;
   const auto& branch = onwards.branches.at(0);
-  EXPECT_FALSE(branch.backward.complete);
-  EXPECT_THAT(branch.backward.reason,
+  EXPECT_FALSE(branch.forward.complete);
+  EXPECT_THAT(branch.forward.reason,
               HasSubstr("there is no start: study \"press\", from which it starts, has no point "
-                        "\"LP1\"; it has start, end"));
-  const double least = 2 * (std::sqrt(0.75) - a);
-  EXPECT_NEAR(value(onwards, 0, "d"), least, 0.02);
-  EXPECT_GT(value(onwards, 0, "d"), least);
+                        "\"UZ1\"; it has start, end"));
+  const double last = 2 * (std::sqrt(0.75) - std::sqrt(1 / (1.175 * 1.175) - 0.16));
+  EXPECT_NEAR(value(onwards, branch.samples.size() - 1, "d"), last, 1e-3);
+  EXPECT_LT(value(onwards, branch.samples.size() - 1, "d"), last);
 }
 
 /// Two drives with springs k behind them carry a point.
