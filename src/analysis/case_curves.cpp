@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "dimensionless_parts.hpp"
 #include "settle_units.hpp"
+#include "springfold/analysis/moving_case.hpp"
 #include "springfold/core/scaling.hpp"
 #include "springfold/statics/prepare_again.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
@@ -16,12 +18,15 @@ namespace {
 /// Beside those of the last calls, those of a grid that neighbouring places share.
 constexpr std::size_t members_kept = 64;
 
+/// Starts of more are remembered: so many, and so many numbers of their matrices.
+constexpr double most_starts = 4096, most_start_numbers = 0x1p22;
+
 /// Of differences in mu.
 constexpr double family_step = 0x1p-9;
 
-/// Members within this of mu on both sides, as those of the grid of differences are, enclose it: whether det J keeps its
+/// Members of the grid of differences are as far apart. Those within it of mu on both sides enclose mu: whether det J keeps its
 /// sign along the starts is asked at them.
-constexpr double enclosing = 4 * family_step;
+constexpr double grid_step = 4 * family_step;
 
 /// Natural size of the parameter: its range, or its value.
 double size_of(const CriticalPointSettings& settings, double value) {
@@ -34,6 +39,16 @@ std::optional<std::size_t> number_of(const CaseFamily& cases, const std::string&
   const auto found = std::find(cases.names.begin(), cases.names.end(), name);
   if (found == cases.names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - cases.names.begin());
+}
+
+/// Springs that are counted from the start pose depend on more than their own numbers.
+bool counts_from_start(const model::Mechanism& mechanism) {
+  for (const model::Chain& chain : mechanism.chains)
+    for (const model::Element& element : chain.elements)
+      if (const auto* joint = std::get_if<model::Joint>(&element);
+          joint != nullptr && joint->spring_from_start)
+        return true;
+  return false;
 }
 
 }  // namespace
@@ -87,26 +102,25 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter, double lambda_
   base_ = make(value_ / scale_, nullptr);
 }
 
-/// @param spare  not asked for any more: its memory is used
-std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
-                                         std::unique_ptr<Member> spare) const {
+/// The set-up that the case with this value has, anew. @param again  the member's own memory is used
+/// @param along  of control mode parameter: the family along the path
+/// @param way    where the start is a state that earlier studies lead to: the way there
+/// @returns false where the case has no such parameter, or a neighbour no start
+bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
+                             model::Mechanism& mechanism, std::optional<ParameterFamily>& along,
+                             std::optional<std::string>& way) const {
   const CaseFamily& cases = *study_.critical.cases;
-  const double value = near == nullptr ? value_ : scale_ * mu;
+  const double value = near == nullptr ? value_ : scale_ * member.mu;
   Variant variant = cases.at({{parameter_, value}});
   if (near != nullptr && !variant.problem.empty()) {
     why_none_ = std::move(variant.problem);
-    return nullptr;
+    return false;
   }
-  const bool again = spare != nullptr;
-  auto member = again ? std::move(spare) : std::make_unique<Member>();
-  member->forget_columns();
-  member->mu = mu;
-  member->columns_of = base_.get();
-  member->study = as_curve(std::move(variant.study));
-  std::optional<ParameterFamily> along;
-  if (member->study.control == ControlMode::parameter) {
-    const auto lambda = number_of(cases, member->study.parameter);
-    if (!lambda) return nullptr;
+  member.study = as_curve(std::move(variant.study));
+  mechanism = std::move(variant.mechanism);
+  if (member.study.control == ControlMode::parameter) {
+    const auto lambda = number_of(cases, member.study.parameter);
+    if (!lambda) return false;
     const auto family = study_.critical.cases;
     along = ParameterFamily{[family, p = parameter_, value, l = *lambda](double v) {
                               const Variant both = family->at({{p, value}, {l, v}});
@@ -114,33 +128,79 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
                             },
                             cases.values[*lambda]};
   }
+  member.setup =
+      set_up(mechanism, member.study, along ? &*along : nullptr,
+             near == nullptr ? nullptr : &near->setup, again ? &member.setup.system : nullptr);
+  return true;
+}
+
+/// @param member  set up, not yet solved
+void CaseCurves::keep_pattern(const Member& member, model::Mechanism mechanism) const {
+  const auto* moving = study_.critical.cases->at.target<MovingCase>();
+  const model::MovedParts* parts = moving != nullptr ? moving->moved(parameter_) : nullptr;
+  if (parts == nullptr || member.study.control == ControlMode::parameter ||
+      counts_from_start(mechanism))
+    return;
+  pattern_ = Pattern{std::move(mechanism), moving->put, member.study, member.setup,
+                     statics::places_of(member.setup.system, *parts)};
+}
+
+/// What set_up_anew() gives, by changing what the parameter moves. @param again  the member is one of these
+/// @returns false where that is not all
+bool CaseCurves::put_numbers(Member& member, bool again) const {
+  if (!pattern_ || !pattern_->put(parameter_, scale_ * member.mu, pattern_->mechanism))
+    return false;
+  Setup& setup = member.setup;
+  if (again) {
+    setup.rule = pattern_->setup.rule;
+  } else {
+    member.study = pattern_->study;
+    setup = pattern_->setup;
+  }
+  const model::MovedParts& parts = pattern_->places.parts;
+  put_dimensionless(pattern_->mechanism, parts, setup.scales, setup.system.mechanism);
+  if (!statics::renew(pattern_->places, setup.system)) return false;
+  if (!parts.loads.empty())
+    setup.rule.symmetric = non_conservative_loads(pattern_->mechanism, member.study).empty();
+  return true;
+}
+
+/// @param spare  not asked for any more: its memory is used
+std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
+                                         std::unique_ptr<Member> spare) const {
+  const bool again = spare != nullptr;
+  auto member = again ? std::move(spare) : std::make_unique<Member>();
+  member->forget_columns();
+  member->mu = mu;
+  member->columns_of = base_.get();
   Setup& setup = member->setup;
-  setup = set_up(variant.mechanism, member->study, along ? &*along : nullptr,
-                 near == nullptr ? nullptr : &near->setup, again ? &setup.system : nullptr);
-  if (!variant.problem.empty()) {
-    member->report.message = std::move(variant.problem);
-    member->report.where = "start.from";
-    return member;
-  }
+  model::Mechanism mechanism;
+  std::optional<ParameterFamily> along;
+  std::optional<std::string> way;
   if (near == nullptr) {
-    if (variant.is_in_state) ways_.emplace(variant.way, 0);
+    if (!set_up_anew(*member, nullptr, false, mechanism, along, way)) return nullptr;
+    if (!member->report.message.empty()) return member;
+    if (way) ways_.emplace(*way, 0);
+    const ParameterFamily* const path = along ? &*along : nullptr;
     member->first = find_start(setup, member->study, member->report);
+    if (!member->report.found) return member;
     // The units that the curve is traced in, which those of neighbours keep.
-    if (member->report.found) {
-      const ParameterFamily* path = along ? &*along : nullptr;
-      settle_units(variant.mechanism, member->study, path, member->first, setup);
-      reach_range(variant.mechanism, member->study, path, member->first, setup);
-      if (lambda_unit_ > 1)
-        enlarge_lambda_unit(variant.mechanism, member->study, path, lambda_unit_, member->first,
-                            setup);
-      member->first.factors = start_factors(*member);
+    settle_units(mechanism, member->study, path, member->first, setup);
+    reach_range(mechanism, member->study, path, member->first, setup);
+    if (lambda_unit_ > 1)
+      enlarge_lambda_unit(mechanism, member->study, path, lambda_unit_, member->first, setup);
+    member->first.factors = start_factors(*member);
+  } else {
+    if (!put_numbers(*member, again)) {
+      if (!set_up_anew(*member, near, again, mechanism, along, way)) return nullptr;
+      if (!pattern_ && !way) keep_pattern(*member, std::move(mechanism));
     }
-  } else if (!(variant.is_in_state ? solve_in_state(*member, variant.way)
-                                   : solve_near(*member, *near))) {
-    why_none_.clear();
-    return nullptr;
+    if (!recall_start(*member) &&
+        !(way ? solve_in_state(*member, *way) : solve_near(*member, *near))) {
+      why_none_.clear();
+      return nullptr;
+    }
   }
-  if (near == nullptr && !member->report.found) return member;
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(member->study.body - 1)];
   setup.rule.t_start = member->first.z.segment(body.t, body.count);
   setup.rule.rho_start = member->first.inputs.rho;
@@ -253,7 +313,7 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   const auto is_beside = [&](double side) {
     return std::any_of(nodes.begin(), nodes.end(), [&](const Member* member) {
       const double away = side * (member->mu - mu);
-      return away > 0 && away <= enclosing;
+      return away > 0 && away <= grid_step;
     });
   };
   expected.enclosed = is_beside(1) && is_beside(-1);
@@ -268,6 +328,40 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
     expected.rho += weight * member->first.inputs.rho;
   }
   return expected;
+}
+
+/// What a member costs most is its start, and rows are written where the curve has been.
+void CaseCurves::keep_start(Member& member) const {
+  const double n = std::max(1.0, static_cast<double>(member.first.z.size()));
+  const double most = std::min(most_starts, most_start_numbers / (n * n));
+  if (static_cast<double>(starts_.size()) >= most) starts_.clear();
+  starts_.insert_or_assign(member.mu, KnownStart{member.sheet, std::move(member.first)});
+}
+
+bool CaseCurves::recall_start(Member& member) const {
+  const auto known = starts_.find(member.mu);
+  if (known == starts_.end()) return false;
+  member.sheet = known->second.sheet;
+  member.first = std::move(known->second.first);
+  member.report.found = true;
+  starts_.erase(known);
+  return true;
+}
+
+/// Four members of the grid of differences, two on each side of mu. Where the numbers that the equations are linear in lie
+/// on a line there, the equations do too, at any state: two members tell the derivative.
+std::optional<double> CaseCurves::line(double mu) const {
+  constexpr std::size_t most = 4096;
+  if (!pattern_) return std::nullopt;
+  const double first = (std::floor(mu / grid_step) - 1) * grid_step;
+  auto known = lines_.find(first);
+  if (known == lines_.end()) {
+    if (lines_.size() >= most) lines_.clear();
+    known = lines_.emplace(first, is_line(first, grid_step)).first;
+  }
+  if (!known->second) return std::nullopt;
+  const double last = first + 3 * grid_step;
+  return mu - first > last - mu ? first : last;
 }
 
 const Member* CaseCurves::at(double mu) const {
@@ -290,6 +384,7 @@ const Member* CaseCurves::at(double mu) const {
     const bool is_needed = calls_.back() == near->mu;
     const auto old = recent_.find(is_needed ? *std::prev(calls_.end(), 2) : calls_.back());
     oldest = std::move(old->second.member);
+    keep_start(*oldest);
     calls_.erase(old->second.call);
     recent_.erase(old);
   }
@@ -315,7 +410,8 @@ continuation::Family CaseCurves::family() const {
             if (member == nullptr) return std::nullopt;
             return continuation::ProblemView(*member->problem);
           },
-          .step = family_step};
+          .step = family_step,
+          .line = [this](double mu) { return line(mu); }};
 }
 
 continuation::CurvePoint CaseCurves::point_of(const continuation::CriticalPoint& point,

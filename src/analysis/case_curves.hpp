@@ -4,6 +4,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "quantities.hpp"
@@ -11,6 +12,7 @@
 #include "springfold/analysis/result.hpp"
 #include "springfold/continuation/two_parameter.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
+#include "springfold/statics/moved_places.hpp"
 
 namespace springfold::analysis {
 
@@ -66,6 +68,9 @@ class CaseCurves {
  private:
   std::unique_ptr<Member> make(double mu, const Member* near,
                                std::unique_ptr<Member> spare = nullptr) const;
+  bool set_up_anew(Member& member, const Member* near, bool again, model::Mechanism& mechanism,
+                   std::optional<ParameterFamily>& along, std::optional<std::string>& way) const;
+  bool put_numbers(Member& member, bool again) const;
   bool solve_near(Member& member, const Member& near) const;
   bool solve_in_state(Member& member, const std::string& way) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
@@ -73,17 +78,38 @@ class CaseCurves {
   StartOptions start_beside(const Study& study) const;
   statics::Foresight foresight(double mu, const Member& near) const;
 
+  /// Where the parameter moves few numbers members are set up once; the others get their numbers in place.
+  struct Pattern {
+    model::Mechanism mechanism{};  ///< of any member, in the units of the case
+    std::function<bool(std::size_t, double, model::Mechanism&)> put{};  ///< its numbers, MovingCase
+    Study study{};
+    Setup setup{};
+    statics::MovedPlaces places{};
+  };
+  void keep_pattern(const Member& member, model::Mechanism mechanism) const;
+  void keep_start(Member& member) const;
+  bool recall_start(Member& member) const;
+  std::optional<double> line(double mu) const;
+  bool is_line(double first, double step) const;
+
   Study study_;
   std::size_t parameter_ = 0;
   std::string name_{};
   double value_ = 0, scale_ = 1, lambda_unit_ = 1;
   std::unique_ptr<Member> base_{};
+  mutable std::optional<Pattern> pattern_{};
   struct Recent {
     std::unique_ptr<Member> member{};
     std::list<double>::iterator call{};  ///< the last one that asked for it, in calls_
   };
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
+  struct KnownStart {
+    int sheet = 0;
+    statics::FirstEquilibrium first{};
+  };
+  mutable std::map<double, KnownStart> starts_{};  ///< by mu: of members that were let go
+  mutable std::map<double, bool> lines_{};  ///< by the first of four places of the grid: line()
   /// Where none was found, which is dearer than one, and why.
   mutable std::map<double, std::string> without_start_{};
   mutable std::string why_none_{};  ///< of the member that was made last

@@ -68,8 +68,9 @@ void count_without_vanishing(const Member& member, const continuation::CurvePoin
   if (!negative) return;
   const auto count = static_cast<double>(*negative - member.problem->closures());
   using Kind = QuantityDefinition::Kind;
-  for (std::size_t i = 0; i < member.quantities().size(); ++i) {
-    const Kind kind = member.quantities()[i].kind;
+  const std::vector<QuantityDefinition>& quantities = member.quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const Kind kind = quantities[i].kind;
     const bool same = kind == Kind::index_force && member.study.control == ControlMode::load;
     if (kind == Kind::index || same) values[i] = count;
   }

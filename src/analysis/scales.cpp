@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "dimensionless_parts.hpp"
 #include "shape_units.hpp"
 #include "springfold/core/scaling.hpp"
 #include "units.hpp"
@@ -102,6 +104,28 @@ void make_dimensionless(const model::Chain& chain, const Scales& scales,
   spring.free = spring.free.cwiseQuotient(coordinate).eval();
 }
 
+model::SpringLaw dimensionless_law(const Joint& joint, const Scales& scales) {
+  const bool slides = joint.kind == JointKind::prismatic;
+  return model::scaled(*joint.spring, slides ? scales.length : 1,
+                       slides ? scales.force : scales.moment());
+}
+
+double dimensionless_command(const Joint& joint, const Scales& scales) {
+  return joint.kind == JointKind::prismatic ? joint.command / scales.length : joint.command;
+}
+
+model::SpringLaw dimensionless_law(const model::ShapeSpring& spring, const model::SpringLaw& law,
+                                   const Scales& scales) {
+  const double value = unit_of_value(spring.shape.kind, scales);
+  return scaled(law, value, scales.moment() / value);
+}
+
+/// Stiffness and free length.
+std::pair<double, double> dimensionless_line(const model::LineSpring& spring,
+                                             const Scales& scales) {
+  return {spring.stiffness * (scales.length / scales.force), spring.free / scales.length};
+}
+
 /// Of the vector of a load, in terms of the unit of length and with a force of one scale.
 double unit_of_load(const model::Load& load, const Scales& scales) {
   switch (load.kind) {
@@ -194,12 +218,9 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
         continue;
       }
       auto& joint = std::get<Joint>(element);
-      const bool slides = joint.kind == JointKind::prismatic;
-      const double coordinate = slides ? scales.length : 1;
-      const double torque = slides ? scales.force : scales.moment();
-      joint.initial /= coordinate;
-      joint.command /= coordinate;
-      if (joint.spring) joint.spring = model::scaled(*joint.spring, coordinate, torque);
+      if (joint.kind == JointKind::prismatic) joint.initial /= scales.length;
+      joint.command = dimensionless_command(joint, scales);
+      if (joint.spring) joint.spring = dimensionless_law(joint, scales);
     }
     for (model::CoupledSpring& spring : chain.coupled_springs)
       make_dimensionless(chain, scales, spring);
@@ -222,10 +243,10 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
   });
   for (model::ShapeSpring& spring : m.shape_springs) {
     const double value = unit_of_value(spring.shape.kind, scales);
-    spring.law = scaled(spring.law, value, scales.moment() / value);
+    spring.law = dimensionless_law(spring, spring.law, scales);
     spring.offset /= value;
     for (model::SeriesSpring& inner : spring.before) {
-      inner.law = scaled(inner.law, value, scales.moment() / value);
+      inner.law = dimensionless_law(spring, inner.law, scales);
       if (inner.initial) *inner.initial /= value;
     }
     if (!spring.gas) continue;
@@ -234,10 +255,34 @@ model::Mechanism dimensionless(const model::Mechanism& mechanism, const Scales& 
   }
   for (model::LineSpring& spring : m.line_springs) {
     for (model::Anchor* end : {&spring.from, &spring.to}) end->at /= scales.length;
-    spring.stiffness *= scales.length / scales.force;
-    spring.free /= scales.length;
+    std::tie(spring.stiffness, spring.free) = dimensionless_line(spring, scales);
   }
   return m;
+}
+
+void put_dimensionless(const model::Mechanism& mechanism, const model::MovedParts& parts,
+                       const Scales& scales, model::Mechanism& result) {
+  const auto from = [&](const model::MovedParts::OfChain& at) -> const Joint& {
+    return std::get<Joint>(mechanism.chains[at.chain].elements[at.part]);
+  };
+  const auto to = [&](const model::MovedParts::OfChain& at) -> Joint& {
+    return std::get<Joint>(result.chains[at.chain].elements[at.part]);
+  };
+  for (const auto& at : parts.laws) to(at).spring = dimensionless_law(from(at), scales);
+  for (const auto& at : parts.commands) to(at).command = dimensionless_command(from(at), scales);
+  for (const auto& [chain, number] : parts.coupled) {
+    model::CoupledSpring& spring = result.chains[chain].coupled_springs[number];
+    spring = mechanism.chains[chain].coupled_springs[number];
+    make_dimensionless(result.chains[chain], scales, spring);
+  }
+  for (const std::size_t i : parts.lines)
+    std::tie(result.line_springs[i].stiffness, result.line_springs[i].free) =
+        dimensionless_line(mechanism.line_springs[i], scales);
+  for (const std::size_t i : parts.shape_laws)
+    result.shape_springs[i].law =
+        dimensionless_law(mechanism.shape_springs[i], mechanism.shape_springs[i].law, scales);
+  for (const std::size_t i : parts.loads)
+    result.loads[i].vector = mechanism.loads[i].vector / unit_of_load(mechanism.loads[i], scales);
 }
 
 Vector pose_scales(model::TaskSpace space, const Scales& scales) {

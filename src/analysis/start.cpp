@@ -138,6 +138,7 @@ statics::StartProblem start_problem(const Setup& setup, Index number, const Star
 void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, Setup& setup) {
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
   const Vector extra = (first.inputs.W - setup.rule.W_start).segment(body.W, body.count);
+  if (extra.isZero(0)) return;
   const Vector held = setup.rule.N * (setup.rule.N.transpose() * extra);
   setup.rule.W_start.segment(body.W, body.count) += held;
   const bool is_spatial =

@@ -2,6 +2,7 @@
 
 #include "bar_draft.hpp"
 #include "counted_turns.hpp"
+#include "moved_numbers.hpp"
 #include "springfold/core/overloaded.hpp"
 
 namespace springfold::io {
@@ -106,12 +107,7 @@ model::CoupledSpring coupled_of(const CoupledDraft& draft, const std::vector<std
                                 const Numbers& numbers) {
   model::CoupledSpring spring{.name = draft.name};
   for (const std::size_t joint : draft.joints) spring.elements.push_back(first[joint]);
-  const auto m = static_cast<Index>(draft.joints.size());
-  Matrix matrix(m, m);
-  for (Index i = 0; i < m * m; ++i)
-    matrix(i / m, i % m) = numbers[draft.stiffness[static_cast<std::size_t>(i)]];
-  spring.stiffness = 0.5 * (matrix + matrix.transpose());
-  spring.free = vector_of(draft.free, numbers);
+  put_numbers(draft, numbers, spring);
   return spring;
 }
 
@@ -186,6 +182,19 @@ std::vector<std::size_t> origins_of(const ChainDraft& draft, const std::vector<d
   return origins;
 }
 
+void put_numbers(const CoupledDraft& draft, const Numbers& numbers, model::CoupledSpring& spring) {
+  const auto m = static_cast<Index>(draft.joints.size());
+  Matrix matrix(m, m);
+  for (Index i = 0; i < m * m; ++i)
+    matrix(i / m, i % m) = numbers[draft.stiffness[static_cast<std::size_t>(i)]];
+  spring.stiffness = 0.5 * (matrix + matrix.transpose());
+  spring.free = vector_of(draft.free, numbers);
+}
+
+model::Vec3<double> load_vector_of(const LoadDraft& draft, const Numbers& numbers) {
+  return vec3_of(draft.vector, numbers);
+}
+
 std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts, const Numbers& numbers) {
   std::vector<model::Load> loads;
   for (const LoadDraft& draft : drafts)
@@ -194,7 +203,7 @@ std::vector<model::Load> build_loads(const std::vector<LoadDraft>& drafts, const
                      .kind = draft.kind,
                      .follows = draft.follows,
                      .with_lambda = draft.with_lambda,
-                     .vector = vec3_of(draft.vector, numbers),
+                     .vector = load_vector_of(draft, numbers),
                      .shape = shape_of(draft.shape, numbers)});
   return loads;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "case_files.hpp"
+#include "springfold/analysis/moving_case.hpp"
 
 namespace springfold::io {
 namespace {
@@ -103,6 +104,84 @@ TEST_F(ParameterFamilies, StartAtTheValueOfTheRun) {
   EXPECT_EQ(c.runs[0].family->value, 1.5);
   EXPECT_EQ(c.runs[1].family->value, 2);
   expect_same(c.runs[1].family->at(2).mechanism, c.runs[1].mechanism);
+}
+
+/// A strut with something of every sort that a parameter may move alone.
+class MovedNumbers : public CaseFiles {
+ protected:
+  static std::string text() {
+    return R"toml([parameters]
+k = 1
+c = "2*k"
+pull = 0.1
+size = 1
+seed = 3
+[[body]]
+name = "tip"
+task_space = "planar"
+pose = [1, 0, 0]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "z", name = "foot", role = "virtual", stiffness = "k" },
+  { joint = "prismatic", axis = "x", name = "bar", role = "virtual", stiffness = "c" },
+  { rigid = ["size", 0] },
+  { joint = "revolute", axis = "z", name = "head", role = "preloaded" },
+  { joint = "prismatic", axis = "y", name = "slide", role = "preloaded" },
+]
+coupled_springs = [{ joints = ["head", "slide"], stiffness = [["k^2", 0.1], [0.1, 2]], free = ["pull", 0] }]
+[[spring]]
+name = "stay"
+from_at = [0, 1]
+to = "tip"
+stiffness = "3*k"
+free = "0.5"
+[[load]]
+name = "dead"
+on = "tip"
+force = [0, "-pull"]
+[[study]]
+name = "all"
+kind = "sensitivity"
+control = "load"
+direction = [-1, 0, 0]
+start = { seed = "seed" }
+)toml";
+  }
+  static const analysis::CaseFamily& family(const Case& c) {
+    return *c.runs[0].plan.critical.cases;
+  }
+  static std::size_t number_of(const Case& c, const std::string& name) {
+    const auto& names = family(c).names;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+};
+
+TEST_F(MovedNumbers, PutInPlaceAreThoseOfTheWholeCase) {
+  const Case c = load(text());
+  const auto* moving = family(c).at.target<analysis::MovingCase>();
+  ASSERT_NE(moving, nullptr);
+  for (const std::string name : {"k", "c", "pull"}) {
+    const std::size_t number = number_of(c, name);
+    ASSERT_NE(moving->moved(number), nullptr) << name;
+    model::Mechanism m = family(c).at({{number, 5}}).mechanism;
+    ASSERT_TRUE(moving->put(number, 0.7, m)) << name;
+    const model::Mechanism whole = family(c).at({{number, 0.7}}).mechanism;
+    expect_same(m, whole);
+    EXPECT_EQ(m.chains[0].coupled_springs[0].stiffness,
+              whole.chains[0].coupled_springs[0].stiffness);
+    EXPECT_EQ(m.chains[0].coupled_springs[0].free, whole.chains[0].coupled_springs[0].free);
+    EXPECT_EQ(m.line_springs[0].stiffness, whole.line_springs[0].stiffness);
+    EXPECT_EQ(m.loads[0].vector, whole.loads[0].vector);
+  }
+}
+
+TEST_F(MovedNumbers, AreNotAllWhereAParameterMovesTheShapeOrTheStudy) {
+  const Case c = load(text());
+  const auto* moving = family(c).at.target<analysis::MovingCase>();
+  ASSERT_NE(moving, nullptr);
+  for (const std::string name : {"size", "seed"})
+    EXPECT_EQ(moving->moved(number_of(c, name)), nullptr) << name;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "examples.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/statics/moved_places.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -62,6 +63,47 @@ TEST(PreparedAgain, LawsMayHaveOtherBreakpoints) {
     EXPECT_EQ(again.switches[j].spring, anew.switches[j].spring);
   }
   EXPECT_EQ(said(again), said(anew));
+}
+
+TEST(PreparedAgain, PartsWithOtherNumbersAreRenewedInPlace) {
+  model::Mechanism m =
+      loaded(model::OneSidedSpring{0.4, 0.35, model::OneSidedSpring::Side::above}, 1);
+  std::get<model::Joint>(m.chains[0].elements[1]).spring.reset();
+  m.chains[0].coupled_springs = {{.name = "knee",
+                                  .elements = {1},
+                                  .stiffness = Matrix::Constant(1, 1, 0.2),
+                                  .free = Vector::Constant(1, 0.1)}};
+  System system = prepare(m);
+  const MovedPlaces places = places_of(system, {.laws = {{0, 0}, {1, 1}},
+                                                .commands = {{1, 0}},
+                                                .coupled = {{0, 0}},
+                                                .lines = {0},
+                                                .shape_laws = {0},
+                                                .loads = {0}});
+  model::Mechanism& own = system.mechanism;
+  std::get<model::Joint>(own.chains[0].elements[0]).spring = model::LinearSpring{2, 0.1};
+  std::get<model::Joint>(own.chains[1].elements[1]).spring =
+      model::OneSidedSpring{0.7, 0.25, model::OneSidedSpring::Side::above};
+  std::get<model::Joint>(own.chains[1].elements[0]).command += 0.1;
+  own.chains[0].coupled_springs[0].stiffness *= 3;
+  own.chains[0].coupled_springs[0].free[0] = -0.2;
+  own.line_springs[0].stiffness = 0.9;
+  own.line_springs[0].free = 0.3;
+  own.shape_springs[0].law = model::LinearSpring{0.2, 0.4};
+  own.loads[0].vector = {0.1, -0.2, 0};
+  ASSERT_TRUE(renew(places, system));
+  const System anew = prepare(own);
+  EXPECT_EQ(said(system), said(anew));
+  ASSERT_EQ(system.switches.size(), 1U);
+  EXPECT_EQ(system.switches[0].breakpoint, 0.25);
+}
+
+TEST(PreparedAgain, PartsWithOtherBreakpointsAreNot) {
+  System system = prepare(loaded(model::LinearSpring{0.1, 0}, 1));
+  const MovedPlaces places = places_of(system, {.laws = {{0, 1}}});
+  std::get<model::Joint>(system.mechanism.chains[0].elements[1]).spring =
+      model::OneSidedSpring{0.4, 0.35, model::OneSidedSpring::Side::above};
+  EXPECT_FALSE(renew(places, system));
 }
 
 TEST(PreparedAgain, MassesAndLoadsMayComeAndGo) {

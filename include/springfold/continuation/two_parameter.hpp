@@ -17,6 +17,9 @@ struct Family {
   /// The problem at mu, valid until the next call; nothing where the family is not defined.
   std::function<std::optional<ProblemView>(double mu)> at{};
   double step = 0x1p-8;  ///< of differences in mu, a power of two
+  /// A value between which and this mu the equations are known to be affine in mu, for all x and lambda; at least `step` away.
+  /// Nothing where that is not sure. May be missing.
+  std::function<std::optional<double>(double mu)> line{};
 };
 
 /// A function of the state that is zero at a point of kind `zero`; nothing outside its domain.

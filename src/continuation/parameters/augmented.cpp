@@ -38,7 +38,10 @@ bool solve_borders(const Matrix& M, Index k, Matrix& result) {
   if (SmallLu::fits(M.rows())) {
     const SmallLu lu(M);
     if (!(lu.smallest_pivot() > 0)) return false;
-    lu.solve(result);
+    if (k == 1)
+      lu.solve(result.data());
+    else
+      lu.solve(result);
   } else {
     result = Lu(M).solve(result);
   }
@@ -276,6 +279,12 @@ const Augmented::Differences* Augmented::known_differences(const Vector& X, doub
   return away <= exact_model * size ? &exact_ : nullptr;
 }
 
+/// Of the bordered kinds all that depends on mu is linear in the equations; surfaces are the caller's.
+std::optional<double> Augmented::far_on_line(double mu) const {
+  if (!is_bordered() || !family_.line) return std::nullopt;
+  return family_.line(mu);
+}
+
 bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                             Differences& found) const {
   const Vector x = state(X);
@@ -305,13 +314,12 @@ bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exac
     found.by_X.row(i) = part->transpose();
   }
   BaseTerms there;
-  const auto at_parameter = [&](double m) -> std::optional<Vector> {
-    if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
+  const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
     Vector values(n_ + crossing + 1);
-    values.head(n_) = there.F;
-    if (crossing > 0) values.segment(n_, crossing) = W.transpose() * (there.J * terms.along);
+    values.head(n_) = base.F;
+    if (crossing > 0) values.segment(n_, crossing) = W.transpose() * (base.J * terms.along);
     if (is_bordered()) {
-      values[n_ + crossing] = -(W.cwiseProduct(there.J.leftCols(n_) * V)).sum();
+      values[n_ + crossing] = -(W.cwiseProduct(base.J.leftCols(n_) * V)).sum();
       return values;
     }
     const auto g = surface(x, l, m);
@@ -319,10 +327,21 @@ bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exac
     values[n_] = *g;
     return values;
   };
-  // A member of the family is dear: neighbours share those of a grid.
-  auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness, found.error);
-  if (!by_mu) return false;
-  found.by_mu = std::move(*by_mu);
+  const auto at_parameter = [&](double m) -> std::optional<Vector> {
+    if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
+    return values_of(there, m);
+  };
+  if (const auto other = far_on_line(mu)) {
+    const auto far = at_parameter(*other), here = values_of(terms.at.base, mu);
+    if (!far || !here) return false;
+    found.by_mu = (*far - *here) / (*other - mu);
+    found.error = 0;
+  } else {
+    // A member of the family is dear: neighbours share those of a grid.
+    auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness, found.error);
+    if (!by_mu) return false;
+    found.by_mu = std::move(*by_mu);
+  }
   found.X = X;
   found.mu = mu;
   return true;

@@ -80,6 +80,8 @@ class Augmented {
     Vector by_mu{};    ///< of F, of those equations and of the last one
     double error = 0;  ///< expected of exact by_mu, relative
   };
+  /// Where the equations are affine in mu from here on, as the family knows.
+  std::optional<double> far_on_line(double mu) const;
   bool differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                    Differences& found) const;
   /// Exact ones at this place, or as near to it as the corrector comes.

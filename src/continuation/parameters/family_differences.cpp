@@ -52,11 +52,19 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
   const Index n = x.size();
   const double largest = V.lpNorm<Eigen::Infinity>();
   if (!(largest > 0)) return Vector::Zero(n + 1);
-  BaseTerms base;
+  const auto problem = family.at(mu);
+  if (!problem) return std::nullopt;
+  check_shape(*problem, n, piece);
+  Vector there, F, by_lambda;
+  Matrix by_x;
   const auto weighted = [&](double t) -> std::optional<Vector> {
-    if (!base_terms(family, x + t * V.head(n), lambda + t * V[n], mu, piece, base))
+    there = x + t * V.head(n);
+    if (!problem->equations(there, lambda + t * V[n], piece, F, by_x, by_lambda) || !all_finite(F))
       return std::nullopt;
-    return Vector(base.J.transpose() * w);
+    Vector value(n + 1);
+    value.head(n).noalias() = by_x.transpose() * w;
+    value[n] = by_lambda.dot(w);
+    return all_finite(value) ? std::optional<Vector>(std::move(value)) : std::nullopt;
   };
   if (exactness == Exactness::exact)
     return six_point_derivative(weighted, 0, directional_step / largest);
