@@ -1,0 +1,37 @@
+// One value of the parameter: its start, and what is made of it when it is asked for.
+#include "case_curves.hpp"
+
+namespace springfold::analysis {
+
+continuation::CurvePoint Member::start() const {
+  continuation::CurvePoint start;
+  start.x = problem->reduce(first.z);
+  start.lambda = setup.lambda_start;
+  start.piece = first.piece;
+  count_negative(*problem, start);
+  return start;
+}
+
+const std::vector<QuantityDefinition>& Member::quantities() const {
+  if (columns_of != nullptr) return columns_of->quantities();
+  if (quantities_.empty())
+    quantities_ = quantities_of(study, setup.system, setup.scales, setup.lambda_scale,
+                                lambda_unit_of(study, setup.system));
+  return quantities_;
+}
+
+const Evaluator& Member::evaluator() const {
+  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(*problem, study, setup.scales);
+  return *evaluator_;
+}
+
+void Member::forget_columns() {
+  evaluator_.reset();
+  quantities_.clear();
+}
+
+const QuantityDefinition* Member::quantity(const std::string& name) const {
+  return find_quantity(quantities(), name);
+}
+
+}  // namespace springfold::analysis
