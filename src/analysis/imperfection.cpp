@@ -52,6 +52,13 @@ bool PointLaws::breaks(std::size_t i) const {
   return gammas_[i].size() > 0 && gammas_[i].norm() > 0;
 }
 
+bool PointLaws::lacks_law() const {
+  if (point_->kind != EventKind::branch_point) return false;
+  for (std::size_t i = 0; i < rates_.size(); ++i)
+    if (!known_[i] || (breaks(i) && !imperfection_law(*form_, gammas_[i]))) return true;
+  return false;
+}
+
 std::vector<double> PointLaws::values(bool with_worst) const {
   std::vector<double> values;
   for (std::size_t i = 0; i < rates_.size(); ++i) {

@@ -19,6 +19,8 @@ class PointLaws {
   /// Per parameter exponent, coefficient and sign; then, if `with_worst`, exponent, coefficient and shape of the
   /// worst combination. In the order of law_columns(); NaN where the terms do not decide.
   std::vector<double> values(bool with_worst) const;
+  /// Is there a parameter that breaks the branch point, or may, and whose law the form does not give?
+  bool lacks_law() const;
 
  private:
   bool breaks(std::size_t i) const;

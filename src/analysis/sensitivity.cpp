@@ -79,6 +79,10 @@ void add_laws(const Study& study, const std::vector<PointLaws>& laws, BasePath& 
     result.quantities.push_back({name, Unit::none});
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const auto more = laws[k].values(has_worst(study));
+    const bool lawless = laws[k].lacks_law();
+    for (Event& event : path.branch.events)
+      if (lawless && event.label == path.points[k].label)
+        event.detail += "; its form to third order does not give the law of every imperfection";
     auto& values = path.branch.samples[path.points[k].row].values;
     values.insert(values.end(), more.begin(), more.end());
   }
