@@ -85,6 +85,7 @@ bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
     why_none_ = std::move(variant.problem);
     return false;
   }
+  if (variant.is_in_state) way = variant.way;
   member.study = as_curve(std::move(variant.study));
   mechanism = std::move(variant.mechanism);
   if (member.study.control == ControlMode::parameter) {
@@ -100,6 +101,10 @@ bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
   member.setup =
       set_up(mechanism, member.study, along ? &*along : nullptr,
              near == nullptr ? nullptr : &near->setup, again ? &member.setup.system : nullptr);
+  if (!variant.problem.empty()) {
+    member.report.message = std::move(variant.problem);
+    member.report.where = "start.from";
+  }
   return true;
 }
 
