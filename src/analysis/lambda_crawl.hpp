@@ -12,7 +12,7 @@ namespace springfold::analysis {
 /// lambda alone fills the arc length, and the curve would take a point for every tenth of a unit. A larger unit changes
 /// nothing where x responds: lengths are measured by x there. So the curve is begun again with one.
 /// Not without bounds: a curve may run to infinity, and where x responds the rate of lambda must stay clear of rounding.
-inline constexpr double largest_change_of_lambda_unit = 0x1p10;
+inline constexpr double largest_change_of_lambda_unit = 0x1p32;
 
 class LambdaCrawl {
  public:
