@@ -178,10 +178,19 @@ Arrival Arrivals::run(const ParameterChanges& changes) const {
   const StudyResult result =
       run_study(first.mechanism, first.study, first.family_or_none(), observer_);
   arrival.seconds += result.seconds;
-  arrival.problem = trouble_at(result, earlier.at);
+  std::string at = earlier.at;
+  if (result.equilibria && at != "start" && !changes.empty()) {
+    const auto own = this->at({});
+    if (own->problem.empty()) at = label_near(result, own->state);
+    if (at.empty())
+      arrival.problem = "study \"" + earlier.study.name +
+                        "\", from which it starts, has several equilibria that may be " +
+                        earlier.at;
+  }
+  if (arrival.problem.empty()) arrival.problem = trouble_at(result, at);
   if (!arrival.problem.empty()) return arrival;
-  arrival.state = state_at(result, earlier.at);
-  arrival.way = first.way + (first.way.empty() ? "" : "; ") + way_to(result, earlier.at);
+  arrival.state = state_at(result, at);
+  arrival.way = first.way + (first.way.empty() ? "" : "; ") + way_to(result, at);
   if (moves_parameter(first.study) && first.family) {
     const double value = arrival.state.at("lambda");
     Situation there = first.family->at(value);

@@ -1,6 +1,9 @@
 #include "history_state.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "setup.hpp"
 #include "springfold/analysis/snap.hpp"
@@ -168,6 +171,30 @@ NamedValues state_at(const StudyResult& result, const std::string& at) {
   for (std::size_t i = 0; i < std::min(values.size(), result.quantities.size()); ++i)
     state[result.quantities[i].name] = values[i];
   return state;
+}
+
+std::string label_near(const StudyResult& result, const NamedValues& state) {
+  constexpr double much_nearer = 0.25;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double least = none, next = none;
+  std::string nearest;
+  for (const Equilibrium& found : result.equilibria->list) {
+    if (found.label.empty()) continue;
+    double square = 0;
+    for (std::size_t i = 0; i < result.quantities.size(); ++i) {
+      const auto known = state.find(result.quantities[i].name);
+      if (known == state.end()) continue;
+      const double part = (found.sample.values[i] - known->second) / (1 + std::abs(known->second));
+      if (std::isfinite(part)) square += part * part;
+    }
+    if (square < least) {
+      next = std::exchange(least, square);
+      nearest = found.label;
+    } else {
+      next = std::min(next, square);
+    }
+  }
+  return std::sqrt(least) < much_nearer * std::sqrt(next) ? nearest : std::string{};
 }
 
 std::string way_to(const StudyResult& result, const std::string& at) {
