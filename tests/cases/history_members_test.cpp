@@ -207,7 +207,7 @@ threshold = { parameter = "d", range = [0, 0.3], value = "largest", of = "limit_
 }
 
 /// Fixed feet at half the span a: snaps from the limit load P to the other side.
-const std::string truss = R"toml([parameters]
+const std::string pressed_truss = R"toml([parameters]
 k = 100
 a = 0.9
 [[node]]
@@ -253,7 +253,7 @@ trace = { maximum_step = 0.2 }
 
 // The load P of the jump goes on acting: from the landing it takes 2 P to come back.
 TEST(HistoriesOfMembers, ACurveBeginsAtTheLandingOfAJump) {
-  const Ran ran = run(truss);
+  const Ran ran = run(pressed_truss);
   const StudyResult& back = ran.of("pull back");
   ASSERT_TRUE(analysis::complete(back)) << back.start.message;
   const auto& samples = back.branches.at(0).samples;
