@@ -47,6 +47,7 @@ void PointLaws::enter(const CaseCurves& curves, double rate) {
   // At a branch point the rate says nothing as long as the part that breaks the branch is not known to be zero.
   known_.push_back(!bends || gamma.size() > 0);
   gammas_.push_back(gamma);
+  laws_.push_back(breaks(laws_.size()) ? imperfection_law(*form_, gamma) : std::nullopt);
 }
 bool PointLaws::breaks(std::size_t i) const {
   return gammas_[i].size() > 0 && gammas_[i].norm() > 0;
@@ -55,7 +56,7 @@ bool PointLaws::breaks(std::size_t i) const {
 bool PointLaws::lacks_law() const {
   if (point_->kind != EventKind::branch_point) return false;
   for (std::size_t i = 0; i < rates_.size(); ++i)
-    if (!known_[i] || (breaks(i) && !imperfection_law(*form_, gammas_[i]))) return true;
+    if (!known_[i] || (breaks(i) && !laws_[i])) return true;
   return false;
 }
 
@@ -67,8 +68,7 @@ std::vector<double> PointLaws::values(bool with_worst) const {
       values.insert(values.end(), {known ? 1 : undefined, rates_[i], known ? 0 : undefined});
       continue;
     }
-    const auto law = imperfection_law(*form_, gammas_[i]);
-    if (law)
+    if (const auto& law = laws_[i])
       values.insert(values.end(), {law->exponent, law->coefficient * lambda_scale_,
                                    static_cast<double>(law->sign)});
     else

@@ -31,6 +31,8 @@ class PointLaws {
   bool tried_ = false;
   std::optional<continuation::ReducedForm> form_{};  ///< of limit and branch points
   std::vector<Vector> gammas_{};                     ///< per parameter; empty: not known
+  std::vector<std::optional<continuation::ImperfectionLaw>>
+      laws_{};  ///< per parameter that breaks the branch; nothing: the form gives none, or it does not break it
   std::vector<bool>
       known_{};  ///< per parameter: its part that breaks the branch is known, or not needed
   std::vector<double> rates_{};
