@@ -12,7 +12,7 @@ from programs import median
 POINTS = 200
 CUSP = (0.02958068452556, 0.04646511562177)  # stiffness and force, closed form
 LAST = -0.029523906987403  # force at the second limit point without springs
-LEAST = -1e-6  # where both end: just behind a stiffness of 0
+LEAST = -1e-6  # where AUTO ends: just behind a stiffness of 0, where springfold ends itself
 
 
 def auto_start(c, folder):
@@ -70,7 +70,7 @@ direction = [1, 1]
 start = {{ pose = [{p!r}, {p!r}], solve = "actuators" }}
 until = {{ deflection = [-0.05, 0.6] }}
 trace = {{ initial_step = 0.05, maximum_step = 0.05, spacing = "spacing" }}
-critical_curve = {{ of = "LP1", parameter = "Kv", range = [{LEAST!r}, 0.06] }}
+critical_curve = {{ of = "LP1", parameter = "Kv", range = [0, 0.06] }}
 """
 
 

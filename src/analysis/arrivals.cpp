@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "parameter_rules.hpp"
+
 namespace springfold::analysis {
 namespace {
 
@@ -125,13 +127,6 @@ Continued continued_with(const Arrivals& arrivals, const CaseStudy& of,
   return later;
 }
 
-/// What breaks the rules, where values of parameters make it so; empty: nothing.
-std::string broken_rule(const model::Mechanism& mechanism, const Study& study) {
-  std::vector<std::string> problems = model::problems_in(mechanism);
-  if (problems.empty()) problems = problems_in(study, mechanism);
-  return problems.empty() ? "" : problems.front();
-}
-
 }  // namespace
 
 Arrivals::Arrivals(History history, Observer observer)
@@ -218,6 +213,7 @@ std::shared_ptr<const CaseFamily> after(std::shared_ptr<const Arrivals> arrivals
                                         std::shared_ptr<const CaseFamily> cases,
                                         const Study& study) {
   auto family = std::make_shared<CaseFamily>(*cases);
+  family->moving = {};  // the state that it begins in moves too
   for (const auto& [number, value] : arrivals->at({})->moved) family->values[number] = value;
   std::optional<std::size_t> lambda;
   if (study.control == ControlMode::parameter && !is_of_commands(study.kind))

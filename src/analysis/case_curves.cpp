@@ -6,7 +6,6 @@
 
 #include "dimensionless_parts.hpp"
 #include "settle_units.hpp"
-#include "springfold/analysis/moving_case.hpp"
 #include "springfold/core/scaling.hpp"
 #include "springfold/statics/prepare_again.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
@@ -110,12 +109,12 @@ bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
 
 /// @param member  set up, not yet solved
 void CaseCurves::keep_pattern(const Member& member, model::Mechanism mechanism) const {
-  const auto* moving = study_.critical.cases->at.target<MovingCase>();
-  const model::MovedParts* parts = moving != nullptr ? moving->moved(parameter_) : nullptr;
+  const MovingCase& moving = study_.critical.cases->moving;
+  const model::MovedParts* parts = moving.moved ? moving.moved(parameter_) : nullptr;
   if (parts == nullptr || member.study.control == ControlMode::parameter ||
       counts_from_start(mechanism))
     return;
-  pattern_ = Pattern{std::move(mechanism), moving->put, member.study, member.setup,
+  pattern_ = Pattern{std::move(mechanism), moving.put, member.study, member.setup,
                      statics::places_of(member.setup.system, *parts)};
 }
 

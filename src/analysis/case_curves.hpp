@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "parameter_rules.hpp"
 #include "quantities.hpp"
 #include "setup.hpp"
 #include "springfold/analysis/result.hpp"
@@ -61,6 +62,9 @@ class CaseCurves {
   /// Why there is no start, where the last at(mu) gave nothing: in words.
   std::string why_none(double mu) const;
   continuation::Family family() const;
+  /// Where the parameter's range ends at rules for the case's numbers, and at which.
+  const RuledRange& rules() const { return rules_; }
+  void end_at_rules(RuledRange rules) { rules_ = std::move(rules); }
   /// A point of `member`'s curve on the given piece.
   static continuation::CurvePoint point_of(const continuation::CriticalPoint& point,
                                            const Piece& piece);
@@ -96,6 +100,7 @@ class CaseCurves {
   std::size_t parameter_ = 0;
   std::string name_{};
   double value_ = 0, scale_ = 1, lambda_unit_ = 1;
+  RuledRange rules_{};
   std::unique_ptr<Member> base_{};
   mutable std::optional<Pattern> pattern_{};
   struct Recent {

@@ -1,11 +1,9 @@
-// The study kind `critical_curve`, and what the kinds of two parameters have in common.
+// The study kind `critical_curve`.
 #include <algorithm>
 #include <cmath>
 
-#include "cpu_time.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
-#include "run_kinds.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -248,8 +246,10 @@ void mark_branch_point(const SpecialPoint& point, Branch& branch) {
   branch.events.insert(behind, std::move(event));
 }
 
-void run_curve(const CaseCurves& curves, const BasePath& path, const Study& study,
-               const Observer& observer, StudyResult& result) {
+}  // namespace
+
+void run_critical_curve(const CaseCurves& curves, const BasePath& path, const Study& study,
+                        const Observer& observer, StudyResult& result) {
   const Member& base = curves.base();
   const auto point =
       std::find_if(path.points.begin(), path.points.end(),
@@ -283,45 +283,6 @@ void run_curve(const CaseCurves& curves, const BasePath& path, const Study& stud
     result.start.found = false;
     result.start.message = point->label + ": " + critical_stop(followed.growing).reason;
   }
-}
-
-}  // namespace
-
-Study base_study(const Study& study) {
-  Study curve = study;
-  curve.kind = StudyKind::force_deflection;
-  return curve;
-}
-
-StudyResult run_critical(const Study& study, const Observer& observer) {
-  const double began = thread_seconds();
-  StudyResult result;
-  result.study = study.name;
-  if (study.kind == StudyKind::sensitivity) {
-    run_sensitivity(study, observer, result);
-  } else if (study.kind == StudyKind::design) {
-    run_design(study, observer, result);
-  } else {
-    const auto& names = study.critical.cases->names;
-    const auto number = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), study.critical.parameter) - names.begin());
-    const bool forward_only = study.kind != StudyKind::critical_curve;
-    const CurvesWithPath begun = curves_with_path(study, number, forward_only, observer);
-    const CaseCurves& curves = *begun.curves;
-    result.start = curves.base().report;
-    if (result.start.found) {
-      result.quantities = critical_quantities(curves);
-      result.lambda_unit = lambda_unit_of(curves.base().study, curves.base().setup.system);
-      if (study.kind == StudyKind::threshold)
-        run_threshold(curves, study, observer, result);
-      else if (study.kind == StudyKind::critical_load)
-        run_critical_load(curves, study, observer, result);
-      else
-        run_curve(curves, begun.path, study, observer, result);
-    }
-  }
-  result.seconds = thread_seconds() - began;
-  return result;
 }
 
 }  // namespace springfold::analysis

@@ -164,21 +164,30 @@ double most_rows(const CaseCurves& curves) {
 
 continuation::TraceOptions critical_options(const Study& study) { return options_of(study.trace); }
 
+std::string end_of_range(const CaseCurves& curves, int sense) {
+  RuledRange side = curves.rules();
+  (sense < 0 ? side.above : side.below).clear();
+  std::string text = std::string{"reaches its "} + (sense < 0 ? "lower" : "upper") + " limit";
+  for (const std::string& words : words_of_beyond(side, curves.name())) text += "; " + words;
+  return text;
+}
+
 std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study& study,
                                            const Piece& piece) {
   std::vector<CriticalEvent> events;
-  const auto limit = [&](const std::string& quantity, double low, double high) {
-    const auto end = [&](const std::string& which, double value, int inside) {
-      if (!std::isfinite(value)) return;
-      events.push_back(at_value(curves, quantity + " reaches its " + which + " limit", quantity,
-                                value, piece, EventAction::stop));
-      events.back().inside = inside;
-    };
-    end("lower", low, 1);
-    end("upper", high, -1);
+  const auto end = [&](const std::string& quantity, const std::string& what, double value,
+                       int inside) {
+    if (!std::isfinite(value)) return;
+    events.push_back(
+        at_value(curves, quantity + " " + what, quantity, value, piece, EventAction::stop));
+    events.back().inside = inside;
   };
-  limit(curves.name(), study.critical.low, study.critical.high);
-  for (const Limit& until : study.until) limit(until.quantity, until.low, until.high);
+  end(curves.name(), end_of_range(curves, -1), study.critical.low, 1);
+  end(curves.name(), end_of_range(curves, 1), study.critical.high, -1);
+  for (const Limit& until : study.until) {
+    end(until.quantity, "reaches its lower limit", until.low, 1);
+    end(until.quantity, "reaches its upper limit", until.high, -1);
+  }
   for (const Mark& mark : study.marks)
     events.push_back(
         at_value(curves, mark.quantity, mark.quantity, mark.value, piece, EventAction::record));

@@ -12,6 +12,9 @@ struct FollowedCurve {
   continuation::CriticalCurve falling{}, growing{};  ///< by the parameter, at first
 };
 
+/// "reaches its lower limit" (sense -1) or the upper one, of the parameter; the rule of the case that sets it, too.
+std::string end_of_range(const CaseCurves& curves, int sense);
+
 /// Limits of the study and of the parameter end the curve, marks are recorded.
 std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curves,
                                                          const Study& study, const Piece& piece);

@@ -9,6 +9,7 @@
 #include "critical_runs.hpp"
 #include "design_search.hpp"
 #include "first_unwanted.hpp"
+#include "parameter_rules.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -28,10 +29,34 @@ std::string bound_text(const FoundParameter& parameter) {
                                                 : "upper bound " + rounded(parameter.high, digits));
 }
 
+/// Bounds of each parameter no farther than the case may be given with it alone. What they measure by stays.
+/// @param left_out  gets what is left out, and by which rule
+Study within_rules(Study study, std::vector<std::string>& left_out) {
+  const CaseFamily& cases = *study.critical.cases;
+  for (DesignParameter& parameter : study.design.parameters) {
+    const auto at = std::find(cases.names.begin(), cases.names.end(), parameter.name);
+    const RuledRange rules = range_within_rules(
+        cases, static_cast<std::size_t>(at - cases.names.begin()), parameter.low, parameter.high);
+    if (!rules.is_cut()) continue;
+    for (std::string& text : words_of_cut(rules, parameter.name, parameter.low, parameter.high))
+      left_out.push_back(std::move(text));
+    const double value = cases.values[static_cast<std::size_t>(at - cases.names.begin())];
+    if (!(parameter.unit > 0) && value == 0) parameter.unit = parameter.high - parameter.low;
+    parameter.low = rules.low;
+    parameter.high = rules.high;
+  }
+  return study;
+}
+
 class Design {
  public:
-  Design(const Study& study, const Observer& observer, StudyResult& result)
-      : study_{study}, observer_{observer}, result_{result}, search_{study, observer} {}
+  Design(const Study& study, const std::vector<std::string>& left_out, const Observer& observer,
+         StudyResult& result)
+      : study_{study},
+        left_out_{left_out},
+        observer_{observer},
+        result_{result},
+        search_{study, observer} {}
 
   void run() {
     const DesignPath before(path_case(), search_.values(Vector::Zero(count())));
@@ -52,6 +77,10 @@ class Design {
     add_requirements(found);
     verify(found);
     say(found);
+    const bool is_met =
+        found.status == DesignStatus::met || found.status == DesignStatus::met_at_start;
+    if (is_met && !report_.verified) report_.message += ", not confirmed by tracing it again";
+    for (const std::string& text : left_out_) report_.message += "; " + text;
     report_.designs = search_.designs();
     add_columns(before.base());
     draw(search_.values(Vector::Zero(count())));
@@ -152,6 +181,7 @@ class Design {
         if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
     }
     doubt_unstable_start(found);
+    doubt_broken_rule(found);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
     if (!report_.verified)
@@ -168,6 +198,20 @@ class Design {
     if (modes && *modes > 0)
       result_.doubts.push_back(
           "the start of this design is unstable itself: stability is lost before the path begins");
+  }
+
+  /// Each parameter is within its bounds, but some rules are for several numbers.
+  void doubt_broken_rule(const FoundDesign& found) {
+    const Vector values = search_.values(found.changes);
+    const std::vector<std::size_t>& numbers = search_.requirements().designs().numbers;
+    std::vector<std::pair<std::size_t, double>> together;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      together.emplace_back(numbers[i], values[static_cast<Index>(i)]);
+    const Variant answer = study_.critical.cases->at(together);
+    const std::string rule = broken_rule(answer.mechanism, as_curve(answer.study));
+    if (rule.empty()) return;
+    report_.verified = false;
+    result_.doubts.push_back("a case with the values of this design may not be given: " + rule);
   }
 
   /// Why an answer is not confirmed.
@@ -274,6 +318,7 @@ class Design {
   }
 
   const Study& study_;
+  const std::vector<std::string>& left_out_;  ///< of the bounds
   const Observer& observer_;
   StudyResult& result_;
   DesignSearch search_;
@@ -297,7 +342,9 @@ std::string_view to_string(DesignStatus status) {
 }
 
 void run_design(const Study& study, const Observer& observer, StudyResult& result) {
-  Design(study, observer, result).run();
+  std::vector<std::string> left_out;
+  const Study within = within_rules(study, left_out);
+  Design(within, left_out, observer, result).run();
 }
 
 }  // namespace springfold::analysis

@@ -1,9 +1,12 @@
 #include "parameter_rules.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "frozen.hpp"
+#include "springfold/analysis/run.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -28,7 +31,114 @@ std::vector<double> values_of(const StudyResult& result, std::size_t lambda, dou
   return some;
 }
 
+/// Between the case's own value and an end of a range so many more are asked.
+constexpr int looks_between = 8;
+
+/// Rules of the case's numbers, for values of one parameter.
+class RulesOverParameter {
+ public:
+  RulesOverParameter(const CaseFamily& cases, std::size_t parameter)
+      : cases_{cases},
+        parameter_{parameter},
+        own_{cases.values[parameter]},
+        mechanism_{cases.at({{parameter, own_}}).mechanism},
+        in_place_{cases.moving.moved && cases.moving.moved(parameter) != nullptr} {}
+
+  double own() const { return own_; }
+  /// The first rule that is broken; empty: none.
+  std::string broken(double value) {
+    if (!in_place_ || !cases_.moving.put(parameter_, value, mechanism_))
+      mechanism_ = cases_.at({{parameter_, value}}).mechanism;
+    const std::vector<std::string> problems = model::problems_in(mechanism_);
+    return problems.empty() ? "" : problems.front();
+  }
+
+ private:
+  const CaseFamily& cases_;
+  std::size_t parameter_ = 0;
+  double own_ = 0;
+  model::Mechanism mechanism_{};
+  bool in_place_ = false;
+};
+
+/// The last value within the rules on the way from one that is to one that is not. Rules end at short numbers, mostly 0: such
+/// a one is taken before the one that halving finds.
+double end_of_rules(RulesOverParameter& rules, double good, double bad) {
+  constexpr double nearest = 0x1p-46;  // of the way
+  constexpr int digits = 12;
+  const double from = good, way = std::abs(bad - good);
+  while (std::abs(bad - good) > nearest * way) {
+    const double middle = good + 0.5 * (bad - good);
+    (rules.broken(middle).empty() ? good : bad) = middle;
+  }
+  double shortest = 0;
+  if (std::abs(good) > 2 * nearest * way) {
+    const std::string text = rounded(good, digits);
+    std::from_chars(text.data(), text.data() + text.size(), shortest);
+  }
+  const bool on_way =
+      (shortest - from) * (bad - from) >= 0 && std::abs(shortest - from) <= std::abs(bad - from);
+  return on_way && rules.broken(shortest).empty() ? shortest : good;
+}
+
+/// Towards one end. Empty: all the way to it.
+std::string cut_towards(RulesOverParameter& rules, double& end) {
+  double good = rules.own();
+  const double way = end - good;
+  for (int i = 1; i <= looks_between; ++i) {
+    const double value = i == looks_between ? end : rules.own() + way * i / looks_between;
+    std::string rule = rules.broken(value);
+    if (rule.empty()) {
+      good = value;
+      continue;
+    }
+    end = end_of_rules(rules, good, value);
+    return rule;
+  }
+  return {};
+}
+
 }  // namespace
+
+std::string broken_rule(const model::Mechanism& mechanism, const Study& study) {
+  std::vector<std::string> problems = model::problems_in(mechanism);
+  if (problems.empty()) problems = problems_in(study, mechanism);
+  return problems.empty() ? "" : problems.front();
+}
+
+RuledRange range_within_rules(const CaseFamily& cases, std::size_t parameter, double low,
+                              double high) {
+  RuledRange range{.low = low, .high = high};
+  RulesOverParameter rules(cases, parameter);
+  if (!rules.broken(rules.own()).empty()) return range;
+  if (low < rules.own()) range.below = cut_towards(rules, range.low);
+  if (high > rules.own()) range.above = cut_towards(rules, range.high);
+  return range;
+}
+
+std::vector<std::string> words_of_cut(const RuledRange& range, const std::string& parameter,
+                                      double low, double high) {
+  std::vector<std::string> words;
+  const auto say = [&](double from, double to, const std::string& rule) {
+    words.push_back(parameter + " = " + rounded(from) + " to " + rounded(to) +
+                    " is left out: the case may not be given there: " + rule);
+  };
+  if (!range.below.empty()) say(low, range.low, range.below);
+  if (!range.above.empty()) say(range.high, high, range.above);
+  return words;
+}
+
+std::vector<std::string> words_of_beyond(const RuledRange& range, const std::string& parameter) {
+  std::vector<std::string> words;
+  const auto say = [&](double from, const std::string& rule) {
+    if (!rule.empty())
+      words.push_back("beyond " + parameter + " = " + rounded(from) +
+                      " the case may not be given: " + rule);
+  };
+  say(range.low, range.below);
+  say(range.high, range.above);
+  return words;
+}
 
 void doubt_broken_rules(const Study& study, const ParameterFamily& family,
                         const std::vector<QuantityDefinition>& quantities, StudyResult& result) {

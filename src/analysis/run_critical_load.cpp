@@ -25,6 +25,7 @@ constexpr double at_degeneracy = 1e-5;
 /// Critical loads that differ by less are the same, relative to 1 + |lambda|.
 constexpr double same_load = 1e-8;
 constexpr int most_pieces = 200;
+constexpr const char* another_first = "from here on another critical point comes first, or none";
 
 /// A piece in one sense of the parameter, cut where it ends.
 struct Side {
@@ -101,8 +102,8 @@ class LoadsOverParameter {
     const double back = std::max(low_, from - at_degeneracy * width_);
     piece.falling = mu > low_ ? side_of(piece, mu, back, why) : Side{};
     if (!why.empty()) return doubt(mu, point.label + ": " + why), std::nullopt;
-    if (mu >= to) stand(piece, piece.growing, mu, "reaches its upper limit");
-    if (mu <= low_) stand(piece, piece.falling, mu, "reaches its lower limit");
+    if (mu >= to) stand(piece, piece.growing, mu, end_of_range(curves_, 1));
+    if (mu <= low_) stand(piece, piece.falling, mu, end_of_range(curves_, -1));
     return piece;
   }
 
@@ -194,6 +195,11 @@ class LoadsOverParameter {
       const double end = side.curve.hits.back().point.mu;
       // The end of the range itself, if that was reached: beyond what it was located to nothing is left of the range.
       side.end = std::abs(end - limit) <= closest_bracket * width_ ? limit : end;
+      // Between values of the range a piece is followed to where the next one begins.
+      if (side.end == limit && limit > low_ && limit < high_) {
+        side.curve.stop_detail = another_first;
+        side.curve.hits.back().name.clear();
+      }
     }
     verify(piece, side, mu, sense);
     return side;
@@ -294,7 +300,7 @@ class LoadsOverParameter {
     std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > last->s; });
     curve.hits.push_back({Degeneracy::user, "", *last});
     curve.stop = continuation::StopReason::event;
-    curve.stop_detail = "from here on another critical point comes first, or none";
+    curve.stop_detail = another_first;
     side.end = last->mu;
   }
 

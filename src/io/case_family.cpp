@@ -7,7 +7,6 @@
 #include "case_draft.hpp"
 #include "hold_draft.hpp"
 #include "moved_numbers.hpp"
-#include "springfold/analysis/moving_case.hpp"
 #include "springfold/core/overloaded.hpp"
 
 namespace springfold::io {
@@ -327,8 +326,8 @@ std::shared_ptr<const analysis::CaseFamily> cases_of(std::shared_ptr<const CaseD
   for (const Parameter& parameter : draft->parameters) family->names.push_back(parameter.name);
   family->values = parameters.values;
   const auto cases = std::make_shared<const CaseNumbers>(std::move(draft), study, run, parameters);
-  family->at = analysis::MovingCase{
-      .whole = [cases](const auto& values) { return cases->at(values); },
+  family->at = [cases](const auto& values) { return cases->at(values); };
+  family->moving = {
       .moved = [cases](std::size_t parameter) { return cases->moved_parts(parameter); },
       .put =
           [cases](std::size_t parameter, double value, model::Mechanism& mechanism) {

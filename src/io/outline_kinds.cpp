@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "map_figure.hpp"
+#include "nothing.hpp"
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/design.hpp"
@@ -158,10 +159,14 @@ std::string no_critical_words(const PlannedRun& planned, const StudyResult& resu
 std::string sensitivity_words(const PlannedRun& planned, const StudyResult& result) {
   std::string text;
   const std::string prefix = "d(lambda)/d(";
+  const std::vector<double> sizes = quantity_sizes(result);
   for (const Branch& branch : result.branches)
     for (const auto& event : branch.events) {
       if (event.kind == EventKind::end_of_range) continue;
-      const double lambda = value_at(result, branch, event.row, "lambda");
+      // 0 where it is nothing but rounding: there are no shares of that.
+      const auto column = column_of(result, "lambda");
+      const double lambda =
+          column ? shown_in(sizes, *column, branch.samples[event.row].values[*column]) : nothing;
       std::string most;
       double largest = 0;
       for (const auto& quantity : result.quantities) {

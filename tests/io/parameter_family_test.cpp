@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "case_files.hpp"
-#include "springfold/analysis/moving_case.hpp"
 
 namespace springfold::io {
 namespace {
@@ -159,13 +158,12 @@ start = { seed = "seed" }
 
 TEST_F(MovedNumbers, PutInPlaceAreThoseOfTheWholeCase) {
   const Case c = load(text());
-  const auto* moving = family(c).at.target<analysis::MovingCase>();
-  ASSERT_NE(moving, nullptr);
+  const analysis::MovingCase& moving = family(c).moving;
   for (const std::string name : {"k", "c", "pull"}) {
     const std::size_t number = number_of(c, name);
-    ASSERT_NE(moving->moved(number), nullptr) << name;
+    ASSERT_NE(moving.moved(number), nullptr) << name;
     model::Mechanism m = family(c).at({{number, 5}}).mechanism;
-    ASSERT_TRUE(moving->put(number, 0.7, m)) << name;
+    ASSERT_TRUE(moving.put(number, 0.7, m)) << name;
     const model::Mechanism whole = family(c).at({{number, 0.7}}).mechanism;
     expect_same(m, whole);
     EXPECT_EQ(m.chains[0].coupled_springs[0].stiffness,
@@ -178,10 +176,9 @@ TEST_F(MovedNumbers, PutInPlaceAreThoseOfTheWholeCase) {
 
 TEST_F(MovedNumbers, AreNotAllWhereAParameterMovesTheShapeOrTheStudy) {
   const Case c = load(text());
-  const auto* moving = family(c).at.target<analysis::MovingCase>();
-  ASSERT_NE(moving, nullptr);
+  const analysis::MovingCase& moving = family(c).moving;
   for (const std::string name : {"size", "seed"})
-    EXPECT_EQ(moving->moved(number_of(c, name)), nullptr) << name;
+    EXPECT_EQ(moving.moved(number_of(c, name)), nullptr) << name;
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "springfold/analysis/moving_case.hpp"
+
 namespace springfold::analysis {
 
 struct Variant;
@@ -20,6 +22,7 @@ struct CaseFamily {
   /// Mechanism and study where the parameters with these numbers have other values; parameters that
   /// are formulas of them follow. Several threads may call it.
   std::function<Variant(const std::vector<std::pair<std::size_t, double>>&)> at{};
+  MovingCase moving{};  ///< the same, of one parameter, where it moves few numbers
 };
 
 /// What a threshold rules out on the path from the start.
