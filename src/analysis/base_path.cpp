@@ -82,25 +82,26 @@ std::string column_of_extremum(const Study& study, const Hit& hit) {
   return {};
 }
 
-/// A column less its value at the special point.
+/// A column less its value at the special point. @param piece  on which states are taken
 continuation::StateFunction column_of(const CaseCurves& curves, const Member& member,
-                                      const SpecialPoint& point) {
+                                      const SpecialPoint& point, const Piece& piece) {
   const QuantityDefinition* quantity = member.quantity(point.hit.name);
   if (quantity == nullptr) return {};
-  const auto value_at = [name = point.hit.name, piece = point.hit.point.piece](
-                            const Member& at, const Vector& x, double lambda) {
+  const auto value_at = [name = point.hit.name](const Member& at, const Vector& x, double lambda,
+                                                const Piece& on) {
     const QuantityDefinition& q = *at.quantity(name);
-    return at.evaluator().value(q, {.x = x, .lambda = lambda, .piece = piece}) / q.scale;
+    return at.evaluator().value(q, {.x = x, .lambda = lambda, .piece = on}) / q.scale;
   };
-  double wanted = value_at(member, point.hit.point.x, point.hit.point.lambda);
+  const CurvePoint& here = point.hit.point;
+  double wanted = value_at(member, here.x, here.lambda, here.piece);
   for (const Mark& mark : member.study.marks)  // the mark itself, not what was located
     if (mark.quantity == quantity->name && std::abs(mark.value / quantity->scale - wanted) < 1e-9)
       wanted = mark.value / quantity->scale;
-  return [&curves, value_at, wanted](const Vector& x, double lambda,
-                                     double mu) -> std::optional<double> {
+  return [&curves, value_at, wanted, piece](const Vector& x, double lambda,
+                                            double mu) -> std::optional<double> {
     const Member* at = curves.at(mu);
     if (at == nullptr) return std::nullopt;
-    return value_at(*at, x, lambda) - wanted;
+    return value_at(*at, x, lambda, piece) - wanted;
   };
 }
 
@@ -207,6 +208,15 @@ CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool 
   }
 }
 
+continuation::StateFunction marked_value_on(const CaseCurves& curves, const Member& member,
+                                            const SpecialPoint& point, const Piece& piece) {
+  const Hit& hit = point.hit;
+  if (hit.tag != column_extremum) return column_of(curves, member, point, piece);
+  CurvePoint there = hit.point;
+  there.piece = piece;
+  return column_rate_of(curves, there, column_of_extremum(member.study, hit));
+}
+
 std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Member& member,
                                             const SpecialPoint& point, std::string& why) {
   const Hit& hit = point.hit;
@@ -236,9 +246,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return start;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;
-      start.value = hit.tag == column_extremum
-                        ? column_rate_of(curves, hit.point, column_of_extremum(member.study, hit))
-                        : column_of(curves, member, point);
+      start.value = marked_value_on(curves, member, point, hit.point.piece);
       if (start.value) return start;
       break;
     default:

@@ -47,6 +47,10 @@ struct CurvesWithPath {
 CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool forward_only,
                                 const Observer& observer);
 
+/// What is zero at a marked value, or at the extremum of a column, as a function of states on a piece. Empty: no such column.
+continuation::StateFunction marked_value_on(const CaseCurves& curves, const Member& member,
+                                            const SpecialPoint& point, const Piece& piece);
+
 /// How the engine follows this special point; nothing for kinds that cannot be followed (`why` says it).
 std::optional<continuation::CriticalStart> critical_start(const CaseCurves& curves,
                                                           const Member& member,

@@ -1,9 +1,11 @@
 // The study kind `critical_curve`.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "springfold/continuation/imperfection.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
 
@@ -19,6 +21,13 @@ std::string list_of(const BasePath& path) {
   std::string names;
   for (const SpecialPoint& point : path.points) names += (names.empty() ? "" : ", ") + point.label;
   return names.empty() ? "none" : names;
+}
+
+/// Does the parameter keep the branch point, to first and to second order?
+bool is_kept(const continuation::Family& family, const continuation::CriticalStart& start) {
+  if (!critical_rate(family, start)) return false;
+  const auto force = second_order_force(family, start);
+  return !force || force->lpNorm<Eigen::Infinity>() == 0;
 }
 
 /// A parameter that breaks the branch makes limit points of its branch point: their curve leads through it.
@@ -87,12 +96,19 @@ void end_at_last_reversal(CriticalCurve& curve) {
 }
 
 /// Limit points go on beyond another spring's threshold: as corners at it, as long as lambda turns back there, and from where
-/// it no longer does as limit points of the piece behind.
+/// it no longer does as limit points of the piece behind. Marked values go on as the same on the piece behind.
 class Beyond {
  public:
-  Beyond(const CaseCurves& curves, const Study& study, const Observer& observer,
+  using ValueOn = std::function<continuation::StateFunction(const Piece&)>;
+
+  /// @param value_on  of a marked value
+  Beyond(const CaseCurves& curves, const Study& study, const Observer& observer, ValueOn value_on,
          StudyResult& result)
-      : curves_{curves}, study_{base_study(study)}, observer_{observer}, result_{result} {}
+      : curves_{curves},
+        study_{base_study(study)},
+        observer_{observer},
+        value_on_{std::move(value_on)},
+        result_{result} {}
 
   /// Pieces behind one end of a curve of limit points. @param other  what ends its other side
   /// @returns whether they come round to the other end
@@ -105,7 +121,7 @@ class Beyond {
       const std::string end = last.growing.stop_detail;
       if (std::none_of(begins.begin(), begins.end(),
                        [&](const auto& begin) { return take_way(begin, last); })) {
-        result_.doubts.push_back("no limit points were found behind: " + end);
+        result_.doubts.push_back("nothing was found to go on behind: " + end);
         return false;
       }
       const auto& hits = last.growing.hits;
@@ -147,6 +163,12 @@ class Beyond {
     next.behind = next.piece;
     auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
     behind = static_cast<std::int8_t>(-behind);
+    if (last.start.kind == continuation::CriticalKind::zero) {
+      next.kind = continuation::CriticalKind::zero;
+      next.piece = next.behind;
+      next.value = value_on_(next.piece);
+      return {next};
+    }
     continuation::CriticalStart same = next;
     same.kind = continuation::CriticalKind::limit_point;
     same.piece = next.behind;
@@ -164,15 +186,15 @@ class Beyond {
       if (!point) continue;
       next.x = point->x;
       next.lambda = point->lambda;
-      if (!is_limit_point(next)) continue;
+      if (!is_there(next)) continue;
       follow_on(start, next, way > 0, last);
       return true;
     }
     return false;
   }
 
-  /// Does lambda turn back at the corner, or does the limit point lie where its piece holds?
-  bool is_limit_point(const continuation::CriticalStart& at) const {
+  /// Does lambda turn back at the corner, or does the point lie where its piece holds?
+  bool is_there(const continuation::CriticalStart& at) const {
     const Member& member = *curves_.at(at.mu);
     const Index j = at.switching;
     if (at.kind == continuation::CriticalKind::surface)
@@ -189,7 +211,8 @@ class Beyond {
     const auto observe = [&](const CriticalPoint& p) { return !observer_ || observer_(0, p.s); };
     const continuation::FurtherPoints further{.spacing = study_.trace.spacing,
                                               .most = most_rows(curves_)};
-    FollowedCurve piece{.start = next, .of = EventKind::limit_point};
+    FollowedCurve piece{.start = next, .of = last.of};
+    if (next.kind == continuation::CriticalKind::limit_point) piece.of = EventKind::limit_point;
     CriticalCurve& curve = piece.growing;
     curve = follow_critical(curves_.family(), next, growing, events, critical_options(study_),
                             observe, further);
@@ -210,7 +233,9 @@ class Beyond {
     piece.falling.points.assign(
         curve.points.begin(), curve.points.empty() ? curve.points.end() : curve.points.begin() + 1);
     piece.falling.stop = continuation::StopReason::event;
-    piece.falling.stop_detail = "goes on from: " + last.growing.stop_detail;
+    piece.falling.stop_detail = "goes on from: " + (next.kind == continuation::CriticalKind::zero
+                                                        ? std::string{"a spring switches here"}
+                                                        : last.growing.stop_detail);
     for (std::string& doubt : doubts_of(curves_, study_, piece))
       result_.doubts.push_back(std::move(doubt));
     result_.branches.push_back(rows_of(curves_, piece));
@@ -220,14 +245,20 @@ class Beyond {
   const CaseCurves& curves_;
   Study study_;
   const Observer& observer_;
+  ValueOn value_on_;
   StudyResult& result_;
 };
 
 /// Behind both ends; a closed chain of pieces is followed once.
 void go_on_beyond(const CaseCurves& curves, const Study& study, const FollowedCurve& followed,
-                  const Observer& observer, StudyResult& result) {
-  if (followed.start.kind != continuation::CriticalKind::limit_point) return;
-  Beyond beyond(curves, study, observer, result);
+                  const SpecialPoint& point, const Observer& observer, StudyResult& result) {
+  const bool is_marked = followed.start.kind == continuation::CriticalKind::zero &&
+                         point.kind == EventKind::user_value;
+  if (followed.start.kind != continuation::CriticalKind::limit_point && !is_marked) return;
+  const auto value_on = [&](const Piece& piece) {
+    return marked_value_on(curves, curves.base(), point, piece);
+  };
+  Beyond beyond(curves, study, observer, value_on, result);
   const auto& other = followed.falling.hits;
   if (!beyond.follow(followed.start, followed.growing, other.empty() ? nullptr : &other.back()))
     beyond.follow(followed.start, followed.falling, nullptr);
@@ -269,12 +300,12 @@ void run_critical_curve(const CaseCurves& curves, const BasePath& path, const St
   FollowedCurve followed =
       follow_both_ways(curves, base_study(study), *start, point->kind, observer);
   const bool is_broken = start->kind == continuation::CriticalKind::branch_point &&
-                         start->corank == 1 && !followed.growing.kept &&
-                         !critical_rate(curves.family(), *start);
+                         start->corank == 1 && !(followed.growing.kept && followed.falling.kept) &&
+                         !is_kept(curves.family(), *start);
   if (is_broken) followed = limit_points_through(curves, study, *start, observer);
   result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
-  go_on_beyond(curves, study, followed, observer, result);
+  go_on_beyond(curves, study, followed, *point, observer, result);
   if (is_broken && !result.branches.front().samples.empty())
     mark_branch_point(*point, result.branches.front());
   label_critical(result.branches);

@@ -256,6 +256,9 @@ std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
   return columns;
 }
 
+/// Marked values and extrema of columns are ordinary points of their path: where a spring switches at one, nothing else happens.
+bool is_marked(EventKind of) { return of == EventKind::user_value || of == EventKind::extremum; }
+
 EventKind kind_of(Degeneracy kind, EventKind of) {
   switch (kind) {
     case Degeneracy::cusp:
@@ -271,8 +274,7 @@ EventKind kind_of(Degeneracy kind, EventKind of) {
     case Degeneracy::corank_two:
       return EventKind::more_modes;
     case Degeneracy::fold_meets_activation:
-      return of == EventKind::user_value ? EventKind::two_activations
-                                         : EventKind::fold_meets_activation;
+      return is_marked(of) ? EventKind::switching : EventKind::fold_meets_activation;
     case Degeneracy::corner_loses_reversal:
       return EventKind::corner_loses_reversal;
     case Degeneracy::touches_surface:
@@ -327,7 +329,8 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
                 .row = branch.samples.size() - 1};
     if (rows[i].hit != nullptr && (!is_edge || rows[i].hit->kind != Degeneracy::user)) {
       event.kind = kind_of(rows[i].hit->kind, followed.of);
-      event.detail = detail_of(*rows[i].hit);
+      event.detail =
+          event.kind == EventKind::switching ? "a spring switches here" : detail_of(*rows[i].hit);
     }
     event.rates_before.assign(branch.samples.back().values.size(),
                               std::numeric_limits<double>::quiet_NaN());

@@ -88,6 +88,9 @@ double Evaluator::value(const QuantityDefinition& q, const continuation::CurvePo
 double Evaluator::value_at(const QuantityDefinition& q, const continuation::CurvePoint& point,
                            const State& state) const {
   const auto system = [&]() -> const statics::System& { return problem_.system(point.lambda); };
+  // On the piece of the point: what is differenced must not change segments on the way.
+  const Piece* const piece =
+      point.piece.size() == system().switches.size() ? &point.piece : nullptr;
   switch (q.kind) {
     case Kind::arc_length:
       return point.s;
@@ -102,14 +105,16 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
     case Kind::command:
       return q.scale * state.inputs.rho[q.entry];
     case Kind::energy:
-      return q.scale * spring_energy(system(), state.z, state.inputs.rho);
+      return q.scale * (piece != nullptr
+                            ? spring_energy(system(), *piece, state.z, state.inputs.rho)
+                            : spring_energy(system(), state.z, state.inputs.rho));
     case Kind::point:
     case Kind::spring_length:
     case Kind::spring_force:
     case Kind::shape_value:
     case Kind::shape_own:
     case Kind::shape_force:
-      return point_quantity(system(), q, state.z, state.inputs).value_or(undefined);
+      return point_quantity(system(), q, state.z, state.inputs, piece).value_or(undefined);
     case Kind::index:
     case Kind::index_force:
       return point.negative ? static_cast<double>(*point.negative - problem_.closures())

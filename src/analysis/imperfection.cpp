@@ -8,6 +8,9 @@
 namespace springfold::analysis {
 namespace {
 
+/// A rate below this share of a law's coefficient is rounding.
+constexpr double no_rate = 1e-9;
+
 /// The branch point to rounding.
 continuation::CriticalStart polished(const CaseCurves& curves, const Member& base,
                                      const SpecialPoint& point) {
@@ -30,8 +33,9 @@ continuation::CriticalStart polished(const CaseCurves& curves, const Member& bas
 
 }  // namespace
 
-void PointLaws::enter(const CaseCurves& curves, double rate) {
+bool PointLaws::enter(const CaseCurves& curves, double rate) {
   rates_.push_back(rate);
+  squares_.push_back(false);
   Vector gamma;
   const Member& base = curves.base();
   lambda_scale_ = base.setup.lambda_scale;
@@ -48,6 +52,33 @@ void PointLaws::enter(const CaseCurves& curves, double rate) {
   known_.push_back(!bends || gamma.size() > 0);
   gammas_.push_back(gamma);
   laws_.push_back(breaks(laws_.size()) ? imperfection_law(*form_, gamma) : std::nullopt);
+  const bool is_kept = bends && form_ && known_.back() && !breaks(laws_.size() - 1);
+  return !is_kept || enter_second_order(curves);
+}
+
+/// With e = m^2 in the laws of (o): where branches cross the load falls by C |m| about what the branch point would do, with
+/// both signs; the pitchfork's |m|^(4/3) comes behind a rate, where there is one.
+bool PointLaws::enter_second_order(const CaseCurves& curves) {
+  const auto force = second_order_force(curves.family(), polished(curves, curves.base(), *point_));
+  if (!force || force->lpNorm<Eigen::Infinity>() == 0) return true;
+  const Vector gamma = form_->W.transpose() * *force / (curves.scale() * curves.scale());
+  const double rate = rates_.back() / lambda_scale_;
+  auto law = gamma.size() == 1 ? imperfection_law(*form_, gamma) : std::nullopt;
+  const bool is_pitchfork = is_symmetric_point(*form_);
+  if (is_pitchfork && law && std::abs(rate) > no_rate * std::abs(law->coefficient)) return true;
+  squares_.back() = true;
+  if (law && is_pitchfork) {
+    law->exponent *= 2;
+  } else if (law && law->sign > 0) {
+    const double falls = towards() * rate;
+    const bool is_even = std::abs(rate) <= no_rate * law->coefficient;
+    law = {2 * law->exponent, law->coefficient + std::abs(rate),
+           is_even ? 0 : (falls < 0 ? 1 : -1)};
+  } else {
+    law.reset();  // of any sign the bend is only smoothed, or more than one mode vanishes
+  }
+  laws_.back() = law;
+  return is_pitchfork;
 }
 bool PointLaws::breaks(std::size_t i) const {
   return gammas_[i].size() > 0 && gammas_[i].norm() > 0;
@@ -56,14 +87,14 @@ bool PointLaws::breaks(std::size_t i) const {
 bool PointLaws::lacks_law() const {
   if (point_->kind != EventKind::branch_point) return false;
   for (std::size_t i = 0; i < rates_.size(); ++i)
-    if (!known_[i] || (breaks(i) && !laws_[i])) return true;
+    if (!known_[i] || ((breaks(i) || squares_[i]) && !laws_[i])) return true;
   return false;
 }
 
 std::vector<double> PointLaws::values(bool with_worst) const {
   std::vector<double> values;
   for (std::size_t i = 0; i < rates_.size(); ++i) {
-    if (!breaks(i)) {
+    if (!breaks(i) && !squares_[i]) {
       const bool known = known_[i] && !std::isnan(rates_[i]);
       values.insert(values.end(), {known ? 1 : undefined, rates_[i], known ? 0 : undefined});
       continue;
@@ -110,7 +141,7 @@ void PointLaws::put_worst(std::vector<double>& values) const {
       values[at + 2 + i] = worst->shape[static_cast<Index>(i)];
     return;
   }
-  if (!(slope > 0)) return;
+  if (!(slope > 0) || std::find(squares_.begin(), squares_.end(), true) != squares_.end()) return;
   // A load that is reached from below is lowered down the gradient, one from above up the gradient; C of the law
   // is what is lost, as for all other exponents.
   const double way = towards();

@@ -15,7 +15,8 @@ class PointLaws {
   explicit PointLaws(const SpecialPoint& point) : point_{&point} {}
 
   /// @param rate  d(lambda)/d(parameter); NaN where the point is not followed
-  void enter(const CaseCurves& curves, double rate);
+  /// @returns false where lambda has no rate although the point has one to first order
+  bool enter(const CaseCurves& curves, double rate);
   /// Per parameter exponent, coefficient and sign; then, if `with_worst`, exponent, coefficient and shape of the
   /// worst combination. In the order of law_columns(); NaN where the terms do not decide.
   std::vector<double> values(bool with_worst) const;
@@ -24,6 +25,8 @@ class PointLaws {
 
  private:
   bool breaks(std::size_t i) const;
+  /// Of a parameter that keeps the branch point to first order.
+  bool enter_second_order(const CaseCurves& curves);
   double towards() const;
   void put_worst(std::vector<double>& values) const;
 
@@ -36,6 +39,7 @@ class PointLaws {
   std::vector<bool>
       known_{};  ///< per parameter: its part that breaks the branch is known, or not needed
   std::vector<double> rates_{};
+  std::vector<bool> squares_{};  ///< per parameter: its square breaks the branch
   double lambda_scale_ = 1;
 };
 

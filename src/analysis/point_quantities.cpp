@@ -46,8 +46,13 @@ void add_point_quantities(const statics::System& system, const Scales& scales,
 }
 
 std::optional<double> point_quantity(const statics::System& system, const QuantityDefinition& q,
-                                     const Vector& z, const statics::Inputs& inputs) {
+                                     const Vector& z, const statics::Inputs& inputs,
+                                     const Piece* piece) {
   const auto entry = static_cast<std::size_t>(q.entry);
+  const auto shape_state = [&] {
+    return piece == nullptr ? statics::shape_state(system, entry, z, inputs)
+                            : statics::shape_state(system, *piece, entry, z, inputs);
+  };
   switch (q.kind) {
     case Kind::point:
       return q.scale * statics::position_of(system, entry / 3, z, inputs.rho)[q.entry % 3];
@@ -56,11 +61,11 @@ std::optional<double> point_quantity(const statics::System& system, const Quanti
     case Kind::spring_force:
       return q.scale * statics::line_spring_state(system, entry, z, inputs.rho).force;
     case Kind::shape_value:
-      return q.scale * statics::shape_state(system, entry, z, inputs).value;
+      return q.scale * shape_state().value;
     case Kind::shape_own:
-      return q.scale * statics::shape_state(system, entry, z, inputs).own;
+      return q.scale * shape_state().own;
     case Kind::shape_force:
-      return q.scale * statics::shape_state(system, entry, z, inputs).slope;
+      return q.scale * shape_state().slope;
     default:
       return std::nullopt;
   }

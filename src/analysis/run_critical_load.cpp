@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -32,6 +34,7 @@ struct Side {
   CriticalCurve curve{};
   double end = 0;
   std::optional<Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
+  bool stops = false;                   ///< it could not be followed beyond
   bool jumps = false;  ///< it goes on, but another point comes first, or it is not reached
 };
 
@@ -125,8 +128,10 @@ class LoadsOverParameter {
       const FirstUnwanted& first = first_at(mu);
       auto piece = first.point ? piece_of(*first.point, mu, from, to) : std::nullopt;
       if (!piece) return;
+      const bool stands = piece->growing.stops && piece->growing.end - mu <= at_degeneracy * width_;
       from = std::max(mu, piece->growing.end);
       add(std::move(*piece));
+      if (stands) return;
     }
   }
 
@@ -139,8 +144,10 @@ class LoadsOverParameter {
       const FirstUnwanted& first = first_at(mu);
       auto piece = first.point ? piece_of(*first.point, mu, from, to) : std::nullopt;
       if (!piece) break;
+      const bool stands = piece->falling.stops && mu - piece->falling.end <= at_degeneracy * width_;
       to = std::min(mu, piece->falling.end);
       found.push_back(std::move(*piece));
+      if (stands) break;
     }
     std::for_each(found.rbegin(), found.rend(),
                   [this](LoadPiece& piece) { add(std::move(piece)); });
@@ -186,7 +193,8 @@ class LoadsOverParameter {
                                    [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     if (turn == side.curve.hits.end() && side.curve.stop != continuation::StopReason::event) {
       why = side.curve.stop_detail;
-      return {};
+      if (side.curve.points.size() < 2) return {};
+      return stopped(piece, std::move(side), mu, sense, std::exchange(why, {}));
     }
     if (turn != side.curve.hits.end()) {
       side.decides = turn->kind;
@@ -203,6 +211,20 @@ class LoadsOverParameter {
     }
     verify(piece, side, mu, sense);
     return side;
+  }
+
+  /// A side that could not be followed to an end is known as far as it came.
+  Side stopped(const LoadPiece& piece, Side side, double mu, double sense, const std::string& why) {
+    const CriticalPoint last = side.curve.points.back();
+    doubt(last.mu, piece_name(piece) + " could not be followed beyond: " + why);
+    side.end = last.mu;
+    side.stops = true;
+    verify(piece, side, mu, sense);
+    return side;
+  }
+
+  static std::string piece_name(const LoadPiece& piece) {
+    return std::string{"the piece of "} + code_of(piece.of);
   }
 
   /// Cuts a side at one of its special points.
@@ -239,33 +261,9 @@ class LoadsOverParameter {
   bool is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
     const FirstUnwanted& first = first_at(mu);
     if (!first.point || first.point->kind != piece.of) return false;
-    const auto here = on_curve(piece.start, curve, mu);
+    const auto here = point_of_curve(curves_, piece.start, curve, mu, at_degeneracy * width_);
     const double lambda = first.point->hit.point.lambda;
     return here && std::abs(here->lambda - lambda) <= same_load * (1 + std::abs(lambda));
-  }
-
-  /// The critical point at this value, between two points of its curve.
-  std::optional<CriticalPoint> on_curve(const CriticalStart& of, const CriticalCurve& curve,
-                                        double mu) const {
-    std::vector<CriticalPoint> points = curve.points;
-    for (const CriticalHit& hit : curve.hits) points.push_back(hit.point);
-    std::stable_sort(points.begin(), points.end(),
-                     [](const CriticalPoint& a, const CriticalPoint& b) { return a.s < b.s; });
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const CriticalPoint &a = points[i], &b = points[i + 1];
-      const bool behind_all =
-          i + 2 == points.size() && std::abs(b.mu - mu) <= at_degeneracy * width_;
-      if ((a.mu - mu) * (b.mu - mu) > 0 && !behind_all) continue;
-      const double part = b.mu == a.mu ? 0 : (mu - a.mu) / (b.mu - a.mu);
-      CriticalStart start = of;
-      start.x = a.x + part * (b.x - a.x);
-      start.lambda = a.lambda + part * (b.lambda - a.lambda);
-      start.mu = mu;
-      auto found = polish_critical(curves_.family(), start);
-      if (found) found->s = a.s + part * (b.s - a.s);
-      return found;
-    }
-    return std::nullopt;
   }
 
   /// The critical point comes first at `good` and does not at `bad`.
@@ -290,17 +288,9 @@ class LoadsOverParameter {
   }
 
   void cut(const CriticalStart& start, Side& side, double mu) const {
-    CriticalCurve& curve = side.curve;
-    const auto last = on_curve(start, curve, mu);
+    const auto last = point_of_curve(curves_, start, side.curve, mu, at_degeneracy * width_);
     if (!last) return;
-    std::erase_if(curve.hits, [](const CriticalHit& hit) {  // where it was cut before
-      return hit.kind == Degeneracy::user && hit.name.empty();
-    });
-    std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last->s; });
-    std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > last->s; });
-    curve.hits.push_back({Degeneracy::user, "", *last});
-    curve.stop = continuation::StopReason::event;
-    curve.stop_detail = another_first;
+    end_curve_at(*last, another_first, side.curve);
     side.end = last->mu;
   }
 

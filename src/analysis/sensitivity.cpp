@@ -166,8 +166,10 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
     std::string lost;
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const SpecialPoint& point = path.points[k];
-      const auto rates = rates_at_special(curves, base, point, column_values(columns));
-      laws[k].enter(curves, rates ? (*rates)[static_cast<Index>(lambda)] : undefined);
+      auto rates = rates_at_special(curves, base, point, column_values(columns));
+      const bool has_rates =
+          laws[k].enter(curves, rates ? (*rates)[static_cast<Index>(lambda)] : undefined);
+      if (!has_rates) rates.reset();
       if (!rates || std::isnan((*rates)[0])) lost += (lost.empty() ? "" : ", ") + point.label;
       auto& values = path.branch.samples[point.row].values;
       for (std::size_t i = 0; i < columns.size(); ++i)

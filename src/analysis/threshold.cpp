@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "branch_rows.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -20,6 +22,12 @@ using continuation::CriticalPoint;
 /// another point there that a path does not tell them apart.
 constexpr double traced_beside = 1e-6;
 constexpr std::array<double, 3> distances_traced{traced_beside, 1e-5, 1e-4};
+/// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts of it,
+/// the place where that begins is bracketed.
+constexpr int values_between = 16;
+constexpr double closest_bracket = 1e-12;
+/// What lies as near on the curve, in parts of the range, decides.
+constexpr double at_degeneracy = 1e-5;
 /// Pieces of the boundary that are followed one after the other.
 constexpr int most_boundary_pieces = 40;
 
@@ -100,19 +108,75 @@ class Threshold {
     }
     if (curve.stop == continuation::StopReason::observer)
       curve.stop = continuation::StopReason::event;
-    const CriticalPoint& last = end == curve.hits.end() ? curve.hits.back().point : end->point;
+    const bool at_range = end == curve.hits.end() &&
+                          curve.stop_detail.starts_with(study_.critical.parameter + " reaches");
+    CriticalPoint last = end == curve.hits.end() ? curve.hits.back().point : end->point;
     decides_ = end == curve.hits.end() ? curve.stop_detail : std::string{to_string(end->kind)};
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
+    const std::optional<double> clear = clear_before(mu, last.mu, at_range);
+    if (clear) end_where_clear(*clear, followed, last);
     followed.falling.points = {curve.points.front()};
     followed.falling.stop = continuation::StopReason::event;
     followed.falling.stop_detail = "begins at " + bad.label;
     result_.branches.push_back(rows_of(curves_, followed));
     last_ = last.mu;
     ended_on_ = bad;
-    const bool at_range = end == curve.hits.end() &&
-                          curve.stop_detail.starts_with(study_.critical.parameter + " reaches");
-    if (at_range) none(bad.label);
-    return !at_range;
+    if (at_range && !clear) none(bad.label);
+    return !at_range || clear;
+  }
+
+  /// The point that is followed may leave the path from the start, as where branches cross: then nothing unwanted happens
+  /// from there on. The path is traced at values between. @returns where, nothing if it happens at all of them
+  std::optional<double> clear_before(double from, double to, bool at_end) {
+    const std::string told = std::exchange(why_, {});
+    double bad = from;
+    std::optional<double> clear;
+    for (int i = 1; i <= values_between && !clear; ++i) {
+      const double value = i == values_between ? to : from + (to - from) * i / values_between;
+      if (value == to && !at_end) break;
+      const bool happens = unwanted_at(value).has_value();
+      if (!happens && why_.empty()) clear = value;
+      if (happens) bad = value;
+      why_.clear();
+    }
+    while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
+      const double middle = bad + 0.5 * (*clear - bad);
+      const bool happens = unwanted_at(middle).has_value() || !why_.empty();
+      (happens ? bad : *clear) = middle;
+      why_.clear();
+    }
+    why_ = told;
+    return clear;
+  }
+
+  /// The point of a curve whose parameter comes nearest to a value before it.
+  CriticalPoint nearest_before(const CriticalCurve& curve, double mu) const {
+    CriticalPoint nearest = curve.points.front();
+    const auto see = [&](const CriticalPoint& p) {
+      if (towards_ * (mu - p.mu) >= 0 && std::abs(p.mu - mu) < std::abs(nearest.mu - mu))
+        nearest = p;
+    };
+    for (const CriticalPoint& p : curve.points) see(p);
+    for (const CriticalHit& hit : curve.hits) see(hit.point);
+    return nearest;
+  }
+
+  /// @param last  becomes the curve's last point
+  void end_where_clear(double clear, FollowedCurve& followed, CriticalPoint& last) {
+    CriticalCurve& curve = followed.growing;
+    const double range = std::abs(study_.critical.high - study_.critical.low) / curves_.scale();
+    const auto near = std::find_if(curve.hits.begin(), curve.hits.end(), [&](const auto& hit) {
+      return hit.kind != continuation::Degeneracy::user &&
+             hit.kind != continuation::Degeneracy::extremum &&
+             std::abs(hit.point.mu - clear) <= at_degeneracy * range;
+    });
+    decides_ = near != curve.hits.end() ? std::string{to_string(near->kind)}
+                                        : "the path from the start no longer comes to it";
+    // Where branches cross the point is singular: the nearest one that is known stands for it.
+    last = point_of_curve(curves_, followed.start, curve, clear, 0)
+               .value_or(nearest_before(curve, clear));
+    last.mu = clear;
+    end_curve_at(last, decides_, curve);
   }
 
   void none(const std::string& piece) {

@@ -174,12 +174,11 @@ LineSpringState line_spring_state(const System& system, std::size_t spring, cons
   return {length, s.stiffness * (length - s.free)};
 }
 
-double spring_energy(const System& system, const Vector& z, const Vector& rho) {
+namespace {
+
+/// Of the springs that do not switch.
+double energy_of_linear_springs(const System& system, const Vector& z, const Vector& rho) {
   double energy = 0;
-  for (const CoordinateSpring& spring : system.springs) {
-    const double c = z[spring.coordinate];
-    energy += spring.law.energy(spring.law.segment_at(c), c);
-  }
   for (const CoordinateGroup& group : system.coupled) {
     const Vector q = z(group.coordinates) - group.free;
     energy += 0.5 * q.dot(group.stiffness * q);
@@ -189,7 +188,26 @@ double spring_energy(const System& system, const Vector& z, const Vector& rho) {
     const double stretch = line_spring_state(system, i, z, rho).length - spring.free;
     energy += 0.5 * spring.stiffness * stretch * stretch;
   }
+  return energy;
+}
+
+}  // namespace
+
+double spring_energy(const System& system, const Vector& z, const Vector& rho) {
+  double energy = energy_of_linear_springs(system, z, rho);
+  for (const CoordinateSpring& spring : system.springs) {
+    const double c = z[spring.coordinate];
+    energy += spring.law.energy(spring.law.segment_at(c), c);
+  }
   if (!system.shapes.empty()) energy += shape_energy(system, z, rho);
+  return energy;
+}
+
+double spring_energy(const System& system, const Piece& piece, const Vector& z, const Vector& rho) {
+  double energy = energy_of_linear_springs(system, z, rho);
+  for (const CoordinateSpring& spring : system.springs)
+    energy += spring.law.energy(segment_of(spring, piece), z[spring.coordinate]);
+  if (!system.shapes.empty()) energy += shape_energy(system, piece, z, rho);
   return energy;
 }
 

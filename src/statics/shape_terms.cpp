@@ -103,10 +103,9 @@ std::optional<AlphaSlopes> slopes_at_edge(const PointShape& shape, std::size_t s
   return AlphaSlopes{slopes->slope, slopes->curvature};
 }
 
-double energy_in(const PointShape& shape, double own, const Vector& factors) {
+double energy_in(const PointShape& shape, std::size_t segment, double own, const Vector& factors) {
   if (shape.is_pressure()) return -factor_of(shape, factors) * shape.pressure * own;
-  return shape.gas ? energy_of(*shape.gas, own).energy
-                   : shape.law.energy(shape.law.segment_at(own), own);
+  return shape.gas ? energy_of(*shape.gas, own).energy : shape.law.energy(segment, own);
 }
 
 /// One shape's part, from what evaluate() has left in `work`.
@@ -257,12 +256,41 @@ void add_pressure_rate(const System& system, const Vector& z, const Vector& rho,
   }
 }
 
+namespace {
+
+/// @param segment  of a shape, at its own part of alpha
+template <class SegmentOf>
+double energy_of_shapes(const System& system, const Vector& z, const Vector& rho,
+                        const SegmentOf& segment) {
+  double energy = 0;
+  for (const PointShape& shape : system.shapes) {
+    if (shape.is_pressure()) continue;
+    const double own = own_part(shape, value_of(system, shape, z, rho), z);
+    energy += energy_in(shape, segment(shape, own), own, {});
+  }
+  return energy;
+}
+
+template <class SegmentOf>
+ShapeState state_of(const System& system, const PointShape& s, const Vector& z,
+                    const Inputs& inputs, const SegmentOf& segment) {
+  const double alpha = value_of(system, s, z, inputs.rho), own = own_part(s, alpha, z);
+  return {alpha, slopes_in(s, segment(own), own, inputs.loads).slope, own,
+          off_middle(system, s, alpha, z, inputs.rho)};
+}
+
+}  // namespace
+
 ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs) {
   const PointShape& s = system.shapes[shape];
-  const double alpha = value_of(system, s, z, inputs.rho), own = own_part(s, alpha, z);
-  return {alpha, slopes_in(s, s.law.segment_at(own), own, inputs.loads).slope, own,
-          off_middle(system, s, alpha, z, inputs.rho)};
+  return state_of(system, s, z, inputs, [&s](double own) { return s.law.segment_at(own); });
+}
+
+ShapeState shape_state(const System& system, const Piece& piece, std::size_t shape, const Vector& z,
+                       const Inputs& inputs) {
+  const PointShape& s = system.shapes[shape];
+  return state_of(system, s, z, inputs, [&](double) { return segment_of(s, piece); });
 }
 
 double series_energy(const System& system, std::size_t shape, const Vector& z) {
@@ -277,19 +305,22 @@ double series_energy(const System& system, std::size_t shape, const Vector& z) {
 }
 
 double shape_energy(const System& system, const Vector& z, const Vector& rho) {
-  double energy = 0;
-  for (const PointShape& shape : system.shapes) {
-    if (shape.is_pressure()) continue;
-    energy += energy_in(shape, own_part(shape, value_of(system, shape, z, rho), z), {});
-  }
-  return energy;
+  return energy_of_shapes(system, z, rho, [](const PointShape& shape, double own) {
+    return shape.law.segment_at(own);
+  });
+}
+
+double shape_energy(const System& system, const Piece& piece, const Vector& z, const Vector& rho) {
+  return energy_of_shapes(system, z, rho, [&piece](const PointShape& shape, double) {
+    return segment_of(shape, piece);
+  });
 }
 
 double pressure_potential(const System& system, const Vector& z, const Inputs& inputs) {
   double potential = 0;
   for (const PointShape& shape : system.shapes)
     if (shape.is_pressure())
-      potential += energy_in(shape, value_of(system, shape, z, inputs.rho), inputs.loads);
+      potential += energy_in(shape, 0, value_of(system, shape, z, inputs.rho), inputs.loads);
   return potential;
 }
 

@@ -15,6 +15,9 @@ void add_shape_terms(const System& system, const Piece& piece, const Vector& z,
                      const Inputs& inputs, Workspace& work, Vector& residual, Matrix* A,
                      Matrix* dR_drho);
 
+/// As shape_energy(), each law in its segment of the piece.
+double shape_energy(const System& system, const Piece& piece, const Vector& z, const Vector& rho);
+
 /// Angles in the plane are counted from this state: there they are those nearest to `near`.
 void count_turns_from(const Vector& z, System& system);
 

@@ -13,12 +13,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const double length0 = std::sqrt(1.25);
+const double guided_length0 = std::sqrt(1.25);
 
-double limit_load(double kv) {
+double limit_of_guided_truss(double kv) {
   // d/dy of the load: L0/L^3 - 1 - kv
-  const double L = std::cbrt(length0 / (1 + kv)), y = std::sqrt(L * L - 1);
-  return (length0 - L) * y / L + kv * (0.5 - y);
+  const double L = std::cbrt(guided_length0 / (1 + kv)), y = std::sqrt(L * L - 1);
+  return (guided_length0 - L) * y / L + kv * (0.5 - y);
 }
 
 std::string guided_truss(const std::string& study, const std::string& kv = "0.05") {
@@ -63,7 +63,8 @@ TEST(RangesWithinRules, ACriticalCurveWithoutARangeEndsWhereTheCaseMayNotBeGiven
   }
   for (std::size_t i = 0; i < branch.samples.size(); ++i)
     EXPECT_NEAR(std::abs(value(result, i, "lambda") - value(result, i, "kv") * 0.5),
-                limit_load(value(result, i, "kv")) - value(result, i, "kv") * 0.5, 1e-10);
+                limit_of_guided_truss(value(result, i, "kv")) - value(result, i, "kv") * 0.5,
+                1e-10);
   EXPECT_NEAR(value(result, 0, "kv"), 0, 1e-15);
   EXPECT_NEAR(value(result, branch.samples.size() - 1, "kv"), 0, 1e-15);
   EXPECT_TRUE(result.doubts.empty());
@@ -78,7 +79,7 @@ TEST(RangesWithinRules, AThresholdIsLookedForWhereTheCaseMayBeGiven) {
   };
   const auto result = run(text("[-1, 2]")).of("s");
   ASSERT_TRUE(result.threshold && result.threshold->found);
-  EXPECT_NEAR(result.threshold->value, length0 - 1, 1e-9);
+  EXPECT_NEAR(result.threshold->value, guided_length0 - 1, 1e-9);
   EXPECT_THAT(result.threshold->message, HasSubstr("kv = -1 to 0 is left out"));
   EXPECT_TRUE(complete(result));
 
@@ -101,7 +102,7 @@ TEST(RangesWithinRules, BeyondThemIsToldWhereARangeThatWasAskedForEnds) {
     ASSERT_EQ(result.branches.size(), 1U);
     const auto& branch = result.branches[0];
     EXPECT_NEAR(value(result, 0, "kv"), -0.05, 1e-12);
-    EXPECT_NEAR(value(result, 0, "lambda"), limit_load(-0.05), 1e-10);
+    EXPECT_NEAR(value(result, 0, "lambda"), limit_of_guided_truss(-0.05), 1e-10);
     EXPECT_THAT(branch.backward.reason, HasSubstr("beyond kv = 0 the case may not be given"));
     EXPECT_TRUE(result.doubts.empty());
   }
@@ -118,8 +119,8 @@ TEST(RangesWithinRules, ADesignKeepsToWhatTheCaseMayBeGivenWith) {
   const auto far = bounded("-1"), near = bounded("0");
   ASSERT_TRUE(far.design && near.design);
   EXPECT_EQ(far.design->parameters[0].low, 0);
-  EXPECT_NEAR(far.design->parameters[0].after, length0 - 1, 1e-6);
-  EXPECT_NEAR(near.design->parameters[0].after, length0 - 1, 1e-6);
+  EXPECT_NEAR(far.design->parameters[0].after, guided_length0 - 1, 1e-6);
+  EXPECT_NEAR(near.design->parameters[0].after, guided_length0 - 1, 1e-6);
   EXPECT_THAT(far.design->message, HasSubstr("kv = -1 to 0 is left out"));
 }
 

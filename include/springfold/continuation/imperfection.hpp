@@ -39,11 +39,18 @@ bool is_symmetric_point(const ReducedForm& form);
 std::optional<Vector> imperfection_part(const Family& family, const CriticalStart& start,
                                         const ReducedForm& form);
 
+/// Where a parameter keeps a branch point to first order it may break it to second order: an imperfection of the square of
+/// the parameter, whose load is - F_mm of what must act on the modes so that the branch point stays one, halved.
+/// @param start  of kind branch_point, located
+/// @returns n entries, f with gamma = W^T f of the imperfection (mu - mu0)^2; zero where the branch point is kept; nothing where
+/// it cannot be followed
+std::optional<Vector> second_order_force(const Family& family, const CriticalStart& start);
+
 /// The load at which the imperfect structure becomes critical on its path from the unloaded state:
 /// lambda = lambda0 - t coefficient |m|^exponent + higher order, where t = 1 if lambda grows on the path of the
 /// perfect structure at the point, and -1 if it falls there.
 struct ImperfectionLaw {
-  double exponent = 1;  ///< 1, 2/3 or 1/2
+  double exponent = 1;  ///< 1, 2/3 or 1/2; twice that of the square of a parameter
   double coefficient =
       0;         ///< > 0: the critical load is lowered; < 0, a limit point behind it: not sensitive
   int sign = 0;  ///< of m: with which it holds; 0: with both

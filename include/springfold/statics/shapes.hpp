@@ -18,6 +18,11 @@ struct ShapeState {
 ShapeState shape_state(const System& system, std::size_t shape, const Vector& z,
                        const Inputs& inputs);
 
+/// The same with the law in its segment of the piece, continued beyond its ends: smooth where other numbers move a breakpoint
+/// or the state across it, as differences do.
+ShapeState shape_state(const System& system, const Piece& piece, std::size_t shape, const Vector& z,
+                       const Inputs& inputs);
+
 /// Is the spring's energy a smooth function of the points at the edge of its shape which is next to alpha: at the distance
 /// 0, or in space at the angles 0 and pi? It is where it has no force there.
 bool is_smooth_at_edge(const PointShape& shape, double alpha);
@@ -27,6 +32,9 @@ double series_energy(const System& system, std::size_t shape, const Vector& z);
 
 /// Energy of all springs of shapes but those before the last one in series, each in its own segment [force * length].
 double shape_energy(const System& system, const Vector& z, const Vector& rho);
+
+/// Energy of all springs, line springs and shapes included, each in its segment of the piece, continued beyond its ends.
+double spring_energy(const System& system, const Piece& piece, const Vector& z, const Vector& rho);
 
 /// Potential of all pressures.
 double pressure_potential(const System& system, const Vector& z, const Inputs& inputs);

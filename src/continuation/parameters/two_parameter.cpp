@@ -8,6 +8,7 @@
 #include "continuation/parameters/augmented.hpp"
 #include "continuation/parameters/degeneracy.hpp"
 #include "continuation/parameters/return_to_start.hpp"
+#include "continuation/parameters/solve_augmented.hpp"
 #include "continuation/points/entry_checks.hpp"
 #include "continuation/points/middles.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -18,58 +19,8 @@ namespace {
 
 /// Borders are renewed when a null vector is this much longer than its projection on them.
 constexpr double poor_borders = 2.5;
-/// Unfolding coefficients above this: the parameter does not keep the branch [-].
-constexpr double kept_within = root_of_rounding;
 /// Points of a curve nearer than this, in arc length, are the same.
 constexpr double same_place = poor;
-
-/// Newton's method for X at a fixed mu.
-std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
-  constexpr int most = 12;
-  double before = infinity;
-  for (int i = 0; i < most; ++i) {
-    Vector F, by_mu;
-    Matrix J;
-    if (!system.residual(X, mu, F) || !system.derivatives(X, mu, J, by_mu)) return std::nullopt;
-    const Vector step = -Lu(J).solve(F);
-    if (!step.allFinite() || step.norm() > 1) return std::nullopt;
-    X += step;
-    const double moved = step.norm();
-    if (has_settled(moved, before, refined_step * (1 + X.norm()), one_place)) return X;
-    before = moved;
-  }
-  return std::nullopt;
-}
-
-/// Sizes of what the caller gives; the equations are checked wherever they are asked for (base_terms).
-void check_start(const Family& family, const CriticalStart& start) {
-  if (!family.at) throw std::invalid_argument("the family has no problems");
-  const auto problem = family.at(start.mu);
-  if (!problem) return;  // not defined there: told as such
-  check_point(*problem, start.x, start.lambda, start.piece);
-  if (start.kind == CriticalKind::branch_point &&
-      (start.corank < 1 || start.corank > start.x.size()))
-    throw std::invalid_argument("corank: need a number from 1 to that of the unknowns");
-  if (start.kind == CriticalKind::surface && !start.value &&
-      (start.switching < 0 || start.switching >= problem->switch_count()))
-    throw std::invalid_argument("switching: there is no such switch");
-  if (start.kind == CriticalKind::zero && !start.value)
-    throw std::invalid_argument("value: a point of kind zero needs one");
-}
-
-std::optional<Augmented> system_at(const Family& family, const CriticalStart& start) {
-  check_start(family, start);
-  NullVectors borders;
-  const bool bordered =
-      start.kind == CriticalKind::limit_point || start.kind == CriticalKind::branch_point;
-  if (bordered) {
-    auto found =
-        null_vectors(family, start, start.kind == CriticalKind::branch_point ? start.corank : 1);
-    if (!found) return std::nullopt;
-    borders = std::move(*found);
-  }
-  return Augmented(family, start, std::move(borders));
-}
 
 /// Orthonormal columns nearest to the given ones.
 Matrix polar(const Matrix& columns) {
