@@ -56,9 +56,14 @@ void add(const std::string& file, const springfold::io::PlannedRun& planned, Tot
 
 int main(int count, char** files) {
   Totals totals;
-  for (int i = 1; i < count; ++i)
-    for (const auto& planned : springfold::io::load_case(files[i]).runs)
-      add(files[i], planned, totals);
+  try {
+    for (int i = 1; i < count; ++i)
+      for (const auto& planned : springfold::io::load_case(files[i]).runs)
+        add(files[i], planned, totals);
+  } catch (const springfold::io::CaseError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
   double sum = 0;
   for (const double share : totals.shares) sum += share;
   if (totals.shares.empty()) return 0;

@@ -28,6 +28,8 @@ constexpr int values_between = 16;
 constexpr double closest_bracket = 1e-12;
 /// What lies as near on the curve, in parts of the range, decides.
 constexpr double at_degeneracy = 1e-5;
+/// The end of the range is located as well as this, in parts of it.
+constexpr double at_limit = 1e-9;
 /// Pieces of the boundary that are followed one after the other.
 constexpr int most_boundary_pieces = 40;
 
@@ -63,6 +65,11 @@ class Threshold {
   }
 
  private:
+  /// Of the range.
+  double width() const {
+    return std::abs(study_.critical.high - study_.critical.low) / curves_.scale();
+  }
+
   /// The first unwanted point on the path from the start at this value.
   std::optional<SpecialPoint> unwanted_at(double mu) {
     FirstUnwanted first = first_unwanted(curves_, mu, study_.critical, observer_);
@@ -108,8 +115,10 @@ class Threshold {
     }
     if (curve.stop == continuation::StopReason::observer)
       curve.stop = continuation::StopReason::event;
+    const double limit =
+        (towards_ > 0 ? study_.critical.high : study_.critical.low) / curves_.scale();
     const bool at_range = end == curve.hits.end() &&
-                          curve.stop_detail.starts_with(study_.critical.parameter + " reaches");
+                          std::abs(curve.hits.back().point.mu - limit) <= at_limit * width();
     CriticalPoint last = end == curve.hits.end() ? curve.hits.back().point : end->point;
     decides_ = end == curve.hits.end() ? curve.stop_detail : std::string{to_string(end->kind)};
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
@@ -164,11 +173,10 @@ class Threshold {
   /// @param last  becomes the curve's last point
   void end_where_clear(double clear, FollowedCurve& followed, CriticalPoint& last) {
     CriticalCurve& curve = followed.growing;
-    const double range = std::abs(study_.critical.high - study_.critical.low) / curves_.scale();
     const auto near = std::find_if(curve.hits.begin(), curve.hits.end(), [&](const auto& hit) {
       return hit.kind != continuation::Degeneracy::user &&
              hit.kind != continuation::Degeneracy::extremum &&
-             std::abs(hit.point.mu - clear) <= at_degeneracy * range;
+             std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
     decides_ = near != curve.hits.end() ? std::string{to_string(near->kind)}
                                         : "the path from the start no longer comes to it";
