@@ -25,6 +25,9 @@ using continuation::CurvePoint;
 using continuation::Direction;
 using continuation::Hit;
 
+/// Springs that switch at once move on together with a parameter where their rates differ by no more.
+constexpr double same_rate = 1e-8;
+
 /// The special point of the engine that became this event: the same arc length on the same side.
 const Hit* hit_at(const Curve& curve, double s) {
   for (const Hit& hit : curve.hits)
@@ -111,6 +114,40 @@ const Hit* hit_at_start(const std::vector<Hit>& hits, EventKind kind) {
                                  [kind](const Hit& hit) { return kind_of(hit) == kind; });
   if (same != hits.end()) return &*same;
   return hits.empty() ? nullptr : &hits.front();
+}
+
+/// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise one for
+/// each of them, with itself alone behind it: on either side of the parameter another one may be the first.
+std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves, const SpecialPoint& point,
+                                              CriticalStart start) {
+  const Hit& hit = point.hit;
+  if (hit.switches.empty() || hit.leaving.empty()) return {};
+  start.kind = CriticalKind::surface;
+  start.switching = hit.switches.front();
+  start.behind = hit.leaving.front().piece;
+  if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
+    start.turns = force_turns(curves);
+  if (hit.switches.size() == 1) return {start};
+  std::vector<CriticalStart> starts;
+  std::optional<continuation::CriticalPoint> first;
+  bool together = true;
+  for (const Index j : hit.switches) {
+    CriticalStart one = start;
+    one.switching = j;
+    one.behind = one.piece;
+    auto& behind = one.behind[static_cast<std::size_t>(j)];
+    behind = static_cast<std::int8_t>(-behind);
+    const auto rate = critical_rate(curves.family(), one);
+    if (!rate) return {};
+    if (!first) first = rate;
+    const double size =
+        std::max({1.0, first->dx.lpNorm<Eigen::Infinity>(), std::abs(first->dlambda)});
+    together = together && std::abs(rate->dlambda - first->dlambda) <= same_rate * size &&
+               (rate->dx - first->dx).lpNorm<Eigen::Infinity>() <= same_rate * size;
+    starts.push_back(std::move(one));
+  }
+  if (together) return {start};
+  return starts;
 }
 
 }  // namespace
@@ -234,16 +271,10 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return start;
     case EventKind::switching:
     case EventKind::corner_limit_point:
-      if (hit.switches.size() != 1 || hit.leaving.empty()) {
-        why = "several springs switch at " + point.label + " at once";
-        return std::nullopt;
-      }
-      start.kind = CriticalKind::surface;
-      start.switching = hit.switches.front();
-      start.behind = hit.leaving.front().piece;
-      if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
-        start.turns = force_turns(curves);
-      return start;
+      if (auto starts = starts_on_surfaces(curves, point, start); starts.size() == 1)
+        return std::move(starts.front());
+      why = "several springs switch at " + point.label + " at once";
+      return std::nullopt;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;
       start.value = marked_value_on(curves, member, point, hit.point.piece);
@@ -256,6 +287,20 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
         " is of a kind that is not followed: need a limit point, branch point, corner, " +
         "activation, marked value or extremum";
   return std::nullopt;
+}
+
+std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
+                                           const SpecialPoint& point, std::string& why) {
+  if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point) {
+    const Hit& hit = point.hit;
+    auto starts = starts_on_surfaces(
+        curves, point,
+        {.x = hit.point.x, .lambda = hit.point.lambda, .mu = member.mu, .piece = hit.point.piece});
+    if (!starts.empty()) return starts;
+  }
+  auto start = critical_start(curves, member, point, why);
+  if (!start) return {};
+  return {std::move(*start)};
 }
 
 }  // namespace springfold::analysis

@@ -57,4 +57,11 @@ std::optional<continuation::CriticalStart> critical_start(const CaseCurves& curv
                                                           const SpecialPoint& point,
                                                           std::string& why);
 
+/// The same for critical curves, on which of several springs that switch at once another one may be the first on each side:
+/// one start for each of them, where the parameter parts them. Empty: `why`.
+std::vector<continuation::CriticalStart> critical_starts(const CaseCurves& curves,
+                                                         const Member& member,
+                                                         const SpecialPoint& point,
+                                                         std::string& why);
+
 }  // namespace springfold::analysis

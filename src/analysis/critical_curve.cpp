@@ -38,7 +38,7 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
     start.lambda = exact->lambda;
   }
   start.kind = continuation::CriticalKind::limit_point;
-  return follow_both_ways(curves, base_study(study), start, EventKind::limit_point, observer);
+  return follow_both_ways(curves, base_study(study), {start}, EventKind::limit_point, observer);
 }
 
 /// Pieces of a critical curve beyond each of its ends.
@@ -290,19 +290,20 @@ void run_critical_curve(const CaseCurves& curves, const BasePath& path, const St
   if (point == path.points.end())
     why = "the curve has no " + study.critical.point + "; its special points: " + list_of(path) +
           early_ends(path.branch);
-  std::optional<continuation::CriticalStart> start;
-  if (why.empty()) start = critical_start(curves, base, *point, why);
-  if (!start) {
+  std::vector<continuation::CriticalStart> starts;
+  if (why.empty()) starts = critical_starts(curves, base, *point, why);
+  if (starts.empty()) {
     result.start.found = false;
     result.start.message = why;
     return;
   }
   FollowedCurve followed =
-      follow_both_ways(curves, base_study(study), *start, point->kind, observer);
-  const bool is_broken = start->kind == continuation::CriticalKind::branch_point &&
-                         start->corank == 1 && !(followed.growing.kept && followed.falling.kept) &&
-                         !is_kept(curves.family(), *start);
-  if (is_broken) followed = limit_points_through(curves, study, *start, observer);
+      follow_both_ways(curves, base_study(study), starts, point->kind, observer);
+  const continuation::CriticalStart& start = starts.front();
+  const bool is_broken = start.kind == continuation::CriticalKind::branch_point &&
+                         start.corank == 1 && !(followed.growing.kept && followed.falling.kept) &&
+                         !is_kept(curves.family(), start);
+  if (is_broken) followed = limit_points_through(curves, study, start, observer);
   result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
   go_on_beyond(curves, study, followed, *point, observer, result);

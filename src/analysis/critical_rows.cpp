@@ -209,17 +209,28 @@ std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const St
 }
 
 FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
-                               const continuation::CriticalStart& start, EventKind of,
+                               const std::vector<continuation::CriticalStart>& starts, EventKind of,
                                const Observer& observer) {
-  FollowedCurve followed{.start = start, .of = of};
+  FollowedCurve followed{.start = starts.front(), .of = of};
   const auto family = curves.family();
-  const auto events = critical_events(curves, study, start.piece);
+  const auto events = critical_events(curves, study, starts.front().piece);
   int points = 0;
   const auto observe = [&](const CriticalPoint& p) { return !observer || observer(++points, p.s); };
   const auto options = critical_options(study);
   continuation::FurtherPoints further{.spacing = study.trace.spacing, .most = most_rows(curves)};
-  followed.growing = follow_critical(family, start, true, events, options, observe, further);
-  say_switching_start(curves, true, followed.growing);
+  // Of springs that switch at once another one may be the first on each side.
+  const auto follow = [&](bool growing) {
+    CriticalCurve curve;
+    for (const continuation::CriticalStart& start : starts) {
+      curve = follow_critical(family, start, growing, events, options, observe, further);
+      const bool stands = curve.points.size() == 1 && curve.hits.size() == 1 &&
+                          curve.hits.front().kind == Degeneracy::two_switches;
+      if (!stands) break;
+    }
+    say_switching_start(curves, growing, curve);
+    return curve;
+  };
+  followed.growing = follow(true);
   if (followed.growing.stop ==
       continuation::StopReason::closed) {  // the other way round is the same curve
     followed.falling.stop = followed.growing.stop;
@@ -227,8 +238,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
     return followed;
   }
   further.most -= static_cast<double>(followed.growing.points.size());
-  followed.falling = follow_critical(family, start, false, events, options, observe, further);
-  say_switching_start(curves, false, followed.falling);
+  followed.falling = follow(false);
   return followed;
 }
 

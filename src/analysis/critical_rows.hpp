@@ -23,8 +23,9 @@ std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curve
 std::vector<continuation::CriticalEvent> first_point_events(const CaseCurves& curves,
                                                             const Study& study, const Piece& piece);
 
+/// @param starts  at one place; more than one where several springs switch there
 FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
-                               const continuation::CriticalStart& start, EventKind of,
+                               const std::vector<continuation::CriticalStart>& starts, EventKind of,
                                const Observer& observer);
 
 /// A curve that breaks off just before a spring switches at the start of the path says so.

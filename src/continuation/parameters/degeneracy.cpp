@@ -101,7 +101,7 @@ void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
                        EventAction::stop,
                        {},
                        true,
-                       0,
+                       system.start().piece[static_cast<std::size_t>(j)],
                        [&system, j, name = problem->switch_name(j)](const CurvePoint& p) {
                          const auto at = system.family().at(p.lambda);
                          return at ? at->switch_name(j) : name;

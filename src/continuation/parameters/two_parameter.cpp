@@ -128,7 +128,8 @@ class Follower {
     const Index n = system.n();
     const CurvePoint here{.x = X, .lambda = mu, .tangent = ray.tangent};
     for (Watch& watch : watches)
-      if (watch.kind == Degeneracy::user && !stand_on_one_side(watch, here)) {
+      if ((watch.kind == Degeneracy::user || watch.kind == Degeneracy::two_switches) &&
+          !stand_on_one_side(watch, here)) {
         end_at_start(watch, here, n);
         return false;
       }
@@ -208,7 +209,7 @@ class Follower {
     if (curve_.points.empty()) curve_.points.push_back(point);
     curve_.hits.push_back({.kind = watch.kind, .name = watch.name, .point = std::move(point)});
     curve_.stop = StopReason::event;
-    curve_.stop_detail = watch.name;
+    curve_.stop_detail = name_of(watch);
   }
 
   /// The curve ends at its start, which its last step passes.
