@@ -1,6 +1,7 @@
 #include "continuation/parameters/family_differences.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +30,44 @@ void check_shape(ProblemView problem, Index size, const Piece& piece) {
     throw std::invalid_argument("a problem of the family has " +
                                 std::to_string(problem.switch_count()) +
                                 " switches, the piece has " + std::to_string(piece.size()));
+}
+
+/// Central differences through six places, and what they are expected to be off: the next order changes them by as much less as
+/// the last one did beside the order before.
+struct SixPoints {
+  Vector value{};
+  double expected_error = 0;
+};
+
+std::optional<SixPoints> six_points(const std::function<std::optional<Vector>(double)>& f,
+                                    double h) {
+  std::array<Vector, 3> slopes;
+  for (std::size_t k = 0; k < slopes.size(); ++k) {
+    const double t = static_cast<double>(k + 1) * h;
+    auto above = f(t), below = f(-t);
+    if (!above || !below) return std::nullopt;
+    slopes[k] = (*above - *below) / (2 * t);
+  }
+  const Vector by_four = (4 * slopes[0] - slopes[1]) / 3;
+  SixPoints found{.value = 1.5 * slopes[0] - 0.6 * slopes[1] + 0.1 * slopes[2]};
+  const double last = (found.value - by_four).lpNorm<Eigen::Infinity>(),
+               before = (by_four - slopes[0]).lpNorm<Eigen::Infinity>();
+  found.expected_error = before > last ? last * (last / before) : last;
+  return found;
+}
+
+/// With shorter steps where the function bends so much that the first ones do not resolve it.
+std::optional<Vector> derivative_at_zero(const std::function<std::optional<Vector>(double)>& f,
+                                         double step) {
+  std::optional<SixPoints> best;
+  for (double h = step; h >= narrowest * step; h /= wider) {
+    auto found = six_points(f, h);
+    if (!found) break;
+    const double left = found->expected_error;
+    if (!best || left < best->expected_error) best = std::move(found);
+    if (left <= one_place * std::max(1.0, best->value.lpNorm<Eigen::Infinity>())) break;
+  }
+  return best ? std::optional<Vector>(std::move(best->value)) : std::nullopt;
 }
 
 }  // namespace
@@ -67,7 +106,7 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
     return all_finite(value) ? std::optional<Vector>(std::move(value)) : std::nullopt;
   };
   if (exactness == Exactness::exact)
-    return six_point_derivative(weighted, 0, directional_step / largest);
+    return derivative_at_zero(weighted, directional_step / largest);
   const double t = rough_step / largest;
   const auto above = weighted(t), below = weighted(-t);
   if (!above || !below) return std::nullopt;
