@@ -116,6 +116,57 @@ TEST(CablesAtRest, StretchedByAMillionthTheirBranchesSwitchRightBehindTheBranchP
   }
 }
 
+/// A column of two links of lengths 0.93 and 0.56 with springs in its hinges; a resting cable leads from its top to the ground.
+std::string guyed_column(const std::string& trace) {
+  return R"([[body]]
+name = "top"
+task_space = "xy"
+pose = [0, 1.49]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", role = "preloaded", spring = { law = "linear", stiffness = 0.26 } },
+  { rigid = [0, 0.93] },
+  { joint = "revolute", axis = "z", role = "preloaded", spring = { law = "linear", stiffness = 0.74 } },
+  { rigid = [0, 0.56] },
+  { point = "top" },
+]
+[[spring]]
+name = "cable"
+from_at = [-1.14, -0.09]
+to = "c.top"
+law = { law = "one_sided", stiffness = 0.72, from = 1.9483326204732088 }
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-0.13, 2.7] }
+branches = { depth = 0 }
+)" + trace;
+}
+
+TEST(CablesAtRest, AtAHalfBranchTheIndexIsTheSmallerOfBothSidesWhateverTheSteps) {
+  // Without the cable the determinant of the stiffness is (c1 - P l1 + c2) (c2 - P l2) - (c2)^2 in absolute angles; with it
+  // both loads are larger: four in all. The count of all pieces grows at the first and at the last.
+  for (const std::string trace :
+       {"", "trace = { maximum_step = 0.05 }\n", "trace = { maximum_step = 0.013 }\n"}) {
+    SCOPED_TRACE(trace);
+    const StudyResult result = run(guyed_column(trace)).of("press");
+    EXPECT_TRUE(complete(result));
+    std::vector<double> here, before, behind;
+    for (const auto& event : result.branches[0].events)
+      if (event.kind == EventKind::branching_kink)
+        for (const char* index : {"index", "index_force"}) {
+          before.push_back(value(result, event.row - 1, index));
+          here.push_back(value(result, event.row, index));
+          behind.push_back(value(result, event.row + 1, index));
+        }
+    EXPECT_EQ(before, (std::vector<double>{0, 0, 1, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(here, before);
+    EXPECT_EQ(behind, (std::vector<double>{1, 1, 1, 1, 1, 1, 2, 2}));
+  }
+}
+
 /// The load at which the cable on the side that the mast leans to goes slack, c = k = 1, free lengths sqrt(2) - stretch:
 /// s = sin q = 1 - (free/sqrt(2))^2, P s = c q + k (l - free) dl/dq with the other cable's l^2 - free^2 = 4 s.
 double load_at_slack(double stretch) {
