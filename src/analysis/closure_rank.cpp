@@ -144,14 +144,12 @@ std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
 
 namespace {
 
-/// How far beside a point its surroundings are looked at, and below which share of the largest a
-/// singular value of a solved point is rounding.
-constexpr double look_beside = 1e-2, rounded_rank = 1e-9;
-
-/// A direction that is nothing special to the closures.
-Vector any_direction(Index size) { return Vector::LinSpaced(size, 0.7, 1.3).normalized(); }
+/// Below which share of the largest a singular value of a solved point is rounding.
+constexpr double rounded_rank = 1e-9;
 
 }  // namespace
+
+Vector any_direction(Index size) { return Vector::LinSpaced(size, 0.7, 1.3).normalized(); }
 
 bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point) {
   const Vector any = any_direction(point.x.size());

@@ -16,6 +16,12 @@ inline constexpr double same_rank = 1e-7;
 /// closure without columns: its rank is 0.
 Index rank_of(const Matrix& J, double share);
 
+/// How far beside a point its surroundings are looked at.
+inline constexpr double look_beside = 1e-2;
+
+/// A direction that is nothing special to the closures.
+Vector any_direction(Index size);
+
 /// The closures as equations for everything but lambda are dependent at the point and beside it, so wherever the mechanism
 /// goes: they ask more of the joints than these can give.
 bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point);

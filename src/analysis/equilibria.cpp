@@ -10,6 +10,7 @@
 #include "equilibrium_search.hpp"
 #include "frozen.hpp"
 #include "limits.hpp"
+#include "locked_chains.hpp"
 #include "morse.hpp"
 #include "springfold/model/rotation_vector.hpp"
 #include "start.hpp"
@@ -51,30 +52,6 @@ CurvePoint point_at(const PathProblem& problem, const FoundEquilibrium& found) {
   point.piece = found.piece;
   count_negative(problem, point);
   return point;
-}
-
-/// The rank that the closure of every chain has anywhere.
-std::vector<Index> full_ranks(const PathProblem& problem, const Evaluator& evaluator,
-                              const std::vector<FoundEquilibrium>& found) {
-  std::vector<Index> full;
-  for (const FoundEquilibrium& f : found) {
-    const auto ranks = evaluator.closure_ranks(point_at(problem, f));
-    full.resize(std::max(full.size(), ranks.size()), 0);
-    for (std::size_t i = 0; i < ranks.size(); ++i) full[i] = std::max(full[i], ranks[i]);
-  }
-  return full;
-}
-
-/// Chains whose joints cannot move their end in all directions in which they can elsewhere: a bar
-/// along the first axis of its universal joint, a bar of no length.
-std::string locked_chains(const PathProblem& problem, const Evaluator& evaluator,
-                          const FoundEquilibrium& found, const std::vector<Index>& full) {
-  const auto ranks = evaluator.closure_ranks(point_at(problem, found));
-  std::string names;
-  for (std::size_t i = 0; i < ranks.size(); ++i)
-    if (ranks[i] < full[i])
-      names += (names.empty() ? "" : ", ") + problem.system(0).mechanism.chains[i].name;
-  return names;
 }
 
 CountedEquilibrium counted(const PathProblem& problem, const FoundEquilibrium& found,
@@ -130,7 +107,7 @@ Candidates candidates(const SearchContext& context, const Study& study) {
   Candidates all;
   all.search = search_equilibria(problem, study, context.quantities, context.start,
                                  context.in_range, context.observer);
-  all.full = full_ranks(problem, context.evaluator, all.search.found);
+  all.full = full_ranks(context.evaluator, all.search.found);
   std::vector<CountedEquilibrium> raw, once;
   for (const FoundEquilibrium& f : all.search.found) {
     raw.push_back(
@@ -197,7 +174,6 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.note = f.note;
     if (is_index_untold(evaluator, point)) take_back_counts(quantities, equilibrium);
     equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
-    // The coordinates of a locked chain do not feel every force: it balances what nothing would.
     if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {
       ++report.locked;
       if (equilibrium.is_start)

@@ -220,14 +220,29 @@ std::optional<std::vector<Bar>> holders_of(const PathProblem& problem) {
   return bars.empty() ? std::nullopt : std::optional{bars};
 }
 
+/// Why springs of shapes are not counted: what they are called in the case.
+std::string shapes_in_words(const statics::System& system) {
+  const auto other = std::find_if(
+      system.shapes.begin(), system.shapes.end(), [](const statics::PointShape& shape) {
+        return shape.is_pressure() || shape.shape.kind != model::ShapeKind::path ||
+               shape.points.size() != 2;
+      });
+  if (other != system.shapes.end()) return "springs of shapes and pressures are not counted";
+  return "line springs are counted where their law is a straight line, and that of " +
+         system.shapes.front().name + " is not";
+}
+
 }  // namespace
+
+bool is_bar(const statics::System& system, std::size_t chain) {
+  return bar_of(system, chain).has_value();
+}
 
 MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEquilibrium>& raw,
                        const std::vector<CountedEquilibrium>& distinct) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return does_not_apply("the load has no potential");
-  if (!system.shapes.empty())
-    return does_not_apply("springs of shapes and pressures are not counted");
+  if (!system.shapes.empty()) return does_not_apply(shapes_in_words(system));
   if (!system.loads.empty()) return does_not_apply("weights and loads at points are not counted");
   if (system.mechanism.bodies.size() != 1)
     return does_not_apply(

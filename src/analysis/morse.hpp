@@ -13,8 +13,11 @@ namespace springfold::analysis {
 struct CountedEquilibrium {
   Vector z{};
   std::optional<Index> index{};  ///< number of unstable modes under dead load
-  bool is_locked = false;        ///< a chain loses rank: its coordinates do not feel every force
+  bool is_locked = false;        ///< see locked_chains.hpp
 };
+
+/// Is the chain a bar: joints that turn freely about one foot, then one spring along the line from the foot to the end?
+bool is_bar(const statics::System& system, std::size_t chain);
 
 /// Where the potential energy grows without bound on a set of configurations of known Euler
 /// characteristic, the sum of (-1)^index over all equilibria is that number (Morse). It is known for

@@ -212,6 +212,115 @@ TEST_F(Equilibria, AreFoundWithoutAStartToo) {
   EXPECT_EQ(result.equilibria->list.size(), 5u);
 }
 
+/// An arm of links 1 and 0.9 from the origin, its end between two springs whose feet lie at (+-1, 0.8).
+const std::string sprung_arm = R"(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0.1, 0.8]
+[[chain]]
+name = "arm"
+elements = [
+  { joint = "revolute", axis = "z", initial = 0.3 },
+  { rigid = [0, -1] },
+  { joint = "revolute", axis = "z", initial = 2.5 },
+  { rigid = [0, -0.9] },
+]
+[[spring]]
+name = "a"
+from_at = [1, 0.8]
+to = "tip"
+stiffness = 1
+free = 2.5
+[[spring]]
+name = "b"
+from_at = [-1, 0.8]
+to = "tip"
+stiffness = 1
+free = 2.5
+[[study]]
+name = "all"
+kind = "equilibria"
+)";
+
+TEST_F(Equilibria, OfAnArmThatItsSpringsStretchAreListedWhereverTheSearchBegins) {
+  // Both springs are pressed at (0, 1.9) and push the tip away: along x they lose less than the arm's bending costs.
+  for (const char* start : {"", "start = { pose = [0, 1.9] }\n"}) {
+    const auto result = run(sprung_arm + start);
+    EXPECT_EQ(result.equilibria->locked, 0);
+    std::size_t stretched = 0;
+    for (std::size_t i = 0; i < result.equilibria->list.size(); ++i)
+      if (std::abs(value(result, i, "tip.y") - 1.9) < 1e-9) {
+        EXPECT_NEAR(value(result, i, "tip.x"), 0, 1e-9);
+        EXPECT_EQ(value(result, i, "index"), 0);
+        ++stretched;
+      }
+    EXPECT_EQ(stretched, 1u);
+  }
+}
+
+/// Two legs without springs that hold a point: links of length 1 from the origin, of length 2 from (1.5, 0).
+const std::string two_legs = R"(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0.3, 1.6]
+[[chain]]
+name = "short"
+elements = [
+  { joint = "revolute", axis = "z", initial = 1 },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", initial = 0.5 },
+  { rigid = [1, 0] },
+]
+[[chain]]
+name = "long"
+from_at = [1.5, 0]
+elements = [
+  { joint = "revolute", axis = "z", initial = 1 },
+  { rigid = [2, 0] },
+  { joint = "revolute", axis = "z", initial = 2 },
+  { rigid = [2, 0] },
+]
+[[study]]
+name = "all"
+kind = "equilibria"
+load = [0, 1]
+)";
+
+TEST_F(Equilibria, OfALegThatTheLoadStretchesWhileAnotherIsBentAreListed) {
+  // The short leg hangs on the load, stretched: stable at (0, 2), unstable in its turn and its elbow at (0, -2).
+  const auto result = run(two_legs);
+  std::size_t hanging = 0, standing = 0;
+  for (std::size_t i = 0; i < result.equilibria->list.size(); ++i) {
+    if (std::abs(value(result, i, "tip.x")) > 1e-9) continue;
+    if (std::abs(value(result, i, "tip.y") - 2) < 1e-9 && value(result, i, "index") == 0) ++hanging;
+    if (std::abs(value(result, i, "tip.y") + 2) < 1e-9 && value(result, i, "index") == 2)
+      ++standing;
+  }
+  EXPECT_EQ(hanging, 1u);
+  EXPECT_EQ(standing, 1u);
+}
+
+TEST_F(Equilibria, OfBarsOfNoLengthAreCountedButNotListed) {
+  // At its foot a bar balances what pushes across it, whatever that is: polar coordinates at their pole.
+  std::string any_length = two_springs;
+  any_length.erase(any_length.find("until"));
+  const auto result = run(any_length, {{"Fx", "0.1"}, {"Fy", "0.05"}});
+  EXPECT_GT(result.equilibria->locked, 0);
+  for (std::size_t i = 0; i < result.equilibria->list.size(); ++i)
+    for (const char* length : {"left.length", "right.length"})
+      EXPECT_GT(std::abs(value(result, i, length)), 1e-3);
+}
+
+TEST_F(Equilibria, OfALineSpringWithABendNameItsLawWhereTheyAreNotCounted) {
+  std::string bent = sprung_arm;
+  bent.replace(bent.find("stiffness = 1\nfree = 2.5"), 24,
+               "law = { law = \"one_sided\", stiffness = 1, from = 0.5 }");
+  EXPECT_THAT(run(bent).equilibria->morse.why, HasSubstr("line springs are counted where their "
+                                                         "law is a straight line, and that of a"));
+}
+
 TEST_F(Equilibria, HaveATableAndStandInTheSummary) {
   const Case c = load(two_springs);
   StudyResult result = analysis::run_study(c.runs[0].mechanism, c.runs[0].plan);
