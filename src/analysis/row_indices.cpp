@@ -11,32 +11,19 @@ namespace {
 /// Rows at which an eigenvalue passes zero, so that every count of a matrix there is one of rounding.
 struct CriticalRows {
   std::vector<bool> here{};
-  std::vector<bool> first_of_two{}, second_of_two{};  ///< rows of one place, on one piece
+  std::vector<bool> first_of_two{}, second_of_two{};  ///< rows of one place
 };
 
-/// Beside a spring that rests an eigenvalue of one of the pieces vanishes where half-branches leave; where none does, the
-/// curve goes on, on the same piece.
-bool is_critical(const Branch& branch, const Event& event) {
-  switch (event.kind) {
-    case EventKind::limit_point:
-    case EventKind::branch_point:
-    case EventKind::touch:
-    case EventKind::kinematic_singularity:
-    case EventKind::branching_kink:
-      return true;
-    case EventKind::switching:
-      return has_two_rows(branch, event) &&
-             branch.samples[event.row].piece == branch.samples[event.row + 1].piece;
-    default:
-      return false;
-  }
+/// Beside a spring that rests an eigenvalue of one of the pieces vanishes where half-branches leave.
+bool is_critical(EventKind kind) {
+  return kind == EventKind::limit_point || is_meeting_of_branches(kind);
 }
 
 CriticalRows critical_rows(const Branch& branch) {
   const std::vector<bool> none(branch.samples.size(), false);
   CriticalRows rows{none, none, none};
   for (const Event& event : branch.events) {
-    if (!is_critical(branch, event)) continue;
+    if (!is_critical(event.kind)) continue;
     rows.here[event.row] = true;
     if (!has_two_rows(branch, event)) continue;
     rows.here[event.row + 1] = true;

@@ -6,9 +6,11 @@
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/linear/extended.hpp"
+#include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/piecewise_form.hpp"
 
@@ -122,6 +124,15 @@ class PiecesBeside {
   std::vector<Piece> pieces_{};
 };
 
+/// Stiff members beside soft ones make a piece look singular at some way from its zero.
+bool is_regular(const Walker& walker, const CurvePoint& at) {
+  if (walker.problem.structured()) return false;
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return false;
+  const Vector values = jacobi_svd(own->J).values;
+  return values[values.size() - 1] > located_rank * std::max(values[0], 1.0);
+}
+
 /// A piece that is singular at the begin of the step, where the curve leaves a junction, is looked at from a
 /// little further on: that zero belongs to the junction.
 /// @param own  the begin of the step in its own piece, with which the others share the curve
@@ -132,7 +143,7 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
   const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
   const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
-  if (!(least_singular_values(E, 1)[0] <= located_rank * size)) return;
+  if (!(least_singular_values(E, 1)[0] <= located_rank * size) || is_regular(walker, first)) return;
   auto moved = point_at(walker, own, negligible_share * (points.back().s - first.s));
   if (!moved) return;
   moved->piece = first.piece;

@@ -131,6 +131,14 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
          });
 }
 
+/// A stiff member beside soft ones makes a piece look singular before it is. Where its kernel is one line, and that the line
+/// along which the curve arrives, which all pieces share whose switches rest, it is regular and has no other way.
+bool is_own_curve(const Walker& walker, const CurvePoint& at, const Kernel& kernel) {
+  if (kernel.corank > 0 || at.tangent.dx.size() != at.x.size()) return false;
+  const auto line = unit(kernel.N, walker.weights);
+  return line && std::abs(metric_product(walker.weights, at.tangent, *line)) > 1 - same_line;
+}
+
 }  // namespace
 
 PieceWays both_ways(const Direction& tangent) {
@@ -191,6 +199,7 @@ PieceWays singular_ways(const Walker& walker, const CurvePoint& at, const Surfac
                         const std::vector<Direction>& known) {
   const auto kernel = kernel_of(walker, at);
   if (!kernel) return {.why = "derivatives are not defined here"};
+  if (is_own_curve(walker, at, *kernel)) return both_ways(at.tangent);
   if (nothing_new(walker, kernel->N, rates_in_kernel(at, surfaces, kernel->N), known)) return {};
   const auto near_enough = [&](const CurvePoint& start, const Direction& tangent) {
     return before_next_surface(walker, at, surfaces, start, tangent);
