@@ -1,6 +1,7 @@
 #include "closure_rank.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "springfold/continuation/newton.hpp"
@@ -117,24 +118,51 @@ std::vector<ChainState> states_of_chains(const PathProblem& problem,
 
 }  // namespace
 
+namespace {
+
+/// Below which share of what it is far away a singular value has fallen, is at its end, and how much a force has grown there.
+constexpr double fallen = 1e-2, at_end = 1e-3, more_force = 100;
+
+/// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead centre.
+std::optional<StretchedChains> stopped_drive(const PathProblem& problem,
+                                             const continuation::CurvePoint& end,
+                                             const continuation::CurvePoint& other) {
+  const auto here = rank_at(problem, end.x, end.lambda, end.piece, false);
+  const auto there = rank_at(problem, other.x, other.lambda, other.piece, false);
+  if (!here || !there || !(here->smallest < fallen * there->smallest)) return std::nullopt;
+  const auto wrench = [&](const continuation::CurvePoint& point) {
+    double square = 0;
+    for (const ChainState& chain : states_of_chains(problem, point))
+      square += chain.wrench * chain.wrench;
+    return std::sqrt(square);
+  };
+  const double before = wrench(other);
+  return StretchedChains{
+      "the joints of " + words_for(problem.layout(), here->null) +
+          " hardly move any further what is driven, and the force that drives it grows without "
+          "bound",
+      here->smallest < at_end * there->smallest && before > 0 && wrench(end) > more_force * before};
+}
+
+}  // namespace
+
 std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
                                                 const continuation::CurvePoint& end,
                                                 const continuation::CurvePoint& other) {
-  constexpr double share = 1e-2, at_end = 1e-3, more_force = 100;
   const std::vector<ChainState> here = states_of_chains(problem, end),
                                 there = states_of_chains(problem, other);
   std::string names;
   int count = 0;
   StretchedChains found;
   for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i) {
-    if (!(here[i].smallest < share * there[i].smallest)) continue;
+    if (!(here[i].smallest < fallen * there[i].smallest)) continue;
     names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
     ++count;
     found.is_end_of_reach = found.is_end_of_reach ||
                             (here[i].smallest < at_end * there[i].smallest &&
                              here[i].wrench > more_force * there[i].wrench && there[i].wrench > 0);
   }
-  if (count == 0) return std::nullopt;
+  if (count == 0) return stopped_drive(problem, end, other);
   found.text = (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
                std::string(
                    " stretched out here: the joints hardly move the end any further, and the force "

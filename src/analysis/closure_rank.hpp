@@ -41,7 +41,8 @@ std::optional<std::string> nears_kinematic_singularity(const PathProblem& proble
                                                        const continuation::CurvePoint& other);
 
 /// Chains whose joints hardly move their end in some direction at `end`: the smallest singular value of their
-/// own closure has fallen below a hundredth of what it is at `other`. Legs that are stretched out.
+/// own closure has fallen below a hundredth of what it is at `other`. Legs that are stretched out. Where there is none, the
+/// same of all closures together with what is driven held: a crank at its dead centre.
 struct StretchedChains {
   std::string text{};  ///< so in words
   bool is_end_of_reach =

@@ -130,6 +130,8 @@ SnapResult run_with_jumps(const model::Mechanism& mechanism, const Study& study,
                                  snap = {};  // begun again in another unit of lambda
                                  trace_with_jumps(tracing, scales, start, settings, result, snap);
                                });
+  for (const std::string& refusal : snap.report.refusals)
+    snap.traced.doubts.push_back("jumps: " + refusal);
   return snap;
 }
 

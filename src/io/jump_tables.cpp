@@ -218,8 +218,6 @@ std::string jump_lines(const StudyResult& result, const UnitLabels& units) {
   const analysis::SnapReport& report = *result.snap;
   const std::string energy = " " + unit_label(analysis::Unit::energy, result.lambda_unit, units);
   std::string text;
-  for (const std::string& refusal : report.refusals)
-    text += summary_line("jumps", "REFUSED: " + refusal);
   if (report.jumps.empty() && report.refusals.empty()) text += no_jump_line(result);
   const Sized sized{result, report.jumps.empty() ? std::vector<double>{} : quantity_sizes(result)};
   for (const Jump& jump : report.jumps) text += lines_of(sized, jump, energy);

@@ -275,7 +275,11 @@ std::string run_block(const Case& the_case, const StudyResult& result, bool has_
   if (!result.start.outside.empty())
     text += summary_line("", "OUTSIDE: " + start_problem(result.start, plan_of(the_case, result)));
   if (result.start.found && result.equilibria) return text + equilibria_lines(the_case, result);
-  if (!result.start.found || result.branches.empty()) return text;
+  if (!result.start.found) return text;
+  if (result.branches.empty()) {
+    for (const auto& doubt : result.doubts) text += summary_line("", "UNRESOLVED: " + doubt);
+    return text;
+  }
   const std::vector<double> sizes = quantity_sizes(result);
   const auto values = [&](std::string_view label, const std::vector<std::string>& names) {
     return named_values(label, names, result, sizes, the_case.units);

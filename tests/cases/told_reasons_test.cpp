@@ -5,6 +5,7 @@
 
 #include "case_runs.hpp"
 #include "springfold/analysis/snap.hpp"
+#include "springfold/io/results.hpp"
 
 namespace springfold::io {
 namespace {
@@ -221,6 +222,38 @@ TEST(SwitchesOfAJump, LeaveOutCablesThatRestedAndAreSlackWhereItLands) {
   const auto& jump = result.snap->jumps.front();
   ASSERT_EQ(jump.switches.size(), 1U);
   EXPECT_THAT(jump.switches.front(), HasSubstr("spring r"));
+}
+
+TEST(RefusedQuestions, AboutStableStatesAreDoubtsWhoseReasonTheScreenShows) {
+  const Ran ran =
+      run(upright +
+          "[[study]]\nname = \"t\"\nkind = \"transitions\"\ncontrol = \"load\"\nload = [0, -2]\n"
+          "direction = [1, 0]\nuntil = { lambda = [-1, 1] }\n");
+  const StudyResult& result = ran.of("t");
+  EXPECT_FALSE(complete(result));
+  EXPECT_THAT(result.doubts, ElementsAre(HasSubstr("the start is not stable")));
+  EXPECT_THAT(summary_table(ran.read, ran.results),
+              HasSubstr("UNRESOLVED: jumps: the start is not"));
+}
+
+TEST(EndOfTheReach, OfACrankIsItsDeadCentreWhereTheForceHasNoBound) {
+  // F = c (1 - t)/sin t with cos t the place of its tip: it grows all the way to t = 0, and there is nothing else.
+  const StudyResult result =
+      run("[[body]]\nname = \"tip\"\ntask_space = \"xy\"\npose = [\"cos(1)\", \"sin(1)\"]\n"
+          "[[chain]]\nname = \"c\"\nelements = [{ joint = \"revolute\", axis = \"z\", name = "
+          "\"u\", "
+          "role = \"preloaded\", initial = 1, spring = { law = \"linear\", stiffness = 1, free = 1 "
+          "} "
+          "}, { rigid = [1, 0] }]\n[[study]]\nname = \"s\"\ncontrol = \"mixed\"\ndirection = [1, 0]"
+          "\nuntil = { deflection = [-1, 1] }\n")
+          .of("s");
+  EXPECT_TRUE(complete(result));
+  const analysis::Branch& branch = result.branches[0];
+  EXPECT_THAT(branch.forward.reason, HasSubstr("end of the reach"));
+  for (std::size_t row = 0; row < branch.samples.size(); ++row) {
+    const double t = value(result, row, "c.u");
+    EXPECT_NEAR(value(result, row, "force"), (1 - t) / std::sin(t), 1e-9 / (t * t));
+  }
 }
 
 }  // namespace
