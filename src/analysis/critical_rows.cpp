@@ -269,6 +269,11 @@ std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
 /// Marked values and extrema of columns are ordinary points of their path: where a spring switches at one, nothing else happens.
 bool is_marked(EventKind of) { return of == EventKind::user_value || of == EventKind::extremum; }
 
+/// "spring rail.x switches here".
+std::string switch_of(const CriticalHit& hit) {
+  return (hit.name.empty() ? "a spring" : hit.name) + " switches here";
+}
+
 EventKind kind_of(Degeneracy kind, EventKind of) {
   switch (kind) {
     case Degeneracy::cusp:
@@ -340,7 +345,7 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
     if (rows[i].hit != nullptr && (!is_edge || rows[i].hit->kind != Degeneracy::user)) {
       event.kind = kind_of(rows[i].hit->kind, followed.of);
       event.detail =
-          event.kind == EventKind::switching ? "a spring switches here" : detail_of(*rows[i].hit);
+          event.kind == EventKind::switching ? switch_of(*rows[i].hit) : detail_of(*rows[i].hit);
     }
     event.rates_before.assign(branch.samples.back().values.size(),
                               std::numeric_limits<double>::quiet_NaN());

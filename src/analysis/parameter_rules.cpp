@@ -81,19 +81,19 @@ double end_of_rules(RulesOverParameter& rules, double good, double bad) {
   return on_way && rules.broken(shortest).empty() ? shortest : good;
 }
 
-/// Towards one end. Empty: all the way to it.
+/// Towards one end: cut where that end breaks a rule, behind the outermost value that is within them. Empty: it is not cut.
 std::string cut_towards(RulesOverParameter& rules, double& end) {
-  double good = rules.own();
-  const double way = end - good;
-  for (int i = 1; i <= looks_between; ++i) {
-    const double value = i == looks_between ? end : rules.own() + way * i / looks_between;
-    std::string rule = rules.broken(value);
-    if (rule.empty()) {
-      good = value;
-      continue;
+  const double way = end - rules.own();
+  std::string rule = rules.broken(end);
+  if (rule.empty()) return {};
+  double bad = end;
+  for (int i = looks_between - 1; i >= 0; --i) {
+    const double value = rules.own() + way * i / looks_between;
+    if (rules.broken(value).empty()) {
+      end = end_of_rules(rules, value, bad);
+      return rule;
     }
-    end = end_of_rules(rules, good, value);
-    return rule;
+    bad = value;
   }
   return {};
 }
@@ -104,6 +104,10 @@ std::string broken_rule(const model::Mechanism& mechanism, const Study& study) {
   std::vector<std::string> problems = model::problems_in(mechanism);
   if (problems.empty()) problems = problems_in(study, mechanism);
   return problems.empty() ? "" : problems.front();
+}
+
+std::string broken_rule_at(const CaseFamily& cases, std::size_t parameter, double value) {
+  return RulesOverParameter(cases, parameter).broken(value);
 }
 
 RuledRange range_within_rules(const CaseFamily& cases, std::size_t parameter, double low,

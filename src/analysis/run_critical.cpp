@@ -6,6 +6,7 @@
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "run_kinds.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -86,7 +87,13 @@ void run_over_range(CaseCurves& curves, const Study& study, std::size_t paramete
     return;
   }
   run_threshold(curves, within, observer, result);
-  for (const std::string& text : left_out) result.threshold->message += "; " + text;
+  ThresholdReport& report = *result.threshold;
+  for (const std::string& text : left_out) report.message += "; " + text;
+  const std::string rule =
+      report.found ? broken_rule_at(*asked.cases, parameter, report.value) : std::string{};
+  if (!rule.empty())
+    result.doubts.push_back("the case may not be given at " + curves.name() + " = " +
+                            rounded(report.value) + ": " + rule);
 }
 
 }  // namespace

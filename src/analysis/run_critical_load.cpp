@@ -27,6 +27,7 @@ constexpr double at_degeneracy = 1e-5;
 /// Critical loads that differ by less are the same, relative to 1 + |lambda|.
 constexpr double same_load = 1e-8;
 constexpr int most_pieces = 200;
+constexpr const char* in_next_piece = "goes on in the next piece";
 constexpr const char* another_first = "from here on another critical point comes first, or none";
 
 /// A piece in one sense of the parameter, cut where it ends.
@@ -193,7 +194,7 @@ class LoadsOverParameter {
                                    [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     if (turn == side.curve.hits.end() && side.curve.stop != continuation::StopReason::event) {
       why = side.curve.stop_detail;
-      if (side.curve.points.size() < 2) return {};
+      if (side.curve.points.size() < 2 || !side.curve.kept) return {};
       return stopped(piece, std::move(side), mu, sense, std::exchange(why, {}));
     }
     if (turn != side.curve.hits.end()) {
@@ -216,15 +217,12 @@ class LoadsOverParameter {
   /// A side that could not be followed to an end is known as far as it came.
   Side stopped(const LoadPiece& piece, Side side, double mu, double sense, const std::string& why) {
     const CriticalPoint last = side.curve.points.back();
-    doubt(last.mu, piece_name(piece) + " could not be followed beyond: " + why);
+    doubt(last.mu, std::string{"the piece of "} + code_of(piece.of) +
+                       " could not be followed beyond: " + why);
     side.end = last.mu;
     side.stops = true;
     verify(piece, side, mu, sense);
     return side;
-  }
-
-  static std::string piece_name(const LoadPiece& piece) {
-    return std::string{"the piece of "} + code_of(piece.of);
   }
 
   /// Cuts a side at one of its special points.
@@ -310,10 +308,25 @@ class LoadsOverParameter {
     }
   }
 
+  /// Where one piece meets the next one with the same load, the same point goes on.
+  void say_what_goes_on() {
+    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
+      CriticalCurve &before = pieces_[i].growing.curve, &behind = pieces_[i + 1].falling.curve;
+      const bool meets =
+          std::abs(pieces_[i + 1].falling.end - pieces_[i].growing.end) <= at_degeneracy * width_;
+      if (!meets || before.points.empty() || behind.points.empty()) continue;
+      const double from = before.points.back().lambda, to = behind.points.back().lambda;
+      if (std::abs(to - from) > std::sqrt(same_load) * (1 + std::abs(from))) continue;
+      for (CriticalCurve* curve : {&before, &behind})
+        if (curve->stop_detail == another_first) curve->stop_detail = in_next_piece;
+    }
+  }
+
   void finish() {
     for (std::string& text : doubted_.told(curves_.name()))
       result_.doubts.push_back(std::move(text));
     leave_out_points();
+    say_what_goes_on();
     for (const LoadPiece& piece : pieces_) {
       const FollowedCurve followed{.start = piece.start,
                                    .of = piece.of,

@@ -24,7 +24,7 @@ constexpr double traced_beside = 1e-6;
 constexpr std::array<double, 3> distances_traced{traced_beside, 1e-5, 1e-4};
 /// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts of it,
 /// the place where that begins is bracketed.
-constexpr int values_between = 16;
+constexpr int values_between = 8;
 constexpr double closest_bracket = 1e-12;
 /// What lies as near on the curve, in parts of the range, decides.
 constexpr double at_degeneracy = 1e-5;
@@ -51,7 +51,7 @@ class Threshold {
     double mu = begin;
     bool any = false;
     for (int piece = 0; piece < most_boundary_pieces; ++piece) {
-      if (towards_ * (mu - end) > 0) return none("");
+      if (towards_ * (mu - end) > 0) return is_clear_ ? found(last_, true) : none("");
       const auto bad = unwanted_at(mu);
       if (!why_.empty()) return doubt(mu);
       if (!bad) return found(any ? last_ : begin, any);
@@ -123,6 +123,7 @@ class Threshold {
     decides_ = end == curve.hits.end() ? curve.stop_detail : std::string{to_string(end->kind)};
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
     const std::optional<double> clear = clear_before(mu, last.mu, at_range);
+    is_clear_ = clear.has_value();
     if (clear) end_where_clear(*clear, followed, last);
     followed.falling.points = {curve.points.front()};
     followed.falling.stop = continuation::StopReason::event;
@@ -135,24 +136,40 @@ class Threshold {
   }
 
   /// The point that is followed may leave the path from the start, as where branches cross: then nothing unwanted happens
-  /// from there on. The path is traced at values between. @returns where, nothing if it happens at all of them
+  /// from there on. The path is traced at values between, whose starts belong to that of the first one.
+  /// @returns where, nothing if it happens at all of them
   std::optional<double> clear_before(double from, double to, bool at_end) {
     const std::string told = std::exchange(why_, {});
+    enum class At { happens, clear, unknown };
+    const int sheet = curves_.at(from)->sheet;
+    const auto look = [&](double value) {
+      const bool happens = unwanted_at(value).has_value();
+      const bool is_told = std::exchange(why_, {}).empty();
+      const Member* member = curves_.at(value);
+      if (!is_told || member == nullptr || member->sheet != sheet) return At::unknown;
+      return happens ? At::happens : At::clear;
+    };
     double bad = from;
     std::optional<double> clear;
     for (int i = 1; i <= values_between && !clear; ++i) {
       const double value = i == values_between ? to : from + (to - from) * i / values_between;
       if (value == to && !at_end) break;
-      const bool happens = unwanted_at(value).has_value();
-      if (!happens && why_.empty()) clear = value;
-      if (happens) bad = value;
-      why_.clear();
+      const At at = look(value);
+      if (at == At::clear) clear = value;
+      if (at == At::happens) bad = value;
     }
     while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
       const double middle = bad + 0.5 * (*clear - bad);
-      const bool happens = unwanted_at(middle).has_value() || !why_.empty();
-      (happens ? bad : *clear) = middle;
-      why_.clear();
+      const At at = look(middle);
+      if (at == At::unknown) {
+        result_.doubts.push_back("between " + study_.critical.parameter + " = " +
+                                 rounded(bad * curves_.scale()) + " and " +
+                                 rounded(*clear * curves_.scale()) +
+                                 " the path from the start no longer comes to it, but where is not "
+                                 "known: starts there do not belong to each other");
+        break;
+      }
+      (at == At::clear ? *clear : bad) = middle;
     }
     why_ = told;
     return clear;
@@ -259,7 +276,8 @@ class Threshold {
   StudyResult& result_;
   ThresholdReport& report_;
   double towards_ = 1;
-  double last_ = 0;  ///< where the last piece ended
+  double last_ = 0;        ///< where the last piece ended
+  bool is_clear_ = false;  ///< there the path no longer came to its point
   std::string decides_{}, why_{};
   std::optional<SpecialPoint> ended_on_{};
 };

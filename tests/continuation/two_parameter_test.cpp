@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "families.hpp"
 
@@ -24,6 +25,17 @@ TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   EXPECT_NEAR(curve.points.back().mu, 4, 0.1);
   EXPECT_TRUE(hits_of(curve, Degeneracy::extremum).empty());
   for (const auto& p : curve.points) EXPECT_NEAR(p.mu, 3 * p.x[0] * p.x[0], 1e-11);
+}
+
+TEST(TwoParameters, RatesAreExactWhereTheEquationsBendWithinTheStepOfDifferences) {
+  // lambda = sin(40 (x - mu)) / 40 has its limit point at x = mu + pi/80.
+  const Family family = graphs([](double x, double mu) { return std::sin(40 * (x - mu)) / 40; },
+                               [](double x, double mu) { return std::cos(40 * (x - mu)); });
+  const auto rate = critical_rate(
+      family, start_at(CriticalKind::limit_point, single(std::numbers::pi / 80), 1.0 / 40, 0));
+  ASSERT_TRUE(rate);
+  EXPECT_NEAR(rate->dx[0], 1, 1e-10);
+  EXPECT_NEAR(rate->dlambda, 0, 1e-10);
 }
 
 TEST(TwoParameters, NoPointStandsBesideACuspWhateverTheStep) {
