@@ -28,11 +28,11 @@ TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
 }
 
 TEST(TwoParameters, RatesAreExactWhereTheEquationsBendWithinTheStepOfDifferences) {
-  // lambda = sin(40 (x - mu)) / 40 has its limit point at x = mu + pi/80.
-  const Family family = graphs([](double x, double mu) { return std::sin(40 * (x - mu)) / 40; },
-                               [](double x, double mu) { return std::cos(40 * (x - mu)); });
+  // lambda = sin(20 (x - mu)) / 20 has its limit point at x = mu + pi/40.
+  const Family family = graphs([](double x, double mu) { return std::sin(20 * (x - mu)) / 20; },
+                               [](double x, double mu) { return std::cos(20 * (x - mu)); });
   const auto rate = critical_rate(
-      family, start_at(CriticalKind::limit_point, single(std::numbers::pi / 80), 1.0 / 40, 0));
+      family, start_at(CriticalKind::limit_point, single(std::numbers::pi / 40), 1.0 / 20, 0));
   ASSERT_TRUE(rate);
   EXPECT_NEAR(rate->dx[0], 1, 1e-10);
   EXPECT_NEAR(rate->dlambda, 0, 1e-10);
