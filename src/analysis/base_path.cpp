@@ -25,6 +25,8 @@ using continuation::CurvePoint;
 using continuation::Direction;
 using continuation::Hit;
 
+/// So many points are kept behind the last special point that is asked for: narrow places are judged from both sides.
+constexpr int points_behind = 8;
 /// Springs that switch at once move on together with a parameter where their rates differ by no more.
 constexpr double same_rate = 1e-8;
 
@@ -168,7 +170,7 @@ void refuse_start(const BasePath& path, StartReport& report) {
 }
 
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit) {
+                   double largest_unit, const continuation::HitObserver& enough) {
   BasePath path;
   const PathProblem& problem = *member.problem;
   const Evaluator& evaluator = member.evaluator();
@@ -195,12 +197,18 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   int points = 0;
   LambdaCrawl crawl(problem, largest_unit, range_of_lambda(member.study, member.setup));
   crawl.begin(rays.rays[0].tangent);
+  int left = points_behind;
   const auto observe = [&](const CurvePoint& p) {
+    if (path.is_enough && left-- == 0) return false;
     return !crawl.sees(p) && (!observer || observer(++points, p.s));
+  };
+  const auto at_hit = [&](const Hit& hit) {
+    path.is_enough = path.is_enough || (enough && enough(hit));
+    return true;
   };
   const Following with{problem, member.study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
-    return trace_within_limits(with, start, ray, events, options, observe);
+    return trace_within_limits(with, start, ray, events, options, observe, at_hit);
   };
   Curve forward = follow(rays.rays[0]);
   Curve backward =

@@ -4,6 +4,7 @@
 #include "case_curves.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/continuation/curve.hpp"
+#include "springfold/continuation/trace.hpp"
 
 namespace springfold::analysis {
 
@@ -20,6 +21,7 @@ struct BasePath {
   continuation::Curve forward{};       ///< the engine's curve towards growing lambda
   std::string problem{};               ///< why there is no path; empty: there is one
   std::string where{}, advice{};       ///< as StartReport has them, with `problem`
+  bool is_enough = false;              ///< it ends behind a point behind which nothing is asked for
   double lambda_unit =
       1;  ///< > 1: the unit of lambda should be so many times larger; the rest is not to be used
 };
@@ -32,9 +34,10 @@ void refuse_start(const BasePath& path, StartReport& report);
 
 /// The branch through the start, both ways or only the one in which lambda grows. Special points that end it
 /// are left out.
+/// @param enough  true: nothing far behind this point is asked for
 /// @param largest_unit  by which factor the unit of lambda may grow where it turns out to be too small (LambdaCrawl)
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit = 1);
+                   double largest_unit = 1, const continuation::HitObserver& enough = {});
 
 /// The curves of a study, and the path of the case's own one.
 struct CurvesWithPath {

@@ -58,12 +58,24 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
                 ": stability is lost before the path begins";
     return first;
   }
-  const BasePath path = base_path(*member, true, observer);
-  for (const SpecialPoint& point : path.points)
-    if (is_unwanted(*member, settings, path, point)) {
-      first.point = point;
-      return first;
-    }
+  // What comes first is known where any point is met that is unwanted whatever lies behind it. Should the engine take that
+  // back, the path is traced to its end.
+  const auto enough = [only_turns](const continuation::Hit& hit) {
+    using continuation::HitKind;
+    return hit.kind == HitKind::limit_point || hit.kind == HitKind::corner ||
+           (!only_turns && hit.kind == HitKind::branch_point);
+  };
+  const auto find = [&](const BasePath& path) {
+    const auto found = std::find_if(
+        path.points.begin(), path.points.end(),
+        [&](const SpecialPoint& p) { return is_unwanted(*member, settings, path, p); });
+    if (found != path.points.end()) first.point = *found;
+    return first.point.has_value();
+  };
+  BasePath path = base_path(*member, true, observer, 1, enough);
+  if (find(path)) return first;
+  if (path.is_enough) path = base_path(*member, true, observer);
+  if (find(path)) return first;
   if (!path.problem.empty() || !path.branch.forward.complete)
     first.why = path.problem.empty() ? path.branch.forward.reason : path.problem;
   return first;

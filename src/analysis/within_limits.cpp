@@ -39,7 +39,8 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
                           const continuation::Ray& ray,
                           const std::vector<continuation::Event>& events,
                           const continuation::TraceOptions& options,
-                          const continuation::StepObserver& observer) {
+                          const continuation::StepObserver& observer,
+                          const continuation::HitObserver& at_hit) {
   if (auto ended = ended_at_start(with.study, with.evaluator, with.quantities, start, ray))
     return *ended;
   // Elsewhere the limits are events, which no curve passes.
@@ -49,9 +50,10 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
       return false;
     return !observer || observer(point);
   };
-  Curve curve = with.study.path == Path::davidenko
-                    ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
-                    : trace(with.problem, start.x, start.lambda, ray, events, options, observe);
+  Curve curve =
+      with.study.path == Path::davidenko
+          ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
+          : trace(with.problem, start.x, start.lambda, ray, events, options, observe, at_hit);
   if (is_at_edge) cut_to_range(with.study, with.evaluator, with.quantities, curve);
   return curve;
 }

@@ -21,11 +21,10 @@ struct Following {
 
 /// The curve from the start along the ray, as the study's path says, within its limits also where it begins on one.
 /// @param events  of the study (events_of)
-continuation::Curve trace_within_limits(const Following& with,
-                                        const continuation::CurvePoint& start,
-                                        const continuation::Ray& ray,
-                                        const std::vector<continuation::Event>& events,
-                                        const continuation::TraceOptions& options,
-                                        const continuation::StepObserver& observer = {});
+/// @param at_hit  with path = "arc_length" only
+continuation::Curve trace_within_limits(
+    const Following& with, const continuation::CurvePoint& start, const continuation::Ray& ray,
+    const std::vector<continuation::Event>& events, const continuation::TraceOptions& options,
+    const continuation::StepObserver& observer = {}, const continuation::HitObserver& at_hit = {});
 
 }  // namespace springfold::analysis
