@@ -80,5 +80,88 @@ TEST(BesideBreakpoints, AMarkedValueIsFollowedToBehindASpringThatSwitches) {
   }
 }
 
+TEST(RatesOfForceLimits, AreThoseOfTheClosedFormWhereLambdaIsMeasuredInALargeUnit) {
+  // A bar of free length l0 from (0, -a) to a node that is driven along y = 0: the force turns back at l0 a^2 = L^3, and lambda
+  // is counted from x = -sqrt(l0^2 - a^2).
+  const auto result = run(R"toml(
+[parameters]
+a = 0.5
+[[node]]
+name = "n"
+at = [-1, 0]
+fixed = ["y"]
+[[node]]
+name = "foot"
+at = [0, "-a"]
+fixed = true
+[[bar]]
+from = "foot"
+to = "n"
+stiffness = 3
+free = 1.118033988749895
+[[study]]
+name = "s"
+kind = "sensitivity"
+body = "n"
+control = "mixed"
+direction = [1, 0]
+until = { deflection = [-0.1, 1.9] }
+)toml")
+                          .of("s");
+  const auto place = [](double a) {
+    const double l0 = 1.118033988749895;
+    return -std::sqrt(std::pow(l0 * a * a, 2.0 / 3) - a * a) + std::sqrt(l0 * l0 - a * a);
+  };
+  const auto& events = result.branches.at(0).events;
+  const auto first = std::find_if(events.begin(), events.end(), [](const auto& event) {
+    return event.kind == EventKind::limit_point;
+  });
+  ASSERT_NE(first, events.end());
+  EXPECT_NEAR(value(result, first->row, "lambda"), place(0.5), 1e-10);
+  const double h = 1e-3;
+  const double rate =
+      (8 * (place(0.5 + h) - place(0.5 - h)) - place(0.5 + 2 * h) + place(0.5 - 2 * h)) / (12 * h);
+  EXPECT_NEAR(value(result, first->row, "d(lambda)/d(a)"), rate, 1e-9);
+}
+
+TEST(RatesOfForceLimits, AreKnownOfABodyWhosePoseIsDriven) {
+  // No unknown is left: two springs of stiffness k, whose force turns back at places that do not depend on k.
+  const auto result = run(R"toml(
+[parameters]
+k = 4
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 0.5]
+[[spring]]
+name = "a"
+from_at = [-1, 0]
+to = "tip"
+stiffness = "k"
+free = 1.2
+[[spring]]
+name = "b"
+from_at = [1, 0]
+to = "tip"
+stiffness = "k"
+free = 1.2
+[[study]]
+name = "s"
+kind = "sensitivity"
+sensitivity = { parameters = ["k"] }
+control = "pose"
+direction = [0, -1]
+until = { deflection = [-0.05, 1.4] }
+)toml")
+                          .of("s");
+  int points = 0;
+  for (const auto& event : result.branches.at(0).events)
+    if (event.kind == EventKind::limit_point) {
+      ++points;
+      EXPECT_NEAR(value(result, event.row, "d(lambda)/d(k)"), 0, 1e-9);
+    }
+  EXPECT_EQ(points, 2);
+}
+
 }  // namespace
 }  // namespace springfold::io

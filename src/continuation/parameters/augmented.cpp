@@ -91,6 +91,7 @@ std::optional<NullVectors> null_vectors(const Family& family, const CriticalStar
   BaseTerms base;
   if (!base_terms(family, at.x, at.lambda, at.mu, at.piece, base)) return std::nullopt;
   const Index n = at.x.size();
+  if (n < k) return std::nullopt;
   const Matrix A = base.J.leftCols(n);
   NullVectors null{Matrix(n, k), Matrix(n, k)};
   if (family.at(at.mu)->symmetric()) {
@@ -193,7 +194,7 @@ std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda
     return gradient;
   }
   for (Index i = 0; i <= n_; ++i) {
-    const auto rate = six_point_derivative(
+    const auto rate = derivative_at_zero(
         [&](double t) -> std::optional<Vector> {
           Vector at = x;
           if (i < n_) at[i] += t;
@@ -201,7 +202,7 @@ std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda
           if (!value) return std::nullopt;
           return Vector::Constant(1, *value);
         },
-        0, directional_step);
+        directional_step);
     if (!rate) return std::nullopt;
     gradient[i] = (*rate)[0];
   }

@@ -56,7 +56,8 @@ std::optional<SixPoints> six_points(const std::function<std::optional<Vector>(do
   return found;
 }
 
-/// With shorter steps where the function bends so much that the first ones do not resolve it.
+}  // namespace
+
 std::optional<Vector> derivative_at_zero(const std::function<std::optional<Vector>(double)>& f,
                                          double step) {
   std::optional<SixPoints> best;
@@ -69,8 +70,6 @@ std::optional<Vector> derivative_at_zero(const std::function<std::optional<Vecto
   }
   return best ? std::optional<Vector>(std::move(best->value)) : std::nullopt;
 }
-
-}  // namespace
 
 bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,
                 BaseTerms& terms) {
