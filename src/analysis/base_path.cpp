@@ -27,6 +27,7 @@ using continuation::Hit;
 
 /// So many points are kept behind the last special point that is asked for: narrow places are judged from both sides.
 constexpr int points_behind = 8;
+
 /// Springs that switch at once move on together with a parameter where their rates differ by no more.
 constexpr double same_rate = 1e-8;
 
@@ -152,6 +153,16 @@ std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves, const Sp
   return starts;
 }
 
+/// The place of a special point, to be followed.
+CriticalStart start_at(const Member& member, const SpecialPoint& point) {
+  const CurvePoint& p = point.hit.point;
+  return {.x = p.x, .lambda = p.lambda, .mu = member.mu, .piece = p.piece};
+}
+
+std::string several_switch(const SpecialPoint& point) {
+  return "several springs switch at " + point.label + " at once";
+}
+
 }  // namespace
 
 std::string early_ends(const Branch& branch) {
@@ -265,8 +276,7 @@ continuation::StateFunction marked_value_on(const CaseCurves& curves, const Memb
 std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Member& member,
                                             const SpecialPoint& point, std::string& why) {
   const Hit& hit = point.hit;
-  CriticalStart start{
-      .x = hit.point.x, .lambda = hit.point.lambda, .mu = member.mu, .piece = hit.point.piece};
+  CriticalStart start = start_at(member, point);
   switch (point.kind) {
     case EventKind::limit_point:
       if (hit.kind == continuation::HitKind::limit_point) return start;
@@ -281,7 +291,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::corner_limit_point:
       if (auto starts = starts_on_surfaces(curves, point, start); starts.size() == 1)
         return std::move(starts.front());
-      why = "several springs switch at " + point.label + " at once";
+      why = several_switch(point);
       return std::nullopt;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;
@@ -300,11 +310,9 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
   if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point) {
-    const Hit& hit = point.hit;
-    auto starts = starts_on_surfaces(
-        curves, point,
-        {.x = hit.point.x, .lambda = hit.point.lambda, .mu = member.mu, .piece = hit.point.piece});
-    if (!starts.empty()) return starts;
+    auto starts = starts_on_surfaces(curves, point, start_at(member, point));
+    if (starts.empty()) why = several_switch(point);
+    return starts;
   }
   auto start = critical_start(curves, member, point, why);
   if (!start) return {};

@@ -51,6 +51,7 @@ void run_curve_within_rules(CaseCurves& curves, const BasePath& path, const Stud
                                          is_open_above ? curves.value() : asked.high));
   const StudyResult before = result;
   run_critical_curve(curves, path, study, observer, result);
+  if (!is_open_below && !is_open_above) return doubt_rows_beyond_rules(curves, asked, result);
   const auto [low, high] = reach_of(curves, result);
   RuledRange rules = range_within_rules(cases, parameter, is_open_below ? low : curves.value(),
                                         is_open_above ? high : curves.value());
