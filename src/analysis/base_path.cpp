@@ -48,8 +48,8 @@ continuation::StateFunction rate_of(const CaseCurves& curves, Piece piece, Direc
     if (member == nullptr) return std::nullopt;
     continuation::Linearisation at;
     const PathProblem& problem = *member->problem;
-    if (!linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
-    const auto tangent = tangent_at(at, problem.metric(), sense);
+    if (!continuation::linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
+    const auto tangent = continuation::tangent_at(at, problem.metric(), sense);
     if (!tangent) return std::nullopt;
     return rate(*member, {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
   };

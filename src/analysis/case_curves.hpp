@@ -11,7 +11,7 @@
 #include "quantities.hpp"
 #include "setup.hpp"
 #include "springfold/analysis/result.hpp"
-#include "springfold/continuation/two_parameter.hpp"
+#include "springfold/parameters/two_parameter.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/moved_places.hpp"
 

@@ -21,7 +21,7 @@ struct ClosureRank {
 std::optional<ClosureRank> rank_at(const PathProblem& problem, const Vector& x, double lambda,
                                    const Piece& piece, bool along = true) {
   continuation::Linearisation at;
-  if (!linearise(problem, x, lambda, piece, at)) return std::nullopt;
+  if (!continuation::linearise(problem, x, lambda, piece, at)) return std::nullopt;
   const statics::System& layout = problem.layout();
   ClosureRank rank;
   for (Index i = 0; i < layout.first_pose; ++i)

@@ -5,9 +5,9 @@
 
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
-#include "springfold/continuation/imperfection.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -68,7 +68,7 @@ double slope_across(const Member& member, const continuation::CriticalStart& p,
   Matrix dg_dx;
   Vector dg_dlambda;
   const PathProblem& problem = *member.problem;
-  if (!linearise_densely(problem, p.x, p.lambda, piece, at) ||
+  if (!continuation::linearise_densely(problem, p.x, p.lambda, piece, at) ||
       !problem.switch_gradients(p.x, p.lambda, dg_dx, dg_dlambda))
     return std::nan("");
   const Index n = p.x.size();

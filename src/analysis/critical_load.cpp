@@ -19,7 +19,8 @@ using continuation::HitKind;
 
 std::optional<Index> unstable_modes(const PathProblem& problem, const CurvePoint& point) {
   continuation::Linearisation at;
-  if (!linearise(problem, point.x, point.lambda, point.piece, at)) return std::nullopt;
+  if (!continuation::linearise(problem, point.x, point.lambda, point.piece, at))
+    return std::nullopt;
   const auto negative = negative_eigenvalues(at);
   return negative ? std::optional<Index>(*negative - problem.closures()) : std::nullopt;
 }

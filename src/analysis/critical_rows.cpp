@@ -59,7 +59,7 @@ void count_without_vanishing(const Member& member, const continuation::CurvePoin
   constexpr double vanishing = 1e-9;
   continuation::Linearisation at;
   if (!member.problem->symmetric() ||
-      !linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
+      !continuation::linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
     return;
   // As many as are negative once all are greater by what vanishes beside the largest.
   const double largest = at.dF_dx.cwiseAbs().colwise().sum().maxCoeff();

@@ -321,9 +321,9 @@ std::optional<RestState> rest_near(const Landscape& landscape, const Vector& x) 
   Vector from = at->x;
   constexpr int pieces = 4;  // the solution may lie just beyond a switching surface
   for (int k = 0; k < pieces; ++k) {
-    const auto solved = correct(terrain.problem, terrain.problem.metric(), from, terrain.lambda,
-                                piece, only_lambda, options);
-    if (!converged(solved)) return std::nullopt;
+    const auto solved = continuation::correct(terrain.problem, terrain.problem.metric(), from,
+                                              terrain.lambda, piece, only_lambda, options);
+    if (!continuation::converged(solved)) return std::nullopt;
     if ((solved.x - at->x)(landscape.moving()).lpNorm<Eigen::Infinity>() > polishing_reach)
       return std::nullopt;
     const std::vector<Piece> there = landscape.pieces_beside(solved.x);

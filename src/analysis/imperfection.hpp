@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base_path.hpp"
-#include "springfold/continuation/imperfection.hpp"
+#include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::analysis {
 

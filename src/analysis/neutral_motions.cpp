@@ -38,7 +38,8 @@ bool is_neutral(const PathProblem& problem, const CurvePoint& end, const Piece& 
   constexpr double way = 1e-2, zero = 1e-10;
   for (const double h : {0.0, -way, way}) {
     Linearisation at;
-    if (!linearise(problem, end.x + h * v, end.lambda, piece, at) || at.structured) return false;
+    if (!continuation::linearise(problem, end.x + h * v, end.lambda, piece, at) || at.structured)
+      return false;
     const Vector left = at.dF_dx * v, sizes = at.dF_dx.cwiseAbs() * v.cwiseAbs();
     if (!(left.lpNorm<Eigen::Infinity>() <= zero * std::max(1.0, sizes.lpNorm<Eigen::Infinity>())))
       return false;
@@ -73,7 +74,7 @@ std::optional<std::string> neutral_motion(const PathProblem& problem, const Curv
   if (problem.structured()) return std::nullopt;
   for (const Piece& piece : pieces_around(problem, end)) {
     Linearisation at;
-    if (!linearise(problem, end.x, end.lambda, piece, at) || at.structured) continue;
+    if (!continuation::linearise(problem, end.x, end.lambda, piece, at) || at.structured) continue;
     const Vector units = equilibrate(at.dF_dx).columns;
     const Matrix N = null_directions(at.dF_dx);
     for (Index k = 0; k < N.cols(); ++k) {

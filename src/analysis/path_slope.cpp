@@ -48,9 +48,9 @@ std::optional<CurvePoint> between(const Member& member, const CurvePoint& a, con
                                   double part) {
   const PathProblem& problem = *member.problem;
   const Direction chord{b.x - a.x, b.lambda - a.lambda};
-  const auto found = correct(problem, problem.metric(), a.x + part * chord.dx,
-                             a.lambda + part * chord.dlambda, a.piece, chord, {});
-  if (!converged(found)) return std::nullopt;
+  const auto found = continuation::correct(problem, problem.metric(), a.x + part * chord.dx,
+                                           a.lambda + part * chord.dlambda, a.piece, chord, {});
+  if (!continuation::converged(found)) return std::nullopt;
   return CurvePoint{.s = a.s + part * (b.s - a.s),
                     .x = found.x,
                     .lambda = found.lambda,
@@ -77,8 +77,9 @@ std::optional<double> slope_at(const Member& member, const CurvePoint& point,
                                const Direction& reference) {
   const PathProblem& problem = *member.problem;
   continuation::Linearisation at;
-  if (!linearise_densely(problem, point.x, point.lambda, point.piece, at)) return std::nullopt;
-  const auto tangent = tangent_at(at, problem.metric(), reference);
+  if (!continuation::linearise_densely(problem, point.x, point.lambda, point.piece, at))
+    return std::nullopt;
+  const auto tangent = continuation::tangent_at(at, problem.metric(), reference);
   if (!tangent) return std::nullopt;
   const ControlMode control = member.study.control;
   if (control != ControlMode::pose && control != ControlMode::mixed) return tangent->dlambda;
@@ -144,9 +145,10 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
   const auto along = [&](double t) -> std::optional<Vector> {
     const Member* member = curves.at(base.mu + t);
     if (member == nullptr) return std::nullopt;
-    const auto found = correct(*member->problem, member->problem->metric(), least.point.x,
-                               least.point.lambda, least.point.piece, reference, {});
-    if (!converged(found)) return std::nullopt;
+    const auto found =
+        continuation::correct(*member->problem, member->problem->metric(), least.point.x,
+                              least.point.lambda, least.point.piece, reference, {});
+    if (!continuation::converged(found)) return std::nullopt;
     CurvePoint there = least.point;
     there.x = found.x;
     there.lambda = found.lambda;

@@ -89,8 +89,8 @@ struct ChordOfCurve {
   bool is_a_way() const { return length > no_way; }
   /// The curve's point at so large a part of the way.
   auto at(double part, const Piece& piece) const {
-    return correct(problem, weights, from.x + part * chord.dx, from.lambda + part * chord.dlambda,
-                   piece, border, {});
+    return continuation::correct(problem, weights, from.x + part * chord.dx,
+                                 from.lambda + part * chord.dlambda, piece, border, {});
   }
 };
 
@@ -113,7 +113,8 @@ std::optional<PathState> state_at_level(const PathProblem& problem, const PathSt
   // way along the chord determines it.
   const auto state_at = [&](double part) -> std::optional<PathState> {
     const auto solved = chord.at(part, *piece);
-    return converged(solved) ? std::optional<PathState>({solved.x, solved.lambda}) : std::nullopt;
+    return continuation::converged(solved) ? std::optional<PathState>({solved.x, solved.lambda})
+                                           : std::nullopt;
   };
   bool is_known = true;
   const auto missing = [&](double part) {
@@ -134,8 +135,9 @@ std::optional<PathState> state_at_level(const PathProblem& problem, const PathSt
   const auto state = is_known ? state_at((low + high) / 2) : std::nullopt;
   if (!state) return std::nullopt;
   const Direction only_lambda{Vector::Zero(state->x.size()), 1};
-  const auto solved = correct(problem, chord.weights, state->x, target, *piece, only_lambda, {});
-  return PathState{converged(solved) ? solved.x : state->x, target};
+  const auto solved =
+      continuation::correct(problem, chord.weights, state->x, target, *piece, only_lambda, {});
+  return PathState{continuation::converged(solved) ? solved.x : state->x, target};
 }
 
 std::optional<double> path_work(const PathProblem& problem, const PathState& from,
@@ -150,9 +152,10 @@ std::optional<double> path_work(const PathProblem& problem, const PathState& fro
       const double part = (1 + sign * node) / 2;
       const auto solved = chord.at(part, *piece);
       continuation::Linearisation at;
-      if (!converged(solved) || !linearise(problem, solved.x, solved.lambda, *piece, at))
+      if (!continuation::converged(solved) ||
+          !continuation::linearise(problem, solved.x, solved.lambda, *piece, at))
         return std::nullopt;
-      const auto tangent = tangent_at(at, chord.weights, chord.border);
+      const auto tangent = continuation::tangent_at(at, chord.weights, chord.border);
       const auto rate = rate_by_lambda(problem, solved.x, solved.lambda, *piece);
       if (!tangent || !rate) return std::nullopt;
       // The curve is passed at unit speed along the chord.

@@ -35,9 +35,9 @@ std::vector<Vector> known_at(const PathProblem& problem, const continuation::Dia
   const auto add = [&](const CurvePoint& a, const CurvePoint& b) {
     if ((a.lambda - lambda) * (b.lambda - lambda) > 0 || a.lambda == b.lambda) return;
     const double t = (lambda - a.lambda) / (b.lambda - a.lambda);
-    const auto solution = correct(problem, problem.metric(), a.x + t * (b.x - a.x), lambda, a.piece,
-                                  only_lambda, options);
-    if (!converged(solution)) return;
+    const auto solution = continuation::correct(problem, problem.metric(), a.x + t * (b.x - a.x),
+                                                lambda, a.piece, only_lambda, options);
+    if (!continuation::converged(solution)) return;
     const bool is_new = std::none_of(known.begin(), known.end(), [&](const Vector& x) {
       return (x - solution.x).lpNorm<Eigen::Infinity>() < 1e-8;
     });

@@ -29,7 +29,7 @@ double largest_force(const PathProblem& problem, const statics::FirstEquilibrium
   if (first.inputs.W.size() > 0)
     largest = std::max(largest, first.inputs.W.lpNorm<Eigen::Infinity>());
   continuation::Linearisation at;
-  if (!linearise(problem, start.x, start.lambda, start.piece, at)) return 0;
+  if (!continuation::linearise(problem, start.x, start.lambda, start.piece, at)) return 0;
   const Vector sizes = magnitudes(at, start.x);
   return largest > unit_rounding * sizes.lpNorm<Eigen::Infinity>() ? largest : 0;
 }
@@ -148,11 +148,11 @@ CurvePoint start_point(const PathProblem& problem, const Setup& setup,
     return start;
   constexpr double far = 1e-6;
   const continuation::Direction across{Vector::Zero(start.x.size()), 1};
-  const auto solved =
-      correct(problem, problem.metric(), start.x, start.lambda, start.piece, across, options);
+  const auto solved = continuation::correct(problem, problem.metric(), start.x, start.lambda,
+                                            start.piece, across, options);
   double moved = 0;
   for (const double step : solved.corrections) moved += step;
-  if (converged(solved) && moved < far) start.x = solved.x;
+  if (continuation::converged(solved) && moved < far) start.x = solved.x;
   return start;
 }
 
@@ -185,9 +185,9 @@ void reach_range(const model::Mechanism& mechanism, const Study& study,
   const PathProblem problem(begun.system, begun.rule);
   const CurvePoint start = start_point(problem, begun, first);
   continuation::Linearisation at;
-  if (!linearise(problem, start.x, start.lambda, start.piece, at)) return;
+  if (!continuation::linearise(problem, start.x, start.lambda, start.piece, at)) return;
   const continuation::Direction along{Vector::Zero(start.x.size()), 1};
-  const auto tangent = tangent_at(at, problem.metric(), along);
+  const auto tangent = continuation::tangent_at(at, problem.metric(), along);
   if (!tangent) return;
   const double dx = std::sqrt(tangent->dx.cwiseAbs2().dot(problem.metric()));
   if (dx <= rounding * std::abs(tangent->dlambda))

@@ -79,12 +79,13 @@ class Watcher {
     const Direction place = along(q * q * (1 + 2 * p), p * p * (1 + 2 * q), p * q * q, -p * p * q);
     const Direction way = along(-6 * p * q / length, 6 * p * q / length, q * (q - 2 * p) / length,
                                 p * (p - 2 * q) / length);
-    const auto solved =
-        correct(t_.problem, weights_, place.dx, place.dlambda, a.piece, border, options_);
+    const auto solved = continuation::correct(t_.problem, weights_, place.dx, place.dlambda,
+                                              a.piece, border, options_);
     continuation::Linearisation at;
-    if (!converged(solved) || !linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
+    if (!continuation::converged(solved) ||
+        !continuation::linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
       return std::nullopt;
-    const auto tangent = tangent_at(at, weights_, a.tangent);
+    const auto tangent = continuation::tangent_at(at, weights_, a.tangent);
     if (!tangent) return std::nullopt;
     const double size = std::sqrt(continuation::metric_product(weights_, way, way));
     if (!(continuation::metric_product(weights_, *tangent, way) > one_way * size))

@@ -152,7 +152,8 @@ Vector start_guess(const Setup& setup, const Study& study) { return start_proble
 
 void count_negative(const PathProblem& problem, continuation::CurvePoint& point) {
   continuation::Linearisation at;
-  if (problem.symmetric() && linearise(problem, point.x, point.lambda, point.piece, at))
+  if (problem.symmetric() &&
+      continuation::linearise(problem, point.x, point.lambda, point.piece, at))
     point.negative = negative_eigenvalues(at);
 }
 

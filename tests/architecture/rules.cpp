@@ -17,24 +17,23 @@ using Layers = std::set<std::string>;
 const std::map<std::string, Layers> below{
     {"core", {}},
     {"continuation", {"core"}},
+    {"parameters", {"core", "continuation"}},
     {"model", {"core"}},
     {"statics", {"core", "model"}},
-    {"analysis", {"core", "continuation", "model", "statics"}},
+    {"analysis", {"core", "continuation", "parameters", "model", "statics"}},
     {"drawing", {"core", "model", "statics"}},
-    {"io", {"core", "continuation", "model", "statics", "analysis", "drawing"}},
-    {"cli", {"core", "continuation", "model", "statics", "analysis", "drawing", "io"}},
+    {"io", {"core", "continuation", "parameters", "model", "statics", "analysis", "drawing"}},
+    {"cli",
+     {"core", "continuation", "parameters", "model", "statics", "analysis", "drawing", "io"}},
 };
 
 /// What each room of the engine may include besides itself.
 const std::map<std::string, Layers> rooms_below{
-    {"numerics", {}},
-    {"linear", {"numerics"}},
-    {"points", {"numerics", "linear"}},
-    {"locating", {"numerics", "linear", "points"}},
-    {"kinks", {"numerics", "linear", "points", "locating"}},
-    {"branches", {"numerics", "linear", "points", "locating", "kinks"}},
-    {"following", {"numerics", "linear", "points", "locating", "kinks"}},
-    {"parameters", {"numerics", "linear", "points"}},
+    {"points", {}},
+    {"locating", {"points"}},
+    {"kinks", {"points", "locating"}},
+    {"branches", {"points", "locating", "kinks"}},
+    {"following", {"points", "locating", "kinks"}},
 };
 
 struct Library {

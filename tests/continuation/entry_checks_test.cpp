@@ -11,7 +11,6 @@
 #include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/response.hpp"
 #include "springfold/continuation/search.hpp"
-#include "springfold/continuation/two_parameter.hpp"
 #include "springfold/continuation/verification.hpp"
 #include "tracing.hpp"
 
@@ -75,36 +74,6 @@ TEST(EntryChecks, ACurveOfAnotherProblemIsRefused) {
   EXPECT_THROW(points_between(OneSidedModes{}, {}, 0, {}), std::invalid_argument);
   EXPECT_THROW(response_at(OneSidedModes{}, Vector::Zero(2), 0, above({true})),
                std::invalid_argument);
-}
-
-/// As many modes as mu says.
-Family modes_by_number() {
-  const auto held = std::make_shared<OneSidedModes>();
-  return {.at = [held](double mu) -> std::optional<ProblemView> {
-    held->n = static_cast<Index>(mu);
-    held->a = Vector::Ones(held->n);
-    held->c = Vector::Constant(held->n, 0.5);
-    return ProblemView(*held);
-  }};
-}
-
-TEST(EntryChecks, AFamilyWhoseProblemsChangeTheirSizeIsRefused) {
-  CriticalStart start{.kind = CriticalKind::limit_point, .x = zero_vector, .lambda = 1.5, .mu = 1};
-  start.piece = above({true});
-  EXPECT_THROW(follow_critical(modes_by_number(), start, true, {}, {}), std::invalid_argument);
-  start.mu = 2;
-  EXPECT_THROW(follow_critical(modes_by_number(), start, true, {}, {}), std::invalid_argument);
-  EXPECT_THROW(polish_critical(Family{}, start), std::invalid_argument);
-}
-
-TEST(EntryChecks, ASpecialPointThatDoesNotExistIsRefused) {
-  CriticalStart start{.kind = CriticalKind::surface, .x = zero_vector, .lambda = 1.5, .mu = 1};
-  start.piece = above({true});
-  start.switching = 1;
-  EXPECT_THROW(critical_rate(modes_by_number(), start), std::invalid_argument);
-  start.kind = CriticalKind::branch_point;
-  start.corank = 2;
-  EXPECT_THROW(critical_rate(modes_by_number(), start), std::invalid_argument);
 }
 
 /// Two springs of very different stiffness that give way by the same length.

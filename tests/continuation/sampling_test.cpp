@@ -1,13 +1,13 @@
 // Places and directions at which functions are sampled, and when an iteration has settled.
-#include "continuation/numerics/sampling.hpp"
+#include "springfold/core/sampling.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "continuation/linear/extended.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/chebyshev.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 namespace {

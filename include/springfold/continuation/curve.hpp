@@ -8,23 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "springfold/core/structured_matrix.hpp"
+#include "springfold/core/linearisation.hpp"
 #include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
 
-/// dF/dx and dF/dlambda at one point, on one piece.
-struct Linearisation {
-  Matrix dF_dx{};       ///< n x n; empty where the problem gives it without its entries
-  Vector dF_dlambda{};  ///< n
-  std::shared_ptr<const StructuredMatrix> structured{};  ///< then this is dF/dx
-};
-
-/// Direction in the extended space R^(n+1).
-struct Direction {
-  Vector dx{};
-  double dlambda = 0;
-};
+using springfold::Direction;
+using springfold::Linearisation;
 
 struct CurvePoint {
   double s = 0;  ///< pseudo arc length from the start of the trace [-], never decreasing

@@ -22,12 +22,9 @@ double metric_product(const Vector& weights, const Direction& a, const Direction
 [[nodiscard]] bool linearise_densely(ProblemView problem, const Vector& x, double lambda,
                                      const Piece& piece, Linearisation& at);
 
-/// dF/dx v, and |dF/dx| |v| entry by entry.
-Vector product(const Linearisation& at, const Vector& v);
-Vector magnitudes(const Linearisation& at, const Vector& v);
-
-/// Negative eigenvalues of a symmetric dF/dx; nothing where one of them is zero.
-std::optional<Index> negative_eigenvalues(const Linearisation& at);
+using springfold::magnitudes;
+using springfold::negative_eigenvalues;
+using springfold::product;
 
 /// Solves the bordered system of arc-length continuation,
 ///

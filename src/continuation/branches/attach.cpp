@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -13,10 +13,10 @@
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/opening.hpp"
 #include "continuation/locating/exits.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

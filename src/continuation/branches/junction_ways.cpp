@@ -7,9 +7,9 @@
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
 #include "continuation/locating/exits.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

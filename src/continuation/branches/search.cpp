@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/words.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::continuation {

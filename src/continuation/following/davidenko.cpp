@@ -10,9 +10,9 @@
 #include "continuation/following/many_points.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/words.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "continuation/locating/unexplained.hpp"
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/words.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "continuation/locating/determined.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/arc.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -6,10 +6,10 @@
 #include "continuation/following/own_branch.hpp"
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/unexplained.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "continuation/locating/determined.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

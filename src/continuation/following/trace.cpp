@@ -10,10 +10,10 @@
 #include "continuation/following/one_step.hpp"
 #include "continuation/following/wider_steps.hpp"
 #include "continuation/kinks/beside.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/points/entry_checks.hpp"
-#include "continuation/points/middles.hpp"
 #include "continuation/points/normalised.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/continuation/stretches.hpp"
 #include "springfold/continuation/verification.hpp"
 
 namespace springfold::continuation {

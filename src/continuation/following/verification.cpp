@@ -5,10 +5,10 @@
 
 #include "continuation/following/tube_test.hpp"
 #include "continuation/locating/determined.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/entry_checks.hpp"
 #include "continuation/points/normalised.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

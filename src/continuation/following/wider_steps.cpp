@@ -7,9 +7,9 @@
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/unexplained.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/samples.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

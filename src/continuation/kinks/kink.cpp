@@ -6,9 +6,9 @@
 
 #include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/kinks/kink_rays.hpp"
-#include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/singular.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/piecewise_form.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink_rays.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "continuation/kinks/kink_rays.hpp"
-#include "continuation/linear/extended.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/extended_matrix.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

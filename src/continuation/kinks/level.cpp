@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "continuation/kinks/kink_rays.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

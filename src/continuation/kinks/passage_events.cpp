@@ -9,11 +9,11 @@
 #include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/flat_turns.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/inertia.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

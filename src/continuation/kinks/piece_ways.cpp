@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "continuation/kinks/kink_rays.hpp"
-#include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/piecewise_form.hpp"
 
 namespace springfold::continuation {

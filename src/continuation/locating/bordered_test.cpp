@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/finite.hpp"
 
 namespace springfold::continuation {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/linear/extended.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "continuation/linear/extended.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -1,8 +1,8 @@
 // Branch points: where the extended Jacobian [dF/dx dF/dlambda] loses rank. Private to the engine.
 #pragma once
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

@@ -5,10 +5,10 @@
 #include <complex>
 
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/chebyshev.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

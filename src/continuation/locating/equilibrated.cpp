@@ -1,7 +1,7 @@
 #include "continuation/locating/equilibrated.hpp"
 
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/equilibration.hpp"
 
 namespace springfold::continuation {

@@ -8,12 +8,12 @@
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "continuation/locating/branch_point.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/words.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

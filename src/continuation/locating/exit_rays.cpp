@@ -10,8 +10,8 @@
 #include <map>
 #include <numbers>
 
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -5,13 +5,13 @@
 #include <numbers>
 #include <utility>
 
-#include "continuation/linear/extended.hpp"
 #include "continuation/locating/equilibrated.hpp"
 #include "continuation/locating/exit_rays.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 namespace {

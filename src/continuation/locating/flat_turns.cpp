@@ -5,8 +5,8 @@
 
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/linear/extended.hpp"
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

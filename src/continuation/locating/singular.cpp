@@ -4,14 +4,14 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/linear/small_lu.hpp"
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/words.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/sampling.hpp"
+#include "springfold/core/small_lu.hpp"
 
 namespace springfold::continuation {
 namespace {

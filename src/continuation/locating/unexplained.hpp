@@ -2,7 +2,7 @@
 #pragma once
 
 #include "continuation/locating/events.hpp"
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

@@ -7,8 +7,8 @@
 #include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

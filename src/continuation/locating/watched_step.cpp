@@ -5,9 +5,9 @@
 
 #include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/sigma_touch.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

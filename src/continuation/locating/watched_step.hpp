@@ -7,11 +7,11 @@
 
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/zeros.hpp"
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

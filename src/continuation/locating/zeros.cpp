@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/numerics/sampling.hpp"
 #include "continuation/points/chebyshev.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {

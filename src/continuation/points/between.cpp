@@ -5,12 +5,12 @@
 #include <initializer_list>
 #include <stdexcept>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/entry_checks.hpp"
-#include "continuation/points/middles.hpp"
 #include "continuation/points/normalised.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/continuation/stretches.hpp"
 
 namespace springfold::continuation {
 namespace {

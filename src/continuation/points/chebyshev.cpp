@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "continuation/numerics/numerics.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

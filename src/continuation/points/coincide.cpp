@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/diagram.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 
@@ -148,6 +148,12 @@ bool lies_on(const Walker& walker, const CurvePoint& point, const std::vector<In
   return std::all_of(switches.begin(), switches.end(), [&](Index j) {
     return std::abs(g[j]) <= on_surface * walker.options.simultaneous;
   });
+}
+
+std::optional<CurvePoint> start_again(ProblemView problem, const TraceOptions& options,
+                                      const CurvePoint& start, const CurvePoint& from,
+                                      const CurvePoint& to) {
+  return start_again(Walker{problem, problem.metric(), options}, start, from, to);
 }
 
 }  // namespace springfold::continuation

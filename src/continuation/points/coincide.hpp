@@ -2,8 +2,8 @@
 // to the engine.
 #pragma once
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

@@ -1,4 +1,4 @@
-#include "continuation/points/entry_checks.hpp"
+#include "springfold/continuation/entry_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

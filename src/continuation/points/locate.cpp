@@ -4,9 +4,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 

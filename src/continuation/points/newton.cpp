@@ -5,10 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/finite.hpp"
-#include "springfold/core/inertia.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -65,20 +64,6 @@ bool linearise_densely(ProblemView problem, const Vector& x, double lambda, cons
   at.structured.reset();
   return problem.derivatives(x, lambda, piece, at.dF_dx, at.dF_dlambda) && all_finite(at.dF_dx) &&
          all_finite(at.dF_dlambda);
-}
-
-Vector product(const Linearisation& at, const Vector& v) {
-  return at.structured ? product(*at.structured, v) : Vector(at.dF_dx * v);
-}
-
-Vector magnitudes(const Linearisation& at, const Vector& v) {
-  return at.structured ? magnitudes(*at.structured, v) : Vector(at.dF_dx.cwiseAbs() * v.cwiseAbs());
-}
-
-std::optional<Index> negative_eigenvalues(const Linearisation& at) {
-  const auto inertia = at.structured ? at.structured->inertia() : inertia_of(at.dF_dx);
-  if (!inertia || inertia->zero > 0) return std::nullopt;
-  return inertia->negative;
 }
 
 std::optional<Direction> solve_bordered(const Linearisation& at, const Vector& weights,

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "continuation/linear/bordered_factors.hpp"
-#include "continuation/numerics/numerics.hpp"
-#include "continuation/points/entry_checks.hpp"
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/bordered_factors.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/finite.hpp"

@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
-#include "continuation/numerics/numerics.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "continuation/points/working_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "continuation/linear/arnoldi.hpp"
-#include "continuation/linear/bordered_factors.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/core/arnoldi.hpp"
+#include "springfold/core/bordered_factors.hpp"
 
 namespace springfold::continuation {
 

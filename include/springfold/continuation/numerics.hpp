@@ -1,0 +1,103 @@
+// The numbers that the engine judges by, each by name and with its reason.
+//
+// Lengths are arc lengths, and lengths of unknowns against max(1, their size); matrices are judged against their size.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/options.hpp"
+#include "springfold/core/rounding.hpp"
+
+namespace springfold::continuation {
+
+// What does rounding leave?
+/// A correction shorter than this would be taken back by the next one; a direction that is shorter has no length.
+inline constexpr double refined_step = 50 * rounding_unit;
+/// Corrected points have some hundred units of rounding themselves: a model of the curve that is off by no more is exact, and
+/// a rate below it has no sign.
+inline constexpr double exact_model = 500 * rounding_unit;
+/// What the corrector leaves of an equation of size one. Iterations settle to it, values of functions at corrected points are
+/// rounding below it.
+inline constexpr double residual_level = NewtonOptions{}.residual_tolerance;
+/// What is measured at a few places may be this many times larger between them.
+inline constexpr double between_samples = 10;
+/// What residuals at their tolerance leave of a function along the curve, of its size.
+inline constexpr double function_noise = between_samples * residual_level;
+/// A double zero lies where its function is rounding over a way of about this length, the square root of the rounding unit.
+inline constexpr double root_of_rounding = 1e-8;
+/// Is this error one that rounding leaves on a curve of this size?
+inline bool is_exact(double error, double size) {
+  return error <= exact_model * std::max(1.0, size);
+}
+
+// Is it converged?
+/// Residuals and steps that are reduced to this share of the ones before are not yet at their least.
+inline constexpr double still_falls = 0.1;
+/// An iteration has settled when its step is fine, or when steps are small and no longer shrink, which is rounding.
+inline bool has_settled(double moved, double before, double fine, double small) {
+  constexpr double no_longer =
+      0.3;  // above still_falls: the last contraction may have been a poor one
+  return moved <= fine || (moved < small && moved > no_longer * before);
+}
+
+// Is it the same place?
+/// Special points are promised to this.
+inline constexpr double promised_place = 1e-10;
+/// Along one curve nothing nearer than this is told apart: two places as good as promised, with room.
+inline constexpr double one_place = 10 * promised_place;
+/// Points that are nearer are one point: corrected on their own, beside singular points, they differ by some roots of rounding.
+inline constexpr double same_point = 1e-7;
+/// Where rounding places a point worse than this, it is not resolved; and steps are not shortened below it.
+inline constexpr double poor = 1e-6;
+/// Zeros within this are examined as one point first: ten that rounding places poorly fit in.
+inline constexpr double together = 10 * poor;
+/// Special points that are nearer to each other than this arc length need not be told apart. A way that begins nearer to its
+/// junction leads there as the reduced equation says, which was followed into the point; a trace may be lost in rounding.
+inline constexpr double told_apart = 1e-4;
+/// Around a branch point corrected points are less exact: to both sides of a stretch that need not be told apart.
+inline constexpr double blurred = 2 * told_apart;
+
+// Is it the same direction?
+/// Directions with a larger cosine are ways of one curve; the ways out of one point are further apart.
+inline constexpr double same_way = 0.98;
+/// Unit directions that differ by less are one; 1 - cosine of directions that are one line.
+inline constexpr double one_direction = 1e-6, same_line = one_direction * one_direction;
+/// The same of a way and the direction in which a curve arrives at a singular point, where its tangent is known only roughly.
+inline constexpr double nearly_same_line = 1e-3;
+
+// Is it level?
+/// Rates along a unit tangent below this, of lambda or of a switch, are zero: tangents are as exact as points near double
+/// zeros are.
+inline constexpr double flat_rate = root_of_rounding;
+/// The rate of lambda that is zero at a kink or a branch point: tangents there are a digit worse.
+inline constexpr double turns_here = 10 * flat_rate;
+/// Arc length over which lambda must stand still to be a family beyond a kink: an inflection that is flat to 1e-12 on it
+/// would need a third derivative of lambda below 1e-5.
+inline constexpr double level_reach = 1e-2;
+
+// Which rank?
+/// Singular values below this share vanish at points that are located as promised, with two orders to spare.
+inline constexpr double located_rank = 100 * promised_place;
+/// The same at points that may be placed poorly.
+inline constexpr double vanishing_rank = poor;
+/// Ratio of singular values from which a piece is regular at a kink on a curve, which is corrected to rounding; then its
+/// tangent has this error.
+inline constexpr double regular_at_kinks = one_place;
+/// So near to a singular point corrected points may be off by the root of their rounding.
+inline constexpr double perhaps_singular = told_apart;
+
+// How far may a model be believed?
+/// Shares of a whole: one that does not decide, one that hardly counts, one that does not count even where much is unknown.
+inline constexpr double small_share = 0.1, negligible_share = 0.01, tiny_share = 0.001;
+/// Shares of a step or of a radius: so far something may be off and still be near; so far away is aside.
+inline constexpr double near_share = 0.3, aside_share = 0.2;
+/// The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times larger.
+inline constexpr double displaced_safety = 2;
+/// A matrix that changes by less than this share of itself stays regular; one half leaves a factor of two for motion
+/// that is not straight.
+inline constexpr double stays_regular = 0.5;
+/// Where a prediction is farther than this share of the step from the straight one, the model is not continued.
+inline constexpr double most_bend = small_share;
+
+}  // namespace springfold::continuation

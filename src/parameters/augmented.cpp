@@ -1,0 +1,375 @@
+#include "parameters/augmented.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/core/differences.hpp"
+#include "springfold/core/finite.hpp"
+#include "springfold/core/small_lu.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Residuals above this are to be corrected: derivatives then serve the next correction alone, and need no more digits
+/// than that leaves. Below it, with room for the units that the corrector measures them in, they are exact: tangents and
+/// rates are made of them.
+constexpr double still_far = promised_place;
+
+Exactness exactness_for(const Vector& X, const Vector& F) {
+  const double size = std::max(1.0, X.lpNorm<Eigen::Infinity>());
+  return F.lpNorm<Eigen::Infinity>() > still_far * size ? Exactness::rough : Exactness::exact;
+}
+
+/// Second derivatives below this share of what rounding of differences leaves visible are zero.
+constexpr double vanishing_second = 10 * root_of_rounding;
+
+/// Does a form vanish along a direction, beside its own size and that of the first derivatives?
+bool vanishes_along(const Vector& form, const Vector& direction, double first) {
+  const double size = std::max(form.norm(), first);
+  return std::abs(form.dot(direction)) <= vanishing_second * size * direction.norm();
+}
+
+/// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
+bool solve_borders(const Matrix& M, Index k, Matrix& result) {
+  result = Matrix::Zero(M.rows(), k);
+  result.bottomRows(k).setIdentity();
+  if (SmallLu::fits(M.rows())) {
+    const SmallLu lu(M);
+    if (!(lu.smallest_pivot() > 0)) return false;
+    if (k == 1)
+      lu.solve(result.data());
+    else
+      lu.solve(result);
+  } else {
+    result = Lu(M).solve(result);
+  }
+  return all_finite(result);
+}
+
+/// The rotation that brings the columns of `left` nearest to those of `right`.
+Matrix aligned(const Matrix& left, const Matrix& right) {
+  const Svd svd =
+      jacobi_svd(left.transpose() * right, SingularVectors::full, SingularVectors::full);
+  return left * (svd.U * svd.V.transpose());
+}
+
+}  // namespace
+
+Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
+  const Index n = B.rows(), k = B.cols();
+  Matrix M = Matrix::Zero(n + k, n + k);
+  M.topLeftCorner(n, n) = base.J.leftCols(n);
+  M.topRightCorner(n, k) = B;
+  M.bottomLeftCorner(k, n) = C.transpose();
+  return M;
+}
+
+double BorderedPlace::largest() const {
+  return std::max(V.colwise().norm().maxCoeff(), W.colwise().norm().maxCoeff());
+}
+
+std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
+                                            double mu, const Piece& piece, const Matrix& B,
+                                            const Matrix& C) {
+  BorderedPlace p;
+  if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
+  const Index n = x.size(), k = B.cols();
+  const Matrix M = bordered_matrix(p.base, B, C);
+  Matrix solution;
+  if (!solve_borders(M, k, solution)) return std::nullopt;
+  p.V = solution.topRows(n);
+  p.G = solution.bottomRows(k);
+  const bool symmetric = family.at(mu)->symmetric() && B == C;
+  if (!symmetric && !solve_borders(M.transpose(), k, solution)) return std::nullopt;
+  p.W = solution.topRows(n);
+  return p;
+}
+
+std::optional<NullVectors> null_vectors(const Family& family, const CriticalStart& at, int k) {
+  BaseTerms base;
+  if (!base_terms(family, at.x, at.lambda, at.mu, at.piece, base)) return std::nullopt;
+  const Index n = at.x.size();
+  if (n < k) return std::nullopt;
+  const Matrix A = base.J.leftCols(n);
+  NullVectors null{Matrix(n, k), Matrix(n, k)};
+  if (family.at(at.mu)->symmetric()) {
+    const SymmetricEigen eigen = symmetric_eigen(A);
+    std::vector<Index> order(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(eigen.values[a]) < std::abs(eigen.values[b]);
+    });
+    for (int i = 0; i < k; ++i)
+      null.right.col(i) = eigen.vectors.col(order[static_cast<std::size_t>(i)]);
+    null.left = null.right;
+    return null;
+  }
+  const Svd svd = jacobi_svd(A, SingularVectors::full, SingularVectors::full);
+  null.right = svd.V.rightCols(k);
+  null.left = aligned(svd.U.rightCols(k), null.right);
+  return null;
+}
+
+Augmented::Augmented(const Family& family, const CriticalStart& start, NullVectors borders)
+    : family_{family}, start_{start}, borders_{std::move(borders)}, n_{start.x.size()} {
+  k_ = start.kind == CriticalKind::branch_point ? start.corank : 0;
+  weights_ = Vector::Ones(size());
+  periods_ = Vector::Zero(size());
+  if (const auto problem = family_.at(start.mu)) {
+    weights_.head(n_) = problem->metric();
+    periods_.head(n_) = problem->periods();
+    covers_ = problem->double_covers();
+  }
+  held_ = k_ > 0 && may_hold();
+}
+
+bool Augmented::may_hold() const {
+  const auto here = terms(start_unknowns(), start_.mu);
+  if (!here) return true;
+  const Matrix &V = here->at.V, &W = here->at.W;
+  const double first = here->at.base.J.norm();
+  const auto form_along = [&](Index i, const Vector& direction) {
+    return second_along(family_, start_.x, start_.lambda, start_.mu, start_.piece, W.col(i),
+                        direction);
+  };
+  const Vector along = here->along.col(0);
+  for (Index i = 0; i < k_; ++i) {
+    const auto bend = form_along(i, along);
+    if (bend && !vanishes_along(*bend, along, first)) return false;
+    for (Index j = 0; j < k_; ++j) {
+      Vector mode = Vector::Zero(n_ + 1);
+      mode.head(n_) = V.col(j);
+      const auto form = form_along(i, mode);
+      if (!form) continue;
+      for (Index l = 0; l < k_; ++l)
+        if (!vanishes_along(form->head(n_), V.col(l), first)) return false;
+    }
+  }
+  return true;
+}
+
+bool Augmented::is_bordered() const {
+  return start_.kind == CriticalKind::limit_point || start_.kind == CriticalKind::branch_point;
+}
+
+Vector Augmented::metric() const { return weights_; }
+Vector Augmented::periods() const { return periods_; }
+
+double Augmented::unfolding(const Vector& X) const {
+  return k_ == 0 ? 0 : X.tail(k_).lpNorm<Eigen::Infinity>();
+}
+
+Vector Augmented::start_unknowns() const {
+  Vector X = Vector::Zero(size());
+  X.head(n_) = start_.x;
+  X[n_] = start_.lambda;
+  return X;
+}
+
+std::optional<BorderedPlace> Augmented::place(const Vector& X, double mu) const {
+  return bordered_place(family_, state(X), lambda(X), mu, start_.piece, borders_.left,
+                        borders_.right);
+}
+
+std::optional<double> Augmented::surface(const Vector& x, double lambda, double mu) const {
+  if (start_.value) return start_.value(x, lambda, mu);
+  const auto problem = family_.at(mu);
+  Vector g;
+  if (!problem || !problem->switches(x, lambda, g)) return std::nullopt;
+  return g[start_.switching];
+}
+
+/// Exact for switches; differences for a function of the caller.
+std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda, double mu) const {
+  Vector gradient(n_ + 1);
+  if (!start_.value) {
+    const auto problem = family_.at(mu);
+    Matrix dg_dx;
+    Vector dg_dlambda;
+    if (!problem || !problem->switch_gradients(x, lambda, dg_dx, dg_dlambda)) return std::nullopt;
+    gradient.head(n_) = dg_dx.row(start_.switching).transpose();
+    gradient[n_] = dg_dlambda[start_.switching];
+    return gradient;
+  }
+  for (Index i = 0; i <= n_; ++i) {
+    const auto rate = derivative_at_zero(
+        [&](double t) -> std::optional<Vector> {
+          Vector at = x;
+          if (i < n_) at[i] += t;
+          const auto value = start_.value(at, i < n_ ? lambda : lambda + t, mu);
+          if (!value) return std::nullopt;
+          return Vector::Constant(1, *value);
+        },
+        directional_step);
+    if (!rate) return std::nullopt;
+    gradient[i] = (*rate)[0];
+  }
+  return gradient;
+}
+
+std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) const {
+  Terms terms;
+  if (is_bordered()) {
+    auto p = place(X, mu);
+    if (!p) return std::nullopt;
+    terms.at = std::move(*p);
+    terms.last = terms.at.G.trace();
+    if (k_ == 0 || held_) return terms;
+    Vector right = Vector::Zero(n_ + k_);
+    right.head(n_) = terms.at.base.J.col(n_);
+    const Vector solution =
+        Lu(bordered_matrix(terms.at.base, borders_.left, borders_.right)).solve(right);
+    terms.along.resize(n_ + 1, 1);
+    terms.along << -solution.head(n_), 1.0;
+    terms.load = solution.tail(k_);
+    return terms;
+  }
+  if (!base_terms(family_, state(X), lambda(X), mu, start_.piece, terms.at.base))
+    return std::nullopt;
+  const auto value = surface(state(X), lambda(X), mu);
+  if (!value) return std::nullopt;
+  terms.last = *value;
+  return terms;
+}
+
+bool Augmented::residual(const Vector& X, double mu, Vector& F) const {
+  const auto here = terms(X, mu);
+  return here && put_residual(X, *here, F);
+}
+
+bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  const auto here = terms(X, mu);
+  if (!here) return false;
+  Vector F;
+  const auto exactness = put_residual(X, *here, F) ? exactness_for(X, F) : Exactness::exact;
+  return put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
+}
+
+bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  if (!derivatives(X, mu, dF_dX, dF_dmu)) return false;
+  const Differences* exact = known_differences(X, mu);
+  return exact == nullptr || exact->error <= root_of_rounding;
+}
+
+bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,
+                          Vector& dF_dmu) const {
+  const auto here = terms(X, mu);
+  return here && put_residual(X, *here, F) &&
+         put_derivatives(X, mu, *here, exactness_for(X, F), dF_dX, dF_dmu);
+}
+
+bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) const {
+  if (!std::isfinite(terms.last)) return false;
+  F.resize(size());
+  F.head(n_) = terms.at.base.F;
+  if (k_ > 0) {
+    F.head(n_) += borders_.left * X.tail(k_);
+    F.segment(n_, k_) =
+        held_ ? Vector(borders_.right.transpose() * (state(X) - start_.x)) : terms.load;
+  }
+  F[n_ + k_] = terms.last;
+  return true;
+}
+
+const Augmented::Differences* Augmented::known_differences(const Vector& X, double mu) const {
+  if (exact_.X.size() != X.size()) return nullptr;
+  const double size = std::max(1.0, X.lpNorm<Eigen::Infinity>());
+  const double away = std::max((X - exact_.X).lpNorm<Eigen::Infinity>(), std::abs(mu - exact_.mu));
+  return away <= exact_model * size ? &exact_ : nullptr;
+}
+
+/// Of the bordered kinds all that depends on mu is linear in the equations; surfaces are the caller's.
+std::optional<double> Augmented::far_on_line(double mu) const {
+  if (!is_bordered() || !family_.line) return std::nullopt;
+  return family_.line(mu);
+}
+
+bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                            Differences& found) const {
+  const Vector x = state(X);
+  const double l = lambda(X);
+  const Matrix &V = terms.at.V, &W = terms.at.W;
+  const Index crossing = k_ > 0 && !held_ ? k_ : 0;
+  const auto second = [&](const Vector& w, const Vector& along) {
+    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
+  };
+  found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
+  if (is_bordered()) {
+    for (Index i = 0; i < V.cols(); ++i) {
+      Vector along = Vector::Zero(n_ + 1);
+      along.head(n_) = V.col(i);
+      const auto part = second(W.col(i), along);
+      if (!part) return false;
+      found.by_X.row(crossing) -= part->transpose();
+    }
+  } else {
+    const auto gradient = surface_gradient(x, l, mu);
+    if (!gradient) return false;
+    found.by_X.row(crossing) = gradient->transpose();
+  }
+  for (Index i = 0; i < crossing; ++i) {
+    const auto part = second(W.col(i), terms.along.col(0));
+    if (!part) return false;
+    found.by_X.row(i) = part->transpose();
+  }
+  BaseTerms there;
+  const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
+    Vector values(n_ + crossing + 1);
+    values.head(n_) = base.F;
+    if (crossing > 0) values.segment(n_, crossing) = W.transpose() * (base.J * terms.along);
+    if (is_bordered()) {
+      values[n_ + crossing] = -(W.cwiseProduct(base.J.leftCols(n_) * V)).sum();
+      return values;
+    }
+    const auto g = surface(x, l, m);
+    if (!g) return std::nullopt;
+    values[n_] = *g;
+    return values;
+  };
+  const auto at_parameter = [&](double m) -> std::optional<Vector> {
+    if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
+    return values_of(there, m);
+  };
+  if (const auto other = far_on_line(mu)) {
+    const auto far = at_parameter(*other), here = values_of(terms.at.base, mu);
+    if (!far || !here) return false;
+    found.by_mu = (*far - *here) / (*other - mu);
+    found.error = 0;
+  } else {
+    // A member of the family is dear: neighbours share those of a grid.
+    auto by_mu = derivative_by_parameter(at_parameter, mu, family_.step, exactness, found.error);
+    if (!by_mu) return false;
+    found.by_mu = std::move(*by_mu);
+  }
+  found.X = X;
+  found.mu = mu;
+  return true;
+}
+
+bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                                Matrix& dF_dX, Vector& dF_dmu) const {
+  Differences own;
+  const Differences* at = known_differences(X, mu);
+  if (at == nullptr) {
+    if (!differences(X, mu, terms, exactness, own)) return false;
+    if (exactness == Exactness::exact) exact_ = std::move(own);
+    at = exactness == Exactness::exact ? &exact_ : &own;
+  }
+  dF_dX = Matrix::Zero(size(), size());
+  dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
+  if (k_ > 0) {
+    dF_dX.topRightCorner(n_, k_) = borders_.left;
+    if (held_) dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
+  }
+  const Index crossing = at->by_X.rows() - 1;  // equations W^T dF/dlambda = 0
+  dF_dX.block(n_, 0, crossing, n_ + 1) = at->by_X.topRows(crossing);
+  dF_dX.bottomLeftCorner(1, n_ + 1) = at->by_X.bottomRows(1);
+  dF_dmu = Vector::Zero(size());
+  dF_dmu.head(n_ + crossing) = at->by_mu.head(n_ + crossing);
+  dF_dmu[n_ + k_] = at->by_mu[n_ + crossing];
+  return dF_dX.allFinite() && dF_dmu.allFinite();
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,106 @@
+// Minimally augmented systems of special points, F~(X; mu) = 0 with X = (x, lambda, ...). Private to the layer.
+#pragma once
+
+#include <optional>
+
+#include "parameters/family_differences.hpp"
+#include "springfold/parameters/two_parameter.hpp"
+
+namespace springfold::continuation {
+
+/// M = [dF/dx B; C^T 0].
+Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C);
+
+/// What M defines at one place.
+struct BorderedPlace {
+  BaseTerms base{};
+  Matrix V{}, W{};  ///< n x k
+  Matrix G{};       ///< k x k
+  double largest()
+      const;  ///< norm of the longest column of V and W: beyond a few the borders are poor
+};
+
+std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
+                                            double mu, const Piece& piece, const Matrix& B,
+                                            const Matrix& C);
+
+/// Left and right singular vectors of the k smallest singular values of dF/dx; for symmetric problems the same
+/// eigenvectors for both.
+struct NullVectors {
+  Matrix left{}, right{};
+};
+std::optional<NullVectors> null_vectors(const Family& family, const CriticalStart& at, int k);
+
+/// All kinds as one SmoothProblem with the parameter mu.
+class Augmented {
+ public:
+  Augmented(const Family& family, const CriticalStart& start, NullVectors borders);
+
+  Index size() const { return n_ + 1 + k_; }
+  bool residual(const Vector& X, double mu, Vector& F) const;
+  bool derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
+  /// The same where no jump, bend or end of the family beside mu makes them inexact.
+  bool sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const;
+  /// Both from one factorisation.
+  bool equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX, Vector& dF_dmu) const;
+  Vector metric() const;
+  Vector periods() const;
+  std::vector<Index> double_covers() const { return covers_; }
+
+  Vector state(const Vector& X) const { return X.head(n_); }
+  double lambda(const Vector& X) const { return X[n_]; }
+  /// Coefficients beta of a branch point: zero where the parameter keeps the branch.
+  double unfolding(const Vector& X) const;
+  Vector start_unknowns() const;
+  Index n() const { return n_; }
+  const CriticalStart& start() const { return start_; }
+  const Family& family() const { return family_; }
+  const NullVectors& borders() const { return borders_; }
+  std::optional<BorderedPlace> place(const Vector& X, double mu) const;
+  /// The switch, or the caller's function.
+  std::optional<double> surface(const Vector& x, double lambda, double mu) const;
+  std::optional<Vector> surface_gradient(const Vector& x, double lambda, double mu) const;
+
+ private:
+  bool is_bordered() const;
+  /// All terms at one place; V, W and G of bordered kinds only. `last`: the last equation: trace of G, or the surface.
+  struct Terms {
+    BorderedPlace at{};
+    Matrix along{};  ///< not held only: (-y, 1) with M (y, eta) = (dF/dlambda, 0), a column
+    Vector load{};   ///< not held only: eta = W^T dF/dlambda
+    double last = 0;
+  };
+  std::optional<Terms> terms(const Vector& X, double mu) const;
+  /// What only differences give of the derivatives at one place.
+  struct Differences {
+    Vector X{};
+    double mu = 0;
+    Matrix
+        by_X{};  ///< (x, lambda): of the equations W^T dF/dlambda, where there are any, and of the last one
+    Vector by_mu{};    ///< of F, of those equations and of the last one
+    double error = 0;  ///< expected of exact by_mu, relative
+  };
+  /// Where the equations are affine in mu from here on, as the family knows.
+  std::optional<double> far_on_line(double mu) const;
+  bool differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                   Differences& found) const;
+  /// Exact ones at this place, or as near to it as the corrector comes.
+  const Differences* known_differences(const Vector& X, double mu) const;
+  /// May the components along the null vectors be held? Where all second derivatives vanish in which the branches bend or
+  /// cross askew, as symmetry makes them: the branch point stays on the branch that does not move along the null vectors.
+  bool may_hold() const;
+  bool put_residual(const Vector& X, const Terms& terms, Vector& F) const;
+  bool put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                       Matrix& dF_dX, Vector& dF_dmu) const;
+
+  const Family& family_;
+  CriticalStart start_;
+  NullVectors borders_;  ///< B = left, C = right
+  Index n_ = 0, k_ = 0;  ///< k: unfolding coefficients, of branch points only
+  bool held_ = false;    ///< branch points: C^T (x - x_start) = 0 instead of W^T dF/dlambda = 0
+  Vector weights_{}, periods_{};
+  std::vector<Index> covers_{};
+  mutable Differences exact_{};  ///< the last ones
+};
+
+}  // namespace springfold::continuation

@@ -1,0 +1,260 @@
+#include "parameters/degeneracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/parameters/imperfection.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// A rate that is zero to rounding all along has no zeros to be found.
+double unless_still(double rate) { return std::abs(rate) < function_noise ? function_noise : rate; }
+
+/// Quadratic form of D^2F, contracted with w, on the vectors a and b of (x, lambda).
+double form(const Augmented& s, const CurvePoint& p, const Vector& w, const Vector& a,
+            const Vector& b) {
+  const auto along =
+      second_along(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, w, a);
+  return along ? along->dot(b) : not_a_number;
+}
+
+/// Where mu turns back on a curve of limit points either the fold is cubic (cusp), or dF/dlambda
+/// lies in the range of dF/dx: [dF/dx dF/dlambda] has a kernel of two dimensions, and the sign of
+/// the quadratic form there tells whether branches cross or a closed one shrinks to a point.
+Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
+  const auto place = s.place(p.x, p.lambda);
+  if (!place) return Degeneracy::cusp;
+  const Vector w = place->W.col(0).normalized();
+  const Index n = s.n();
+  const Vector by_lambda = place->base.J.col(n);
+  Vector along = Vector::Zero(n + 1);
+  along.head(n) = place->V.col(0).normalized();
+  const double bending = std::abs(form(s, p, w, along, along));
+  if (!(std::abs(w.dot(by_lambda)) < bending)) return Degeneracy::cusp;
+  const Matrix V = jacobi_svd(place->base.J, SingularVectors::none, SingularVectors::full).V;
+  const Vector a = V.col(n), b = V.col(n - 1);
+  const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
+  return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
+}
+
+/// The determinant's sign with the size of the smallest singular value: continuous, and zero
+/// where one more eigenvalue of dF/dx vanishes. Singular values of symmetric matrices are sizes of eigenvalues.
+double signed_least(const Matrix& M, bool is_symmetric) {
+  if (is_symmetric) {
+    const Vector values = symmetric_eigenvalues(M);
+    const double least = values.cwiseAbs().minCoeff();
+    return (values.array() < 0).count() % 2 == 0 ? least : -least;
+  }
+  const Vector values = jacobi_svd(M).values;
+  return Lu(M).sign() * values[values.size() - 1];
+}
+
+/// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on
+/// the branch itself.
+Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
+  BaseTerms base;
+  const Index lost = s.borders().left.cols() + 1;
+  if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base) ||
+      s.n() < lost)
+    return Degeneracy::corank_two;
+  const Vector values = jacobi_svd(base.J).values;
+  return values[s.n() - lost] > vanishing_rank * values[0] ? Degeneracy::hilltop
+                                                           : Degeneracy::corank_two;
+}
+
+/// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side, their
+/// product for a unit tangent: zero where one of them turns back; whichever way the curve is walked.
+double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
+  const Vector x = s.state(p.x);
+  const double lambda = s.lambda(p.x);
+  BaseTerms base;
+  if (!base_terms(s.family(), x, lambda, p.lambda, side, base)) return not_a_number;
+  const auto h = s.surface_gradient(x, lambda, p.lambda);
+  if (!h) return not_a_number;
+  const Vector t = jacobi_svd(base.J, SingularVectors::none, SingularVectors::full).V.col(s.n());
+  std::optional<double> rate = t[s.n()];
+  if (s.start().turns)
+    rate = s.start().turns(
+        {.x = x, .lambda = lambda, .tangent = {t.head(s.n()), t[s.n()]}, .piece = side}, p.lambda);
+  if (!rate) return not_a_number;
+  return unless_still(*rate * h->dot(t) / std::max(smallest_number, h->norm()));
+}
+
+void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
+  const auto problem = system.family().at(system.start().mu);
+  if (!problem) return;
+  const bool on_surface = system.start().kind == CriticalKind::surface;
+  for (Index j = 0; j < problem->switch_count(); ++j) {
+    if (on_surface && j == system.start().switching) continue;
+    watches.push_back({on_surface ? Degeneracy::two_switches : Degeneracy::fold_meets_activation,
+                       problem->switch_name(j),
+                       [&system, j](const CurvePoint& p) {
+                         const auto at = system.family().at(p.lambda);
+                         Vector g;
+                         if (!at || !at->switches(system.state(p.x), system.lambda(p.x), g))
+                           return not_a_number;
+                         return g[j];
+                       },
+                       EventAction::stop,
+                       {},
+                       true,
+                       system.start().piece[static_cast<std::size_t>(j)],
+                       [&system, j, name = problem->switch_name(j)](const CurvePoint& p) {
+                         const auto at = system.family().at(p.lambda);
+                         return at ? at->switch_name(j) : name;
+                       }});
+  }
+}
+
+/// Zero where one more eigenvalue of dF/dx vanishes.
+double other_eigenvalue(const Augmented& s, const CurvePoint& p) {
+  BaseTerms base;
+  if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base))
+    return not_a_number;
+  const auto problem = s.family().at(p.lambda);
+  return signed_least(bordered_matrix(base, s.borders().left, s.borders().right),
+                      problem && problem->symmetric());
+}
+
+void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
+  watches.push_back({Degeneracy::corank_two, "",
+                     [&system](const CurvePoint& p) { return other_eigenvalue(system, p); },
+                     EventAction::record,
+                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }, true});
+}
+
+/// The equations reduced to the modes at a point of the curve.
+std::optional<ReducedForm> form_at(const Augmented& s, const CurvePoint& p) {
+  CriticalStart at = s.start();
+  at.x = s.state(p.x);
+  at.lambda = s.lambda(p.x);
+  at.mu = p.lambda;
+  return reduced_form(s.family(), at, {Vector::Zero(s.n()), 1});
+}
+
+/// The cubic term of a symmetric branch point, with the borders' signs of the modes: where it changes sign, the branch
+/// that leaves bends the other way. Where another eigenvalue of dF/dx vanishes the term has a pole if its mode takes part:
+/// times that eigenvalue it is regular. If the mode takes no part, what vanishes there is known as the other mode.
+double bend_of_branch(const Augmented& s, const CurvePoint& p) {
+  const auto form = form_at(s, p);
+  if (!form || form->by_lambda.size() != 1) return not_a_number;
+  const double signs =
+      form->W.col(0).dot(s.borders().left.col(0)) * form->V.col(0).dot(s.borders().right.col(0));
+  const double cubic = signs < 0 ? -form->cubic[0](0, 0) : form->cubic[0](0, 0);
+  // Zero to rounding of the terms that it is made of all along: it has no zeros to be found.
+  const double noise =
+      between_samples * function_noise * std::max(1.0, std::abs(form->mixed(0, 0) * s.lambda(p.x)));
+  return (std::abs(cubic) < noise ? noise : cubic) * other_eigenvalue(s, p);
+}
+
+void watch_bend(const Augmented& system, const CurvePoint& start, std::vector<Watch>& watches) {
+  const auto form = form_at(system, start);
+  if (!form || !is_symmetric_point(*form)) return;
+  watches.push_back({Degeneracy::bends_other_way,
+                     "",
+                     [&system](const CurvePoint& p) { return bend_of_branch(system, p); },
+                     EventAction::record,
+                     {}});
+}
+
+void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
+  const auto add = [&](Degeneracy kind, const Piece& side) {
+    watches.push_back({kind,
+                       "",
+                       [&system, side](const CurvePoint& p) { return reversal(system, p, side); },
+                       EventAction::record,
+                       {}});
+  };
+  add(Degeneracy::fold_meets_activation, system.start().piece);
+  add(Degeneracy::corner_loses_reversal, system.start().behind);
+}
+
+}  // namespace
+
+CriticalPoint critical_point(const CurvePoint& p, Index n) {
+  return {.s = p.s,
+          .x = p.x.head(n),
+          .lambda = p.x[n],
+          .mu = p.lambda,
+          .dx = p.tangent.dx.head(n),
+          .dlambda = p.tangent.dx[n],
+          .dmu = p.tangent.dlambda};
+}
+
+std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events) {
+  std::vector<Watch> watches;
+  const CriticalKind kind = system.start().kind;
+  const Degeneracy turn = kind == CriticalKind::limit_point    ? Degeneracy::cusp
+                          : kind == CriticalKind::branch_point ? Degeneracy::branch_points_merge
+                          : kind == CriticalKind::surface      ? Degeneracy::touches_surface
+                                                               : Degeneracy::turn;
+  std::function<Degeneracy(const CurvePoint&)> refine;
+  if (kind == CriticalKind::limit_point)
+    refine = [&system](const CurvePoint& p) { return turn_of_fold(system, p); };
+  watches.push_back({turn, "", [](const CurvePoint& p) { return unless_still(p.tangent.dlambda); },
+                     EventAction::record, refine});
+  const Index n = system.n();
+  watches.push_back({Degeneracy::extremum,
+                     "",
+                     [n](const CurvePoint& p) { return unless_still(p.tangent.dx[n]); },
+                     EventAction::record,
+                     {}});
+  if (kind == CriticalKind::limit_point || kind == CriticalKind::branch_point)
+    watch_bordered(system, watches);
+  if (kind == CriticalKind::branch_point && system.start().corank == 1) {
+    const CurvePoint start{.x = system.start_unknowns(), .lambda = system.start().mu};
+    watch_bend(system, start, watches);
+  }
+  if (kind == CriticalKind::surface) watch_corner(system, watches);
+  watch_surfaces(system, watches);
+  for (const CriticalEvent& event : events)
+    watches.push_back(
+        {Degeneracy::user,
+         event.name,
+         [&event, n](const CurvePoint& p) { return event.value(critical_point(p, n)); },
+         event.action,
+         {},
+         event.of_place,
+         event.inside});
+  return watches;
+}
+
+std::string_view to_string(Degeneracy kind) {
+  switch (kind) {
+    case Degeneracy::cusp:
+      return "cusp";
+    case Degeneracy::isola_centre:
+      return "isola centre";
+    case Degeneracy::crossing:
+      return "crossing of branches";
+    case Degeneracy::hilltop:
+      return "hilltop";
+    case Degeneracy::branch_points_merge:
+      return "a pair of branch points is born";
+    case Degeneracy::corank_two:
+      return "another mode vanishes at the same load";
+    case Degeneracy::fold_meets_activation:
+      return "fold meets activation";
+    case Degeneracy::corner_loses_reversal:
+      return "corner loses its reversal";
+    case Degeneracy::touches_surface:
+      return "the path touches the activation";
+    case Degeneracy::two_switches:
+      return "two activations at once";
+    case Degeneracy::bends_other_way:
+      return "the branch that leaves bends the other way: supercritical before, subcritical "
+             "behind, or the reverse";
+    case Degeneracy::turn:
+      return "the parameter turns back";
+    case Degeneracy::extremum:
+      return "extremum of lambda";
+    case Degeneracy::user:
+      return "marked value";
+  }
+  return "";
+}
+
+}  // namespace springfold::continuation

@@ -1,0 +1,89 @@
+#include "parameters/solve_augmented.hpp"
+
+#include <stdexcept>
+
+#include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/parameters/imperfection.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Sizes of what the caller gives; the equations are checked wherever they are asked for (base_terms).
+void check_start(const Family& family, const CriticalStart& start) {
+  if (!family.at) throw std::invalid_argument("the family has no problems");
+  const auto problem = family.at(start.mu);
+  if (!problem) return;  // not defined there: told as such
+  check_point(*problem, start.x, start.lambda, start.piece);
+  if (start.kind == CriticalKind::branch_point &&
+      (start.corank < 1 || start.corank > start.x.size()))
+    throw std::invalid_argument("corank: need a number from 1 to that of the unknowns");
+  if (start.kind == CriticalKind::surface && !start.value &&
+      (start.switching < 0 || start.switching >= problem->switch_count()))
+    throw std::invalid_argument("switching: there is no such switch");
+  if (start.kind == CriticalKind::zero && !start.value)
+    throw std::invalid_argument("value: a point of kind zero needs one");
+}
+
+}  // namespace
+
+std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
+  constexpr int most = 12;
+  double before = infinity;
+  for (int i = 0; i < most; ++i) {
+    Vector F, by_mu;
+    Matrix J;
+    if (!system.residual(X, mu, F) || !system.derivatives(X, mu, J, by_mu)) return std::nullopt;
+    const Vector step = -Lu(J).solve(F);
+    if (!step.allFinite() || step.norm() > 1) return std::nullopt;
+    X += step;
+    const double moved = step.norm();
+    if (has_settled(moved, before, refined_step * (1 + X.norm()), one_place)) return X;
+    before = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<Augmented> system_at(const Family& family, const CriticalStart& start) {
+  check_start(family, start);
+  NullVectors borders;
+  const bool bordered =
+      start.kind == CriticalKind::limit_point || start.kind == CriticalKind::branch_point;
+  if (bordered) {
+    auto found =
+        null_vectors(family, start, start.kind == CriticalKind::branch_point ? start.corank : 1);
+    if (!found) return std::nullopt;
+    borders = std::move(*found);
+  }
+  return Augmented(family, start, std::move(borders));
+}
+
+std::optional<Vector> second_order_force(const Family& family, const CriticalStart& start) {
+  const auto system = system_at(family, start);
+  if (!system || start.kind != CriticalKind::branch_point) return std::nullopt;
+  const Index k = start.corank;
+  // Even part of the unfolding coefficients, over the square of the step.
+  const auto even_part = [&](double step) -> std::optional<Vector> {
+    Vector sum = Vector::Zero(k);
+    for (const double sign : {1.0, -1.0}) {
+      const auto X = solve_at(*system, system->start_unknowns(), start.mu + sign * step);
+      if (!X) return std::nullopt;
+      sum += X->tail(k);
+    }
+    return Vector(sum / (2 * step * step));
+  };
+  const double step = 2 * family.step;
+  const auto near = even_part(step), middle = even_part(2 * step), far = even_part(4 * step);
+  if (!near || !middle || !far) return std::nullopt;
+  const Matrix& left = system->borders().left;
+  // Rounding does not grow with the square of the step, or is no more than residuals have.
+  const double largest = far->lpNorm<Eigen::Infinity>() * (4 * step) * (4 * step);
+  if (largest <= refined_step || !((*near - *middle).norm() <= near_share * near->norm()))
+    return Vector(Vector::Zero(left.rows()));
+  // Richardson: errors of the second and the fourth order in the step.
+  const Vector closer = (4 * *near - *middle) / 3, farther = (4 * *middle - *far) / 3;
+  return Vector(-left * (16 * closer - farther) / 15);
+}
+
+}  // namespace springfold::continuation
