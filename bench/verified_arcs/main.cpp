@@ -1,6 +1,7 @@
 // How much of the curves of case files is verified: verified_arcs CASE.toml ... (continuation/verification.hpp).
-// One line per study with curves, and the mean and the least share of all of them; the least is also that over curves. Also
-// says what the test costs, as a multiple of the time without it.
+// One line per curve below 95 %, then the mean and the least share of all curves, and what the test costs, as a multiple of the
+// time without it. Curves of structured systems, which are not tested, are listed apart; curves of one point have no arcs.
+// Exit code 1 where the mean is below 95 % or a curve below 80 %.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ StudyResult run(const springfold::io::PlannedRun& planned, bool verify, double& 
 struct Totals {
   std::vector<double> shares{};    ///< of curves
   double plain = 0, verified = 0;  ///< CPU seconds
-  int structured = 0;
+  std::vector<std::string> untested{};
 };
 
 void add(const std::string& file, const springfold::io::PlannedRun& planned, Totals& totals) {
@@ -41,14 +42,15 @@ void add(const std::string& file, const springfold::io::PlannedRun& planned, Tot
   for (std::size_t b = 0; b < result.branches.size(); ++b) {
     const auto& arcs = result.branches[b].arcs;
     if (!arcs || arcs->length == 0) continue;
+    const std::string which =
+        fmt::format("{} {} run {} branch {}", file, planned.study, planned.run, b + 1);
     if (arcs->verified == 0 && arcs->sampled.size() == 1) {
-      ++totals.structured;
+      totals.untested.push_back(which);
       continue;
     }
     totals.shares.push_back(arcs->share());
     if (arcs->share() < 0.95)
-      fmt::print("{} {} run {} branch {}: {:.4f}, {} stretches\n", file, planned.study, planned.run,
-                 b + 1, arcs->share(), arcs->sampled.size());
+      fmt::print("{}: {:.4f}, {} stretches\n", which, arcs->share(), arcs->sampled.size());
   }
 }
 
@@ -64,14 +66,16 @@ int main(int count, char** files) {
     fmt::print(stderr, "{}\n", error.what());
     return 3;
   }
+  for (const std::string& which : totals.untested)
+    fmt::print("not tested, structured: {}\n", which);
+  if (totals.shares.empty()) return 0;
   double sum = 0;
   for (const double share : totals.shares) sum += share;
-  if (totals.shares.empty()) return 0;
-  fmt::print(
-      "{} curves: mean {:.5f}, least {:.5f}; {} without any verified arc (structured, or single "
-      "points)\n",
-      totals.shares.size(), sum / static_cast<double>(totals.shares.size()),
-      *std::min_element(totals.shares.begin(), totals.shares.end()), totals.structured);
+  const double mean = sum / static_cast<double>(totals.shares.size()),
+               least = *std::min_element(totals.shares.begin(), totals.shares.end());
+  fmt::print("{} curves: mean {:.5f}, least {:.5f}; {} not tested\n", totals.shares.size(), mean,
+             least, totals.untested.size());
   fmt::print("CPU: {:.2f} s without, {:.2f} s with the test: {:.2f} times\n", totals.plain,
              totals.verified, totals.verified / totals.plain);
+  return mean < 0.95 || least < 0.8 ? 1 : 0;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
@@ -18,7 +19,7 @@
 namespace springfold::analysis {
 namespace {
 
-/// How the events end that stand for a target, not for a place on the way.
+/// How the texts of events end that stand for a target.
 constexpr const char* at_target = " is exactly on its threshold at this target";
 
 /// Directions along which stiffness is given: the study's own, if there is one.
@@ -202,6 +203,7 @@ class ControlRun {
       event.state.piece[j] = rises ? std::int8_t{-1} : std::int8_t{1};
       event.leaving->piece[j] = rises ? std::int8_t{1} : std::int8_t{-1};
       add_event(std::move(event));
+      at_targets_.insert(result_.branches.front().events.back().row);
     }
   }
 
@@ -214,7 +216,7 @@ class ControlRun {
                             event.kind == EventKind::corner_limit_point ||
                             event.kind == EventKind::branching_kink;
       const double place = result_.branches.front().samples[event.row].values.front();
-      return switches && std::abs(place - k) <= same_place && !event.detail.ends_with(at_target);
+      return switches && std::abs(place - k) <= same_place && at_targets_.count(event.row) == 0;
     });
   }
 
@@ -271,6 +273,8 @@ class ControlRun {
   statics::KinematicInverse near_{};      ///< plain inverse kinematics of the place before
   std::optional<CommandedState> last_{};  ///< at the target before
   std::map<std::string, int> labels_{};
+  std::set<std::size_t>
+      at_targets_{};  ///< rows of events that stand for a target, not for a place on the way
   std::string lost_{}, first_missing_{};
   int missing_ = 0, unstable_ = 0;
 };

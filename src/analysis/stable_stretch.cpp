@@ -5,6 +5,7 @@
 #include "limits.hpp"
 #include "resting.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/continuation/verification.hpp"
 #include "within_limits.hpp"
 
 namespace springfold::analysis {
@@ -40,10 +41,11 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
     std::swap(rays.rays[0], rays.rays[1]);
   const auto events = events_of(t.study, t.evaluator, t.quantities);
-  const auto goes_on = [&t](double sign) {
-    return [&t, sign](const CurvePoint& point) {
-      if (t.crawl.sees(point) || (t.observer && !t.observer(0, sign * point.s))) return false;
-      return is_stable(t, point) && sign * point.tangent.dlambda > 0;
+  bool given_up = false;
+  const auto goes_on = [&t, &given_up](double sign) {
+    return [&t, &given_up, sign](const CurvePoint& point) {
+      given_up = t.crawl.sees(point) || (t.observer && !t.observer(0, sign * point.s));
+      return !given_up && is_stable(t, point) && sign * point.tangent.dlambda > 0;
     };
   };
   CurvePoint start;
@@ -52,7 +54,11 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   start.piece = from.piece;
   const Following with{t.problem, t.study, t.evaluator, t.quantities};
   const auto follow = [&](const continuation::Ray& ray, double sign) {
-    return trace_within_limits(with, start, ray, events, options, goes_on(sign));
+    continuation::Curve curve =
+        trace_within_limits(with, start, ray, events, options, goes_on(sign));
+    if (options.verify_arcs && !given_up && curve.stop == StopReason::observer)
+      curve.arcs = verified_arcs(t.problem, curve, options);
+    return curve;
   };
   StableStretch stretch;
   BranchSource source;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "springfold/continuation/davidenko.hpp"
+#include "springfold/continuation/verification.hpp"
 
 namespace springfold::analysis {
 
@@ -45,15 +46,17 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
     return *ended;
   // Elsewhere the limits are events, which no curve passes.
   const bool is_at_edge = is_on_limit(with.study, with.evaluator, with.quantities, start);
+  bool passed = false;
   const auto observe = [&](const CurvePoint& point) {
-    if (is_at_edge && limit_passed(with.study, with.evaluator, with.quantities, point))
-      return false;
-    return !observer || observer(point);
+    passed = is_at_edge && limit_passed(with.study, with.evaluator, with.quantities, point);
+    return !passed && (!observer || observer(point));
   };
   Curve curve =
       with.study.path == Path::davidenko
           ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
           : trace(with.problem, start.x, start.lambda, ray, events, options, observe, at_hit);
+  if (passed && options.verify_arcs && with.study.path != Path::davidenko)
+    curve.arcs = verified_arcs(with.problem, curve, options);
   if (is_at_edge) cut_to_range(with.study, with.evaluator, with.quantities, curve);
   return curve;
 }

@@ -44,6 +44,54 @@ TEST(VerifiedArcs, AreNotTestedUnlessTheStudyAsks) {
   EXPECT_THAT(summary_table(ran.read, ran.results), Not(HasSubstr("verified as one curve")));
 }
 
+/// Two bistable units in a row: the graph of their stable states.
+constexpr const char* two_units = R"([[body]]
+name = "end"
+task_space = "xy"
+pose = [-2.4, 0]
+[[chain]]
+name = "row"
+elements = [
+  { point = "p0" },
+  { joint = "prismatic", axis = "x", name = "u1", role = "virtual", initial = -1.2, spring = { law = "linear", stiffness = 0.3, free = 0.1 } },
+  { point = "p1" },
+  { joint = "prismatic", axis = "x", name = "u2", role = "virtual", initial = -1.2, spring = { law = "linear", stiffness = 0.3, free = -0.1 } },
+  { point = "p2" },
+]
+[[spring]]
+name = "o1"
+from = "row.p0"
+from_at = [0, 1]
+to = "row.p1"
+stiffness = 1
+free = 1.9
+[[spring]]
+name = "o2"
+from = "row.p1"
+from_at = [0, 1]
+to = "row.p2"
+stiffness = 1
+free = 2.1
+[[study]]
+name = "pull"
+kind = "transitions"
+control = "load"
+direction = [1, 0]
+until = { lambda = [-0.6, 0.6] }
+trace = { verify_arcs = true }
+transitions = { search_at = [0] }
+)";
+
+TEST(VerifiedArcs, AreThoseOfStableStretchesTooWhichEndWhereTheyLoseTheirStability) {
+  const auto ran = run(two_units);
+  const auto& branches = ran.of("pull").branches;
+  ASSERT_GE(branches.size(), 4u);
+  for (const analysis::Branch& branch : branches) {
+    ASSERT_TRUE(branch.arcs);
+    EXPECT_GT(branch.arcs->share(), 0.95);
+  }
+}
+
 TEST(VerifiedArcs, ChangeNothingElse) {
   const auto plain = run(strut("")), verified = run(strut("trace = { verify_arcs = true }\n"));
   const auto &a = plain.of("press").branches.at(0), &b = verified.of("press").branches.at(0);
