@@ -38,10 +38,10 @@ bool is_watched(const Study& study, const std::vector<QuantityDefinition>& quant
 }
 
 /// Points lie off the curve by as much as the residual's tolerance lets them, and so do the values of what is computed from
-/// them, in the mechanism's own units: values that differ by less are the same. lambda and what is set by it are exact.
+/// them, in the mechanism's own units: values that differ by less are the same. lambda is solved for as well: along a family
+/// that lies at a limit it is what rounding leaves of it. What is given is exact.
 double rounding_of(const QuantityDefinition& quantity, double value) {
-  const bool is_set = quantity.kind == QuantityDefinition::Kind::lambda ||
-                      quantity.kind == QuantityDefinition::Kind::arc_length ||
+  const bool is_set = quantity.kind == QuantityDefinition::Kind::arc_length ||
                       quantity.kind == QuantityDefinition::Kind::command;
   const double own = std::numeric_limits<double>::epsilon() * std::abs(value);
   return is_set ? own : std::max(own, off_curve_rate * std::abs(quantity.scale));

@@ -6,6 +6,7 @@
 #include "atomic_file.hpp"
 #include "json_text.hpp"
 #include "run_options.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/version.hpp"
 
 namespace springfold::io {
@@ -99,6 +100,9 @@ std::string manifest_text(const Case& the_case, SetState state,
   // Of runs whose curves are not kept the first one stands for all: tables have what differs.
   for (const auto& planned : the_case.runs)
     if (planned.keeps_curves || planned.run == 1) json["runs"].push_back(json_of(planned));
+  json["numerics"] = Json::object();
+  for (const auto& [name, number] : continuation::numbers_judged_by)
+    json["numerics"][name] = number;
   json["files"] = Json::array();
   for (const auto& file : files) json["files"].push_back(json_of(file));
   return json_text(json);

@@ -82,14 +82,14 @@ TEST(KinkFamily, WithoutSlopeElsewhereIsStillOne) {  // one unknown, dF/dx = 0 i
               ElementsAre(HitKind::kink, HitKind::family, HitKind::kink, HitKind::user));
 }
 
-TEST(KinkFamily, InWhichAnotherEigenvalueChangesIsUnresolvedThere) {
+TEST(KinkFamily, InWhichAnotherEigenvalueChangesHasABranchPointThere) {
   const Backlash problem{.buckles = true, .cross = 0.07};
   const Curve curve = follow_backlash(problem, -1, 0.2);
-  const auto unresolved = hits_of(curve, HitKind::unresolved);
-  ASSERT_EQ(unresolved.size(), 1u);
-  EXPECT_EQ(unresolved[0].multiplicity, 1);
-  EXPECT_NEAR(unresolved[0].point.x[0], 0.07, 1e-3);
+  const auto crossed = hits_of(curve, HitKind::branch_point);
+  ASSERT_EQ(crossed.size(), 1u);
+  EXPECT_NEAR(crossed[0].point.x[0], 0.07, 1e-10);
   EXPECT_EQ(hits_of(curve, HitKind::family).size(), 1u);
+  EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST(WriteResults, ListsEveryFileWithTheHashOfItsBytes) {
   EXPECT_EQ(manifest["runs"][1]["parameters"]["Kv"], 0.01);
   EXPECT_EQ(manifest["runs"][0]["options_given"], (json{"control", "direction"}));
   EXPECT_EQ(manifest["runs"][0]["options_used"]["trace.maximum_step"], 0.05);
+  EXPECT_EQ(manifest["numerics"]["promised_place"], 1e-10);
   EXPECT_EQ(manifest["files"].size() + 1, written.size());  // all but itself
   for (const auto& file : manifest["files"]) {
     const std::string bytes = text_in(scratch.path() / file["path"]);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/rounding.hpp"
@@ -99,5 +100,46 @@ inline constexpr double displaced_safety = 2;
 inline constexpr double stays_regular = 0.5;
 /// Where a prediction is farther than this share of the step from the straight one, the model is not continued.
 inline constexpr double most_bend = small_share;
+
+/// All of the above by name, for records of what a result was judged by.
+struct NamedNumber {
+  std::string_view name{};
+  double value = 0;
+};
+inline constexpr NamedNumber numbers_judged_by[] = {
+    {"refined_step", refined_step},
+    {"exact_model", exact_model},
+    {"residual_level", residual_level},
+    {"between_samples", between_samples},
+    {"function_noise", function_noise},
+    {"root_of_rounding", root_of_rounding},
+    {"still_falls", still_falls},
+    {"promised_place", promised_place},
+    {"one_place", one_place},
+    {"same_point", same_point},
+    {"poor", poor},
+    {"together", together},
+    {"told_apart", told_apart},
+    {"blurred", blurred},
+    {"same_way", same_way},
+    {"one_direction", one_direction},
+    {"same_line", same_line},
+    {"nearly_same_line", nearly_same_line},
+    {"flat_rate", flat_rate},
+    {"turns_here", turns_here},
+    {"level_reach", level_reach},
+    {"located_rank", located_rank},
+    {"vanishing_rank", vanishing_rank},
+    {"regular_at_kinks", regular_at_kinks},
+    {"perhaps_singular", perhaps_singular},
+    {"small_share", small_share},
+    {"negligible_share", negligible_share},
+    {"tiny_share", tiny_share},
+    {"near_share", near_share},
+    {"aside_share", aside_share},
+    {"displaced_safety", displaced_safety},
+    {"stays_regular", stays_regular},
+    {"most_bend", most_bend},
+};
 
 }  // namespace springfold::continuation
