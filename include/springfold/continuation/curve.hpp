@@ -39,7 +39,7 @@ enum class HitKind {
   touch,           ///< an eigenvalue or lambda's rate is zero but keeps its sign: degenerate
   family,          ///< lambda stands still from s_before to s_after: equilibria at one load
   user,            ///< an event of the caller
-  unresolved,      ///< the number of negative eigenvalues changed and no event explains it
+  unresolved,      ///< something happens that no located point explains
   inexact,         ///< a remark on the special point before it: rounding places it worse than 1e-10
 };
 
@@ -97,7 +97,7 @@ struct Arc {
 };
 
 struct Curve {
-  std::vector<CurvePoint> points{};  ///< accepted points, the start first; no special points
+  std::vector<CurvePoint> points{};  ///< accepted points, the start first; one between hits
   std::vector<Hit> hits{};           ///< in the order of s
   StopReason stop = StopReason::bad_start;
   std::string stop_detail{};  ///< in words

@@ -5,9 +5,8 @@
 
 namespace springfold::continuation {
 
-/// Thrown by an evaluation of a problem whose caller does not want to wait for the rest; it is all that
-/// evaluations may throw. Curves, diagrams, searches and points between others end there and return
-/// what was finished until then.
+/// Thrown by what reads or computes for a caller that does not want to wait for the rest. The engine does not catch it:
+/// a curve that is to be kept as far as it is ends by its observer instead.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }

@@ -17,9 +17,9 @@ struct StepOptions {
   double initial = 1e-2;
   double minimum = 1e-8;  ///< the trace stops when a smaller step would be needed
   double maximum = 5e-2;
-  double contraction = 0.25;  ///< largest ratio of the second to the first Newton correction
+  double contraction = 0.25;  ///< largest ratio of neighbouring Newton corrections
   double turn = 0.2;          ///< largest angle between neighbouring tangents [rad]
-  double deviation = 0.1;     ///< largest distance from predicted to corrected point, over step
+  double deviation = 0.1;     ///< largest distance from tangent to corrected point, over step
   double aim = 0.4;
   double growth = 1.6;  ///< largest factor from one step to the next
 };

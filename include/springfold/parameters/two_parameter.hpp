@@ -119,9 +119,10 @@ struct CriticalCurve {
 ///
 /// limit points solve F = 0, G = 0 for (x, lambda). Branch points of any corank k solve
 ///
-///     F + B beta = 0,     C^T (x - x0) = 0,     trace G = 0     for (x, lambda, beta),
+///     F + B beta = 0,     W^T dF/dlambda = 0,     trace G = 0     for (x, lambda, beta), W of the transposed system,
 ///
-/// which is regular there; beta = 0 all along says that the parameter keeps the branch, as symmetries do.
+/// or, where symmetry holds the branch point on its branch, C^T (x - x0) = 0 in place of the second ones. This is
+/// regular there; beta = 0 all along says that the parameter keeps the branch, as symmetries do.
 /// Points on surfaces solve F = 0, g_j = 0. Derivatives of G need those of dF/dx along V only: differences of
 /// sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the equations: located points
 /// are as exact as F and dF/dx.

@@ -15,7 +15,7 @@ struct Evidence {
 
 /// Looks inside the step from -> to, ds long:
 ///
-///  - the residual along the straight predictor must grow like the square of the distance. If
+///  - the residual along the predicted way must grow like the square of the distance. If
 ///    another branch was crossed on the way, it goes up and down instead;
 ///  - the point half-way, corrected from a guess that knows nothing of `to`, must lie on the cubic that the two ends and their
 ///    tangents define, and the three tangents, integrated, must lead from one end to the other. A

@@ -25,9 +25,9 @@ struct Walker {
 
 /// How nonlinear the curve was over one step.
 struct StepMeasures {
-  double contraction = 0;  ///< second over first Newton correction [-]
+  double contraction = 0;  ///< largest ratio of neighbouring Newton corrections [-]
   double turn = 0;         ///< angle between the tangents [rad]
-  double deviation = 0;    ///< first Newton correction over step length [-]
+  double deviation = 0;    ///< from the tangent to the corrected point, over step length [-]
 };
 
 struct StepResult {
