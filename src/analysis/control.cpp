@@ -58,11 +58,13 @@ class ControlRun {
 
   /// One row: the place, then the values of the point; a point without solution has none.
   void add_row(double place, const CommandedState* state, std::string status) {
-    Sample sample{.values = {place, setup_.scales.length * path_.way(place)}};
+    Sample sample{.values = {place, setup_.scales.length * path_.way(place)},
+                  .state = NodeState::outside};
     if (state != nullptr) {
       const CommandedValues at = command_values(setup_, directions_, *state);
       sample.values.insert(sample.values.end(), at.values.begin(), at.values.end());
       sample.piece = piece_text(setup_.system, state->piece);
+      sample.state = state_of(at);
       if (status.empty()) status = status_of(at);
     }
     sample.values.resize(result_.quantities.size(), undefined);
@@ -175,8 +177,8 @@ class ControlRun {
     if (state) state->plain = near_;
     if (state) add_thresholds(k, *state);
     add_row(k, state ? &*state : nullptr, status);
-    const std::string& shown = branch().samples.back().status;
-    if (shown == "unstable" || shown == "critical") ++unstable_;
+    const NodeState here = branch().samples.back().state;
+    if (here == NodeState::unstable || here == NodeState::critical) ++unstable_;
     last_ = std::move(state);
   }
 

@@ -73,9 +73,9 @@ enum class EventKind {
 /// "C2", "FA", "CR", "TA", "AA", "SB", "PT", "EX", "TH", "JP".
 std::string code_of(EventKind kind);
 
-/// What a node of a map is.
+/// What a node of a map, or a target of a control study, is.
 enum class NodeState {
-  none,            ///< not a node
+  none,            ///< neither
   stable,          ///< held, and stable under dead load
   unstable,        ///< held, with unstable modes under dead load
   critical,        ///< held; the number of its unstable modes is undefined
