@@ -209,9 +209,11 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   LambdaCrawl crawl(problem, largest_unit, range_of_lambda(member.study, member.setup));
   crawl.begin(rays.rays[0].tangent);
   int left = points_behind;
+  Crawl seen = Crawl::none;
   const auto observe = [&](const CurvePoint& p) {
     if (path.is_enough && left-- == 0) return false;
-    return !crawl.sees(p) && (!observer || observer(++points, p.s));
+    seen = crawl.sees(p);
+    return seen == Crawl::none && (!observer || observer(++points, p.s));
   };
   const auto at_hit = [&](const Hit& hit) {
     path.is_enough = path.is_enough || (enough && enough(hit));
@@ -219,7 +221,9 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   };
   const Following with{problem, member.study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
-    return trace_within_limits(with, start, ray, events, options, observe, at_hit);
+    Curve curve = trace_within_limits(with, start, ray, events, options, observe, at_hit);
+    if (seen == Crawl::without_bound) curve.stop_detail = grows_without_bound;
+    return curve;
   };
   Curve forward = follow(rays.rays[0]);
   Curve backward =

@@ -53,13 +53,24 @@ class Grower {
   void run() {
     options_.maximum_branches = t_.study.branches.maximum;
     int points = 0;
+    std::vector<CurvePoint> away;  // where lambda grows without bound
     const auto observe = [&](const CurvePoint& point) {
       ++points;
       if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
-      stopped_ = stopped_ || t_.crawl.sees(point) || (t_.observer && !t_.observer(points, point.s));
-      return !stopped_;
+      const Crawl crawl = t_.crawl.sees(point);
+      if (crawl == Crawl::without_bound) away.push_back(point);
+      stopped_ = stopped_ || crawl == Crawl::unit_too_small ||
+                 (t_.observer && !t_.observer(points, point.s));
+      return !stopped_ && crawl == Crawl::none;
     };
     grown_.diagram = trace_diagram(t_.problem, grown_.starts, events_, options_, observe);
+    for (continuation::Branch& branch : grown_.diagram.branches)
+      if (std::any_of(away.begin(), away.end(), [&](const CurvePoint& p) {
+            return branch.curve.stop == continuation::StopReason::observer &&
+                   p.lambda == branch.curve.points.back().lambda &&
+                   p.x == branch.curve.points.back().x;
+          }))
+        branch.curve.stop_detail = grows_without_bound;
     for (continuation::Branch& branch : grown_.diagram.branches)
       cut_to_range(t_.study, t_.evaluator, t_.quantities, branch.curve);
   }

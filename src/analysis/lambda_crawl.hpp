@@ -11,8 +11,20 @@ namespace springfold::analysis {
 /// (settle_units); where a curve then hardens by orders of magnitude (a cable that becomes taut, a truss of slack members)
 /// lambda alone fills the arc length, and the curve would take a point for every tenth of a unit. A larger unit changes
 /// nothing where x responds: lengths are measured by x there. So the curve is begun again with one.
-/// Not without bounds: a curve may run to infinity, and where x responds the rate of lambda must stay clear of rounding.
+/// Not without bounds: where x responds the rate of lambda must stay clear of rounding. And a curve may run to infinite lambda
+/// while x comes to rest (a chain that is pulled straight): no unit is large enough for that.
 inline constexpr double largest_change_of_lambda_unit = 0x1p32;
+
+enum class Crawl {
+  none,
+  unit_too_small,  ///< begin again with a larger unit of lambda
+  without_bound,   ///< lambda runs to infinity while x comes to rest: the curve ends here
+};
+
+/// What is said of a curve that ends so.
+inline constexpr const char* grows_without_bound =
+    "lambda grows without bound while hardly anything moves: a limit of lambda in until says how "
+    "far it is to be followed";
 
 class LambdaCrawl {
  public:
@@ -24,14 +36,16 @@ class LambdaCrawl {
   /// @param tangent  at the start: a curve that is as steep there as later (a trivial branch) is left alone
   void begin(const continuation::Direction& tangent);
 
-  /// @returns whether a larger unit of lambda is needed; `factor` says which
-  bool sees(const continuation::CurvePoint& point);
+  /// Where a larger unit of lambda is needed, `factor` says which.
+  Crawl sees(const continuation::CurvePoint& point);
 
   /// How many times larger the unit of lambda should be, a power of two; 1: the unit serves.
   double factor() const { return factor_; }
 
  private:
   void count_from(const continuation::CurvePoint& point);
+  double slope_of(const continuation::CurvePoint& point) const;
+  bool runs_to_infinity(const continuation::CurvePoint& point) const;
 
   Vector weights_{};
   double largest_ = 1, range_;
@@ -39,6 +53,8 @@ class LambdaCrawl {
   bool counting_ = false;
   continuation::CurvePoint last_{};
   double by_x_ = 0, by_lambda_ = 0;  ///< lengths since counting began
+  double quarter_ = 0,
+         slope_at_quarter_ = 0;  ///< length by lambda, and slope, a quarter of the long way on
   double factor_ = 1;
 };
 

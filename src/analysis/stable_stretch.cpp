@@ -42,10 +42,13 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
     std::swap(rays.rays[0], rays.rays[1]);
   const auto events = events_of(t.study, t.evaluator, t.quantities);
   bool given_up = false;
-  const auto goes_on = [&t, &given_up](double sign) {
-    return [&t, &given_up, sign](const CurvePoint& point) {
-      given_up = t.crawl.sees(point) || (t.observer && !t.observer(0, sign * point.s));
-      return !given_up && is_stable(t, point) && sign * point.tangent.dlambda > 0;
+  Crawl crawl = Crawl::none;
+  const auto goes_on = [&t, &given_up, &crawl](double sign) {
+    return [&t, &given_up, &crawl, sign](const CurvePoint& point) {
+      crawl = t.crawl.sees(point);
+      given_up = crawl == Crawl::unit_too_small || (t.observer && !t.observer(0, sign * point.s));
+      return !given_up && crawl == Crawl::none && is_stable(t, point) &&
+             sign * point.tangent.dlambda > 0;
     };
   };
   CurvePoint start;
@@ -56,6 +59,7 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   const auto follow = [&](const continuation::Ray& ray, double sign) {
     continuation::Curve curve =
         trace_within_limits(with, start, ray, events, options, goes_on(sign));
+    if (crawl == Crawl::without_bound) curve.stop_detail = grows_without_bound;
     if (options.verify_arcs && !given_up && curve.stop == StopReason::observer)
       curve.arcs = verified_arcs(t.problem, curve, options);
     return curve;

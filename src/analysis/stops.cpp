@@ -31,6 +31,8 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
 Stop stop_of(const Curve& curve) {
   if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
+  if (curve.stop == StopReason::observer && !curve.stop_detail.empty())
+    return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
   const bool is_refused =

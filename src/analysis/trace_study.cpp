@@ -33,16 +33,21 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
     std::swap(rays.rays[0], rays.rays[1]);
   const auto events = events_of(t.study, t.evaluator, t.quantities);
   int points = 1;
+  Crawl crawl = Crawl::none;
   const auto observe = [&](double sign) {
-    return [&points, &t, sign](const CurvePoint& point) {
+    return [&points, &crawl, &t, sign](const CurvePoint& point) {
       ++points;
-      if (t.crawl.sees(point)) return false;
+      crawl = t.crawl.sees(point);
+      if (crawl != Crawl::none) return false;
       return !t.observer || t.observer(points, sign * point.s);
     };
   };
   const Following with{t.problem, t.study, t.evaluator, t.quantities};
   const auto follow = [&](const continuation::Ray& ray, double sign) {
-    return trace_within_limits(with, start, ray, events, options, observe(sign));
+    continuation::Curve curve =
+        trace_within_limits(with, start, ray, events, options, observe(sign));
+    if (crawl == Crawl::without_bound) curve.stop_detail = grows_without_bound;
+    return curve;
   };
   BranchSource source;
   source.forward = follow(rays.rays[0], 1);

@@ -1,6 +1,8 @@
 #include "summary_start.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
@@ -101,12 +103,23 @@ std::string matrix_lines(const std::string& name, const Matrix& matrix) {
 std::string eigenvalue_line(const StudyResult& result) {
   if (result.branches.empty() || result.branches.front().samples.empty()) return {};
   const analysis::Branch& first = result.branches.front();
-  const std::vector<double> sizes = quantity_sizes(result);
+  const std::vector<double>& row = first.samples[first.start_row].values;
+  const std::vector<double> along = quantity_sizes(result);
+  std::vector<double> eigenvalues;
+  double largest = 0, size = 0;
+  for (int i = 1; const auto column = column_of(result, "K_eig" + std::to_string(i)); ++i) {
+    const double value = row[*column];
+    eigenvalues.push_back(value);
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    if (*column < along.size()) size = std::max(size, along[*column]);
+  }
+  // Against each other: along the curve they may grow by orders of magnitude. All of them may be rounding of what they are there.
+  constexpr double few_roundings = 16 * std::numeric_limits<double>::epsilon();
+  const std::vector<double> sizes(eigenvalues.size(),
+                                  largest > few_roundings * size ? largest : size);
   std::string values;
-  for (int i = 1;; ++i) {
-    const auto column = column_of(result, "K_eig" + std::to_string(i));
-    if (!column) break;
-    const double value = shown_in(sizes, *column, first.samples[first.start_row].values[*column]);
+  for (std::size_t i = 0; i < eigenvalues.size(); ++i) {
+    const double value = shown_in(sizes, i, eigenvalues[i]);
     values += (values.empty() ? "" : ", ") +
               (std::isnan(value) ? std::string("infinite") : rounded(value, summary_digits));
   }
