@@ -80,7 +80,8 @@ TEST(ALoadWithoutBound, OfALawIsToldWhereNoChainExplainsIt) {
       "\"c\"\nelements "
       "= [ { joint = \"prismatic\", axis = \"x\", name = \"slide\", role = \"preloaded\", spring = "
       "{ "
-      "law = \"formula\", formula = \"u/(1-u)\" } } ]\n[[study]]\nname = \"s\"\ncontrol = \"load\"\n"
+      "law = \"formula\", formula = \"u/(1-u)\" } } ]\n[[study]]\nname = \"s\"\ncontrol = "
+      "\"load\"\n"
       "direction = [1, 0]\nuntil = { deflection = [-1, 2] }\n");
   const auto& branch = ran.of("s").branches.front();
   EXPECT_FALSE(branch.forward.complete);
