@@ -44,7 +44,7 @@ continuation::StateFunction rate_of(const CaseCurves& curves, Piece piece, Direc
                                     RateAt rate) {
   return [&curves, piece = std::move(piece), sense = std::move(sense), rate = std::move(rate)](
              const Vector& x, double lambda, double mu) -> std::optional<double> {
-    const Member* member = curves.at(mu);
+    const Member* member = curves.equations_at(mu);
     if (member == nullptr) return std::nullopt;
     continuation::Linearisation at;
     const PathProblem& problem = *member->problem;
@@ -66,7 +66,7 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurveP
 /// Where the force turns back at a corner and lambda does not: its rate along the curve of either side.
 continuation::RateFunction force_turns(const CaseCurves& curves) {
   return [&curves](const CurvePoint& point, double mu) -> std::optional<double> {
-    const Member* member = curves.at(mu);
+    const Member* member = curves.equations_at(mu);
     if (member == nullptr) return std::nullopt;
     return member->evaluator().force_rate(point).value;
   };
@@ -105,7 +105,7 @@ continuation::StateFunction column_of(const CaseCurves& curves, const Member& me
       wanted = mark.value / quantity->scale;
   return [&curves, value_at, wanted, piece](const Vector& x, double lambda,
                                             double mu) -> std::optional<double> {
-    const Member* at = curves.at(mu);
+    const Member* at = curves.equations_at(mu);
     if (at == nullptr) return std::nullopt;
     return value_at(*at, x, lambda, piece) - wanted;
   };

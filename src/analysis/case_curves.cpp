@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "dimensionless_parts.hpp"
 #include "settle_units.hpp"
@@ -10,22 +9,13 @@
 #include "springfold/statics/prepare_again.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "start.hpp"
+#include "undefined.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 /// Beside those of the last calls, those of a grid that neighbouring places share.
 constexpr std::size_t members_kept = 64;
-
-/// Starts of more are remembered: so many, and so many numbers of their matrices.
-constexpr double most_starts = 4096, most_start_numbers = 0x1p22;
-
-/// Of differences in mu.
-constexpr double family_step = 0x1p-9;
-
-/// Members of the grid of differences are as far apart. Those within it of mu on both sides enclose mu: whether det J keeps its
-/// sign along the starts is asked at them.
-constexpr double grid_step = 4 * family_step;
 
 /// Natural size of the parameter: its range, or its value.
 double size_of(const CriticalPointSettings& settings, double value) {
@@ -169,13 +159,22 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
       if (!pattern_ && !way) keep_pattern(*member, std::move(mechanism));
     }
     if (!recall_start(*member) &&
-        !(way ? solve_in_state(*member, *way) : solve_near(*member, *near))) {
+        !(way ? solve_in_state(*member, *way) : solve_near(*member, *near)) &&
+        !go_without_start(*member, *near)) {
       why_none_.clear();
       return nullptr;
     }
   }
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(member->study.body - 1)];
-  setup.rule.t_start = member->first.z.segment(body.t, body.count);
+  const Vector pose = member->first.z.segment(body.t, body.count);
+  if (near != nullptr && member->study.control == ControlMode::load) {
+    // The origin of the pose's unknowns is the same for all: a start that vanishes moves at any rate before.
+    setup.rule.t_start = base_->setup.rule.t_start;
+    setup.rule.t_counted =
+        member->report.found ? pose : Vector(Vector::Constant(pose.size(), undefined));
+  } else {
+    setup.rule.t_start = pose;
+  }
   setup.rule.rho_start = member->first.inputs.rho;
   hold_free_part(member->study, member->first, setup);
   if (again) {
@@ -186,139 +185,6 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   const std::shared_ptr<const statics::System> own(std::shared_ptr<void>{}, &setup.system);
   member->problem = std::make_unique<PathProblem>(own, setup.rule);
   return member;
-}
-
-bool CaseCurves::keeps_commands(const Study& study) const {
-  return !study_.critical.tied && study.start.solve == StartSolve::actuators;
-}
-
-/// How starts of members other than the first are found.
-StartOptions CaseCurves::start_beside(const Study& study) const {
-  StartOptions how = study.start;
-  how.attempts = 1;
-  if (keeps_commands(study)) how.solve = StartSolve::pose;
-  return how;
-}
-
-/// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
-/// vanishes, the member begins as the case with this value does, whatever the neighbours are; and where that finds nothing,
-/// at whatever start is found from the neighbour's. Commands that are not tied are those of the first member.
-bool CaseCurves::solve_near(Member& member, const Member& near) const {
-  const StartOptions how = start_beside(member.study);
-  const bool keeps = keeps_commands(member.study);
-  statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
-  if (near.first.z.size() != problem.z.size()) return false;
-  problem.foresight = foresight(member.mu, near);
-  const auto& body =
-      member.setup.system.body_slices[static_cast<std::size_t>(member.study.body - 1)];
-  if (how.solve != StartSolve::pose) {
-    const Vector given = problem.z.segment(body.t, body.count);
-    problem.z = near.first.z;
-    problem.z.segment(body.t, body.count) = given;
-    if (problem.foresight.z.size() > 0) problem.foresight.z.segment(body.t, body.count) = given;
-  } else {
-    problem.z = near.first.z;
-  }
-  if (keeps) problem.inputs.rho = base_->first.inputs.rho;
-  if (how.solve == StartSolve::actuators)
-    problem.inputs.rho = near.first.inputs.rho;
-  else
-    problem.foresight.rho.resize(0);
-  const auto is_found = [&](const statics::StartProblem& from) {
-    member.first = first_equilibrium(member.setup.system, from, start_work_);
-    return member.first.status == statics::StartStatus::found;
-  };
-  problem.is_neighbour = true;
-  member.sheet = near.sheet;
-  member.report.found = is_found(problem);
-  if (member.report.found) return true;
-  member.sheet = ++sheets_;
-  problem.is_neighbour = false;
-  const auto own = [&] { return start_problem(member.setup, member.study.body, how); };
-  member.report.found = (!keeps && is_found(own())) || is_found(problem);
-  if (member.report.found) member.first.factors = start_factors(member);
-  return member.report.found;
-}
-
-/// The start is the state that the earlier studies lead to, whatever the neighbours are.
-bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
-  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
-  member.sheet = ways_.emplace(way, static_cast<int>(ways_.size())).first->second;
-  member.first = first_equilibrium(member.setup.system, problem, start_work_);
-  member.report.found = member.first.status == statics::StartStatus::found;
-  return member.report.found;
-}
-
-/// What neighbours are compared with. Long chains have none.
-std::shared_ptr<const Lu> CaseCurves::start_factors(const Member& member) const {
-  const statics::System& system = member.setup.system;
-  if (statics::prefers_stages(system)) return nullptr;
-  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
-  return factors_at(system, problem, member.first, start_work_);
-}
-
-/// By the polynomial through up to four members around mu. Where they stand close together it would magnify their
-/// rounding: none nearer to another than half its distance from mu is taken.
-statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
-  constexpr std::size_t most = 4;
-  std::vector<const Member*> nodes;
-  nodes.reserve(most);
-  nodes.push_back(&near);
-  const auto take = [&](const Member& member) {
-    const double away = std::abs(member.mu - mu);
-    if (member.sheet != near.sheet) return;
-    const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
-      return std::abs(other->mu - member.mu) <= 0.5 * away;
-    });
-    if (apart) nodes.push_back(&member);
-  };
-  auto above = recent_.lower_bound(mu), below = above;
-  while (nodes.size() < most && (above != recent_.end() || below != recent_.begin())) {
-    const bool upwards =
-        below == recent_.begin() ||
-        (above != recent_.end() && above->first - mu < mu - std::prev(below)->first);
-    take(upwards ? *(above++)->second.member : *(--below)->second.member);
-  }
-  if (nodes.size() < most) take(*base_);
-  statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
-                              .rho = Vector::Zero(near.first.inputs.rho.size()),
-                              .factors = near.first.factors};
-  const auto is_beside = [&](double side) {
-    return std::any_of(nodes.begin(), nodes.end(), [&](const Member* member) {
-      const double away = side * (member->mu - mu);
-      return away > 0 && away <= grid_step;
-    });
-  };
-  expected.enclosed = is_beside(1) && is_beside(-1);
-  for (const Member* member : nodes) {
-    double weight = 1;
-    for (const Member* other : nodes)
-      if (other != member) weight *= (mu - other->mu) / (member->mu - other->mu);
-    if (member->first.z.size() != expected.z.size() ||
-        member->first.inputs.rho.size() != expected.rho.size())
-      return {.factors = near.first.factors};
-    expected.z += weight * member->first.z;
-    expected.rho += weight * member->first.inputs.rho;
-  }
-  return expected;
-}
-
-/// What a member costs most is its start, and rows are written where the curve has been.
-void CaseCurves::keep_start(Member& member) const {
-  const double n = std::max(1.0, static_cast<double>(member.first.z.size()));
-  const double most = std::min(most_starts, most_start_numbers / (n * n));
-  if (static_cast<double>(starts_.size()) >= most) starts_.clear();
-  starts_.insert_or_assign(member.mu, KnownStart{member.sheet, std::move(member.first)});
-}
-
-bool CaseCurves::recall_start(Member& member) const {
-  const auto known = starts_.find(member.mu);
-  if (known == starts_.end()) return false;
-  member.sheet = known->second.sheet;
-  member.first = std::move(known->second.first);
-  member.report.found = true;
-  starts_.erase(known);
-  return true;
 }
 
 /// Four members of the grid of differences, two on each side of mu. Where the numbers that the equations are linear in lie
@@ -338,6 +204,11 @@ std::optional<double> CaseCurves::line(double mu) const {
 }
 
 const Member* CaseCurves::at(double mu) const {
+  const Member* member = equations_at(mu);
+  return member != nullptr && member->report.found ? member : nullptr;
+}
+
+const Member* CaseCurves::equations_at(double mu) const {
   if (!base_ || !base_->report.found || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
   const auto above = recent_.lower_bound(mu);
@@ -348,7 +219,7 @@ const Member* CaseCurves::at(double mu) const {
   if (without_start_.contains(mu)) return nullptr;
   const Member* near = base_.get();
   const auto take_nearer = [&](const Member* other) {
-    if (std::abs(other->mu - mu) < std::abs(near->mu - mu)) near = other;
+    if (other->report.found && std::abs(other->mu - mu) < std::abs(near->mu - mu)) near = other;
   };
   if (above != recent_.end()) take_nearer(above->second.member.get());
   if (above != recent_.begin()) take_nearer(std::prev(above)->second.member.get());
@@ -379,11 +250,11 @@ std::string CaseCurves::why_none(double mu) const {
 
 continuation::Family CaseCurves::family() const {
   return {.at = [this](double mu) -> std::optional<continuation::ProblemView> {
-            const Member* member = at(mu);
+            const Member* member = equations_at(mu);
             if (member == nullptr) return std::nullopt;
             return continuation::ProblemView(*member->problem);
           },
-          .step = family_step,
+          .step = step_of_family,
           .line = [this](double mu) { return line(mu); }};
 }
 

@@ -45,6 +45,13 @@ struct Member {
 /// The study as a curve that is traced, whatever its kind: limits and marks of `parameter` left out.
 Study as_curve(Study study);
 
+/// Of differences in mu.
+inline constexpr double step_of_family = 0x1p-9;
+
+/// Members of the grid of differences are as far apart. Those within it of mu on both sides enclose mu: whether det J keeps its
+/// sign along the starts is asked at them.
+inline constexpr double grid_step = 4 * step_of_family;
+
 /// Members share the scales of the first one, the case's own. Starts of the others are found from the nearest
 /// one that is known; where the settings do not tie them, commands stay those of the first.
 class CaseCurves {
@@ -59,6 +66,9 @@ class CaseCurves {
   const Member& base() const { return *base_; }  ///< base().report.found: can be used
   /// Nothing where the case has no start. Valid for the next two dozen calls.
   const Member* at(double mu) const;
+  /// The same where the case has no start, if nothing of it enters the equations (report.found is false then, and what
+  /// is counted from the start is undefined).
+  const Member* equations_at(double mu) const;
   /// Why there is no start, where the last at(mu) gave nothing: in words.
   std::string why_none(double mu) const;
   continuation::Family family() const;
@@ -77,6 +87,7 @@ class CaseCurves {
   bool put_numbers(Member& member, bool again) const;
   bool solve_near(Member& member, const Member& near) const;
   bool solve_in_state(Member& member, const std::string& way) const;
+  bool go_without_start(Member& member, const Member& near) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
   bool keeps_commands(const Study& study) const;
   StartOptions start_beside(const Study& study) const;

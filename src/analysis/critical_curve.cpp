@@ -154,7 +154,7 @@ class Beyond {
       if (hit.kind == Degeneracy::corner_loses_reversal) next.piece = last.start.behind;
       return {next};
     }
-    const Member* member = curves_.at(hit.point.mu);
+    const Member* member = curves_.equations_at(hit.point.mu);
     if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return {};
     next.kind = continuation::CriticalKind::surface;
     const auto switching = switch_at(*member, hit);
@@ -181,7 +181,7 @@ class Beyond {
     for (const double way : {1.0, -1.0}) {
       continuation::CriticalStart next = start;
       next.mu += way * away;
-      if (curves_.at(next.mu) == nullptr) continue;
+      if (curves_.equations_at(next.mu) == nullptr) continue;
       const auto point = polish_critical(curves_.family(), next);
       if (!point) continue;
       next.x = point->x;
@@ -195,7 +195,7 @@ class Beyond {
 
   /// Does lambda turn back at the corner, or does the point lie where its piece holds?
   bool is_there(const continuation::CriticalStart& at) const {
-    const Member& member = *curves_.at(at.mu);
+    const Member& member = *curves_.equations_at(at.mu);
     const Index j = at.switching;
     if (at.kind == continuation::CriticalKind::surface)
       return slope_across(member, at, at.piece) * slope_across(member, at, at.behind) < 0;

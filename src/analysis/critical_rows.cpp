@@ -84,7 +84,7 @@ CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::st
             true};
   return {std::move(name),
           [&curves, quantity, value, piece](const CriticalPoint& p) {
-            const Member* member = curves.at(p.mu);
+            const Member* member = curves.equations_at(p.mu);
             if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
             const QuantityDefinition& q = *member->quantity(quantity);
             return (member->evaluator().value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
@@ -121,12 +121,13 @@ std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& 
 /// Where between two values do starts end? The one nearer to `mu` on the far side, and why.
 std::optional<std::pair<double, std::string>> ending_start(const CaseCurves& curves, double mu,
                                                            double beyond) {
-  if (curves.at(mu) == nullptr || curves.at(beyond) != nullptr) return std::nullopt;
+  if (curves.equations_at(mu) == nullptr || curves.equations_at(beyond) != nullptr)
+    return std::nullopt;
   std::string why = curves.why_none(beyond);
   constexpr int halvings = 30;
   for (int i = 0; i < halvings; ++i) {
     const double middle = mu + 0.5 * (beyond - mu);
-    if (curves.at(middle) != nullptr) {
+    if (curves.equations_at(middle) != nullptr) {
       mu = middle;
     } else {
       beyond = middle;
@@ -199,7 +200,7 @@ std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const St
   std::vector<CriticalEvent> events = critical_events(curves, study, piece);
   events.push_back({"it reaches the start of the path",
                     [&curves](const CriticalPoint& p) {
-                      const Member* member = curves.at(p.mu);
+                      const Member* member = curves.equations_at(p.mu);
                       if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
                       return p.lambda - member->start().lambda;
                     },
@@ -326,7 +327,7 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
   if (started) rows.push_back({followed.growing.points.front(), nullptr});
   for (Row& row : side_of(followed.growing, 1)) rows.push_back(std::move(row));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Member* member = curves.at(rows[i].point.mu);
+    const Member* member = curves.equations_at(rows[i].point.mu);
     if (member == nullptr) continue;
     auto point = CaseCurves::point_of(rows[i].point, followed.start.piece);
     Sample sample{member->evaluator().values(member->quantities(), point),

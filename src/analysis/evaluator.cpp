@@ -97,7 +97,7 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
     case Kind::lambda:
       return q.scale * point.lambda;
     case Kind::deflection:
-      return q.scale * measured_.dot(state.z.segment(t_, d_) - problem_.rule().t_start);
+      return q.scale * measured_.dot(state.z.segment(t_, d_) - start_pose_of(problem_.rule()));
     case Kind::force:
       return q.scale * force(point);
     case Kind::unknown:

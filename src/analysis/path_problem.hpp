@@ -22,6 +22,7 @@ namespace springfold::analysis {
 struct PathRule {
   Index body = 1;
   Vector t_start{}, t_rate{};
+  Vector t_counted{};  ///< deflections are counted from this pose; empty: from t_start
   Matrix N{};  ///< d x (free pose coordinates), orthonormal columns
   Vector rho_start{}, rho_rate{};
   Vector W_start{}, W_rate{};
@@ -33,6 +34,11 @@ struct PathRule {
   bool symmetric = true;    ///< all loads have a potential
   double length = 1;        ///< unit of lengths, for the names of switches
 };
+
+/// The pose from which deflections are counted.
+inline const Vector& start_pose_of(const PathRule& rule) {
+  return rule.t_counted.size() > 0 ? rule.t_counted : rule.t_start;
+}
 
 /// Rotation of a body, followed along a path.
 struct Turn {

@@ -1,0 +1,167 @@
+// Starts of the curves of a family: from neighbours, from earlier studies, remembered, or none.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "case_curves.hpp"
+#include "springfold/statics/stage_jacobians.hpp"
+#include "start.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// Starts of more are remembered: so many, and so many numbers of their matrices.
+constexpr double most_starts = 4096, most_start_numbers = 0x1p22;
+
+}  // namespace
+
+bool CaseCurves::keeps_commands(const Study& study) const {
+  return !study_.critical.tied && study.start.solve == StartSolve::actuators;
+}
+
+/// How starts of members other than the first are found.
+StartOptions CaseCurves::start_beside(const Study& study) const {
+  StartOptions how = study.start;
+  how.attempts = 1;
+  if (keeps_commands(study)) how.solve = StartSolve::pose;
+  return how;
+}
+
+/// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
+/// vanishes, the member begins as the case with this value does, whatever the neighbours are; and where that finds nothing,
+/// at whatever start is found from the neighbour's. Commands that are not tied are those of the first member.
+bool CaseCurves::solve_near(Member& member, const Member& near) const {
+  const StartOptions how = start_beside(member.study);
+  const bool keeps = keeps_commands(member.study);
+  statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
+  if (near.first.z.size() != problem.z.size()) return false;
+  problem.foresight = foresight(member.mu, near);
+  const auto& body =
+      member.setup.system.body_slices[static_cast<std::size_t>(member.study.body - 1)];
+  if (how.solve != StartSolve::pose) {
+    const Vector given = problem.z.segment(body.t, body.count);
+    problem.z = near.first.z;
+    problem.z.segment(body.t, body.count) = given;
+    if (problem.foresight.z.size() > 0) problem.foresight.z.segment(body.t, body.count) = given;
+  } else {
+    problem.z = near.first.z;
+  }
+  if (keeps) problem.inputs.rho = base_->first.inputs.rho;
+  if (how.solve == StartSolve::actuators)
+    problem.inputs.rho = near.first.inputs.rho;
+  else
+    problem.foresight.rho.resize(0);
+  const auto is_found = [&](const statics::StartProblem& from) {
+    member.first = first_equilibrium(member.setup.system, from, start_work_);
+    return member.first.status == statics::StartStatus::found;
+  };
+  problem.is_neighbour = true;
+  member.sheet = near.sheet;
+  member.report.found = is_found(problem);
+  if (member.report.found) return true;
+  member.sheet = ++sheets_;
+  problem.is_neighbour = false;
+  const auto own = [&] { return start_problem(member.setup, member.study.body, how); };
+  member.report.found = (!keeps && is_found(own())) || is_found(problem);
+  if (member.report.found) member.first.factors = start_factors(member);
+  return member.report.found;
+}
+
+/// The start is the state that the earlier studies lead to, whatever the neighbours are.
+bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
+  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
+  member.sheet = ways_.emplace(way, static_cast<int>(ways_.size())).first->second;
+  member.first = first_equilibrium(member.setup.system, problem, start_work_);
+  member.report.found = member.first.status == statics::StartStatus::found;
+  return member.report.found;
+}
+
+/// Under a load, with commands that are given, nothing of the start enters the equations: special points of the curve may exist
+/// where the path has no start, as behind a start that meets its own limit point.
+/// @param near  gives the place from which starts beside this one are looked for
+/// @returns false where the equations need a start
+bool CaseCurves::go_without_start(Member& member, const Member& near) const {
+  const Study& study = member.study;
+  if (study.control != ControlMode::load || study.start.solve != StartSolve::pose) return false;
+  const auto problem = start_problem(member.setup, study.body, start_beside(study));
+  member.first = near.first;
+  member.first.inputs = problem.inputs;
+  member.report.found = false;
+  member.sheet = ++sheets_;
+  return true;
+}
+
+/// What neighbours are compared with. Long chains have none.
+std::shared_ptr<const Lu> CaseCurves::start_factors(const Member& member) const {
+  const statics::System& system = member.setup.system;
+  if (statics::prefers_stages(system)) return nullptr;
+  const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
+  return factors_at(system, problem, member.first, start_work_);
+}
+
+/// By the polynomial through up to four members around mu. Where they stand close together it would magnify their
+/// rounding: none nearer to another than half its distance from mu is taken.
+statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
+  constexpr std::size_t most = 4;
+  std::vector<const Member*> nodes;
+  nodes.reserve(most);
+  nodes.push_back(&near);
+  const auto take = [&](const Member& member) {
+    const double away = std::abs(member.mu - mu);
+    if (member.sheet != near.sheet) return;
+    const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
+      return std::abs(other->mu - member.mu) <= 0.5 * away;
+    });
+    if (apart) nodes.push_back(&member);
+  };
+  auto above = recent_.lower_bound(mu), below = above;
+  while (nodes.size() < most && (above != recent_.end() || below != recent_.begin())) {
+    const bool upwards =
+        below == recent_.begin() ||
+        (above != recent_.end() && above->first - mu < mu - std::prev(below)->first);
+    take(upwards ? *(above++)->second.member : *(--below)->second.member);
+  }
+  if (nodes.size() < most) take(*base_);
+  statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
+                              .rho = Vector::Zero(near.first.inputs.rho.size()),
+                              .factors = near.first.factors};
+  const auto is_beside = [&](double side) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](const Member* member) {
+      const double away = side * (member->mu - mu);
+      return away > 0 && away <= grid_step;
+    });
+  };
+  expected.enclosed = is_beside(1) && is_beside(-1);
+  for (const Member* member : nodes) {
+    double weight = 1;
+    for (const Member* other : nodes)
+      if (other != member) weight *= (mu - other->mu) / (member->mu - other->mu);
+    if (member->first.z.size() != expected.z.size() ||
+        member->first.inputs.rho.size() != expected.rho.size())
+      return {.factors = near.first.factors};
+    expected.z += weight * member->first.z;
+    expected.rho += weight * member->first.inputs.rho;
+  }
+  return expected;
+}
+
+/// What a member costs most is its start, and rows are written where the curve has been.
+void CaseCurves::keep_start(Member& member) const {
+  if (!member.report.found) return;
+  const double n = std::max(1.0, static_cast<double>(member.first.z.size()));
+  const double most = std::min(most_starts, most_start_numbers / (n * n));
+  if (static_cast<double>(starts_.size()) >= most) starts_.clear();
+  starts_.insert_or_assign(member.mu, KnownStart{member.sheet, std::move(member.first)});
+}
+
+bool CaseCurves::recall_start(Member& member) const {
+  const auto known = starts_.find(member.mu);
+  if (known == starts_.end()) return false;
+  member.sheet = known->second.sheet;
+  member.first = std::move(known->second.first);
+  member.report.found = true;
+  starts_.erase(known);
+  return true;
+}
+
+}  // namespace springfold::analysis
