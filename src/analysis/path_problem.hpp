@@ -23,7 +23,7 @@ struct PathRule {
   Index body = 1;
   Vector t_start{}, t_rate{};
   Vector t_counted{};  ///< deflections are counted from this pose; empty: from t_start
-  Matrix N{};  ///< d x (free pose coordinates), orthonormal columns
+  Matrix N{};          ///< d x (free pose coordinates), orthonormal columns
   Vector rho_start{}, rho_rate{};
   Vector W_start{}, W_rate{};
   Vector load_start{}, load_rate{};  ///< factors of the mechanism's loads
