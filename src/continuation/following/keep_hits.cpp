@@ -24,18 +24,17 @@ bool is_quiet(const Event& event, const CurvePoint& junction, const CurvePoint& 
 
 }  // namespace
 
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
           Curve& curve) {
   const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
-  for (std::size_t i = 0, next = 0; i < found.hits.size(); ++i) {
-    if (is_reported(curve, found.hits[i])) continue;
-    for (; next < between.size() && between[next].s < found.hits[i].point.s; ++next)
-      curve.points.push_back(between[next]);
-    const bool stops = found.stops[i];
-    curve.hits.push_back(found.hits[i]);
-    if (!stops && (!at_hit || at_hit(curve.hits.back()))) continue;
-    curve.stop = stops ? StopReason::event : StopReason::joined;
-    curve.stop_detail = curve.hits.back().name;
+  auto next = between.begin();
+  for (const Hit& hit : found.hits) {
+    if (is_reported(curve, hit)) continue;
+    for (; next != between.end() && next->s < hit.point.s; ++next) curve.points.push_back(*next);
+    curve.hits.push_back(hit);
+    if (!hit.stops && (!at_hit || at_hit(hit))) continue;
+    curve.stop = hit.stops ? StopReason::event : StopReason::joined;
+    curve.stop_detail = hit.name;
     return true;
   }
   return false;

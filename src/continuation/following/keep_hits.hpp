@@ -12,7 +12,7 @@ namespace springfold::continuation {
 
 /// Keeps the special points of a step and, between any two, a point of the curve with the index there.
 /// @returns whether the curve ends at one of them
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
           Curve& curve);
 
 /// The way to a surface just beside the singular point that the curve leaves, and past it: nothing of the engine's own lies

@@ -17,11 +17,7 @@ namespace {
 /// Special points behind the place at which a curve closes were met at its start, one at this place now.
 void end_at(const CurvePoint& start, StepEvents& found) {
   constexpr double same_place = same_point;
-  for (std::size_t i = found.hits.size(); i-- > 0;) {
-    if (found.hits[i].point.s <= start.s + same_place) continue;
-    found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
-    found.stops.erase(found.stops.begin() + static_cast<std::ptrdiff_t>(i));
-  }
+  std::erase_if(found.hits, [&](const Hit& hit) { return hit.point.s > start.s + same_place; });
 }
 
 /// The middle of the last step, where it is known.

@@ -85,9 +85,7 @@ class Verifier {
   void verify(std::size_t k) {
     arc_ = k;
     passes_.reset();
-    const Direction chord{points_[k + 1].x - points_[k].x,
-                          points_[k + 1].lambda - points_[k].lambda};
-    way_ = metric_product(walker_.weights, chord, points_[k].tangent);
+    way_ = way_to(walker_.weights, points_[k], points_[k + 1]);
     if (make_model(k))
       window({0, way_}, 0);
     else
@@ -156,7 +154,7 @@ class Verifier {
     if (!model.go_through(walker_.weights, points_[from], nodes)) return false;
     const WatchedStep step(walker_, to, length(arc_));
     const auto other = separation_at(step, to);
-    const double off = distance_of(walker_.weights, model, points_[from], to);
+    const double off = distance_of(walker_, model, points_[from], to);
     return other && std::isfinite(other->blur) && off <= own_branch * other->distance;
   }
 

@@ -52,13 +52,7 @@ bool WatchedStep::model_of_samples() const {
 std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
   if (model_.empty() && (settled_ || !model_of_samples()))
     return point_between(walker_, from_, *samples_[sample_count_ - 1], ds);
-  auto point = corrected(ds);
-  if (!point) return {};
-  CurvePoint expected;
-  model_.point(walker_.weights, from_, ds, expected);
-  if (metric_product(walker_.weights, point->tangent, expected.tangent) < half_a_right_angle)
-    return {};
-  return point;
+  return point_near(walker_, model_, from_, ds);
 }
 
 /// The samples' polynomial is compared with corrected points between them; these become nodes as well, and others are

@@ -14,19 +14,23 @@ namespace springfold::continuation {
 /// points, and goes on beyond its ends as the curve did before.
 class ArcModel {
  public:
-  static constexpr std::size_t most_nodes = 5;
+  static constexpr std::size_t most_nodes = 10;
 
   /// Takes the place of what the arc was before; its storage is used again.
   /// @param nodes  in order along the curve, on one piece, not more than `most_nodes`
   /// @returns false, and is empty, where they do not lie evenly ahead along the tangent at `origin`
   bool go_through(const Vector& weights, const CurvePoint& origin, Samples nodes);
 
+  /// The same of nodes in any order.
+  /// @returns false, and is empty, where one is not ahead along the tangent at `origin`, or two lie at one way
+  bool interpolate(const Vector& weights, const CurvePoint& origin, Samples nodes);
+
   bool empty() const { return knots_ == 0; }
   double begin() const { return at_[0]; }
   double end() const { return at_[knots_ - 1]; }
 
-  /// u(t) and du/dt, n + 1 numbers each.
-  void evaluate(double t, Vector& u, Vector& rate) const;
+  /// u(t) and du/dt, n + 1 numbers each. @param left_out  so many of the last nodes: the polynomial through the others
+  void evaluate(double t, Vector& u, Vector& rate, Index left_out = 0) const;
 
   /// dlambda/dt.
   double rate_of_lambda(double t) const;
@@ -41,8 +45,11 @@ class ArcModel {
   mutable Vector u_{}, rate_{};
 };
 
+/// The way from the origin along its tangent to where a point lies.
+double way_to(const Vector& weights, const CurvePoint& origin, const CurvePoint& point);
+
 /// How far a model passes from a point.
-double distance_of(const Vector& weights, const ArcModel& model, const CurvePoint& origin,
+double distance_of(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
                    const CurvePoint& point);
 
 }  // namespace springfold::continuation

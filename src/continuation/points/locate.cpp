@@ -4,7 +4,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
-#include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -25,28 +24,25 @@ std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from,
   return point;
 }
 
+std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model,
+                                     const CurvePoint& origin, double t) {
+  std::optional<CurvePoint> point(std::in_place);
+  StepMeasures measures;
+  std::string refusal;
+  model.point(walker.weights, origin, t, *point);
+  const Direction expected = point->tangent;
+  if (!find_point(walker, origin.piece, origin.tangent, *point, measures, refusal) ||
+      metric_product(walker.weights, point->tangent, expected) < half_a_right_angle)
+    point.reset();
+  return point;
+}
+
 std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
                                         const CurvePoint& to, double ds) {
-  const double h = to.s - from.s, t = ds / h;
-  const double along = metric_product(walker.weights, to.tangent, from.tangent);
-  if (!(h > 0) || !(along > 0)) return point_at(walker, from, ds);
-  // u(t) = u_0 + h t (tau_0 + t (a + t b)), with the rates du/ds = tau_0 and tau_1 / (tau_1 . tau_0).
-  const Vector rate = to.tangent.dx / along, chord = (to.x - from.x) / h;
-  const double rate_l = to.tangent.dlambda / along, chord_l = (to.lambda - from.lambda) / h;
-  const Vector a = 3 * chord - 2 * from.tangent.dx - rate, b = from.tangent.dx + rate - 2 * chord;
-  const double a_l = 3 * chord_l - 2 * from.tangent.dlambda - rate_l,
-               b_l = from.tangent.dlambda + rate_l - 2 * chord_l;
-  const Vector x = from.x + ds * (from.tangent.dx + t * (a + t * b));
-  const double lambda = from.lambda + ds * (from.tangent.dlambda + t * (a_l + t * b_l));
-  StepResult result = point_on_curve(walker, x, lambda, from.piece, from.tangent);
-  if (!result.point) return std::nullopt;
-  const Direction slope{from.tangent.dx + t * (2 * a + 3 * t * b),
-                        from.tangent.dlambda + t * (2 * a_l + 3 * t * b_l)};
-  const double length = length_of(walker, slope);
-  if (metric_product(walker.weights, result.point->tangent, slope) < half_a_right_angle * length)
-    return std::nullopt;
-  result.point->s = from.s + ds;
-  return std::move(result.point);
+  ArcModel chord;
+  return chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))
+             ? point_near(walker, chord, from, ds)
+             : point_at(walker, from, ds);
 }
 
 std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "continuation/points/step.hpp"
+#include "continuation/points/arc.hpp"
 
 namespace springfold::continuation {
 
@@ -16,9 +16,12 @@ inline constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
 /// A point of the curve at distance ds from `from` along its tangent, without judging the step.
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
 
-/// The same on a step whose end is known: predicted by the cubic through both ends and their tangents,
-/// so that beside a branch point the corrector stays on the curve.
-/// @returns nothing also where the tangent found is not that of the cubic: another branch's
+/// A point of the curve near the model's point at the way t from its origin. Beside a branch point the corrector stays on
+/// the curve so. @returns nothing also where the tangent found is not that of the model: another branch's
+std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model,
+                                     const CurvePoint& origin, double t);
+
+/// The same on a step whose end is known: predicted by the cubic through both ends and their tangents.
 std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
                                         const CurvePoint& to, double ds);
 

@@ -65,15 +65,6 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
   return true;
 }
 
-StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
-                          const Direction& reference) {
-  StepResult result;
-  CurvePoint point{.x = std::move(x), .lambda = lambda};
-  if (find_point(walker, piece, reference, point, result.measures, result.refusal))
-    result.point = std::move(point);
-  return result;
-}
-
 namespace {
 
 /// Puts point - from - ahead tangent into storage. @returns its length

@@ -36,10 +36,10 @@ struct StepResult {
   std::string refusal{};  ///< in words
 };
 
-/// A point of the curve near the given one: residual at tolerance, tangent along `reference`,
-/// inertia counted. Corrects within the hyperplane through (x, lambda) across `reference`.
-StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
-                          const Direction& reference);
+/// A point of the curve near point.x and point.lambda, in their place: residual at tolerance, tangent along `reference`,
+/// inertia counted. Corrects within the hyperplane across `reference`. @param refusal  why not, if false is returned
+bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
+                CurvePoint& point, StepMeasures& measures, std::string& refusal);
 
 /// Predicts along the tangent by ds, corrects, and judges the step by StepOptions. The piece stays
 /// that of `from`, also beyond its switching surfaces.

@@ -113,7 +113,7 @@ std::optional<bool> is_smooth_across(const Walker& walker, const Curve& curve,
   if (!model.go_through(walker.weights, point(1), nodes)) return std::nullopt;
   for (const std::size_t i : {2u, 3u}) {
     const auto s = separation(walker, curve, at[i]);
-    const double off = distance_of(walker.weights, model, point(1), point(i));
+    const double off = distance_of(walker, model, point(1), point(i));
     if (s && off > changed * s->distance && off > between_samples * s->blur) return false;
   }
   return true;
