@@ -159,7 +159,7 @@ bool find_places(const Walker& walker, Samples samples, const std::vector<Index>
     leave_zero_at_begin(walker, *samples.front(), moved);
     std::vector<const CurvePoint*> pointers;
     for (const CurvePoint& point : moved) pointers.push_back(&point);
-    SingularPoints singular = singular_points(WatchedStep(walker, pointers), pointers);
+    StepEvents singular = singular_points(WatchedStep(walker, pointers), pointers);
     if (!singular.doubt.empty()) {
       found.doubt = "beside " + names_of(walker.problem, resting) + ": " + singular.doubt;
       found.unexplained = singular.unexplained;

@@ -79,12 +79,6 @@ void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found
   found.hits.insert(found.hits.begin(), std::move(hit));
 }
 
-Walker without_special_points(const Walker& walker) {
-  Walker plain = walker;
-  plain.options.limit_points = plain.options.branch_points = false;
-  return plain;
-}
-
 StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoint& to,
                          const CurvePoint* middle, const std::vector<Event>& events, Curve& curve) {
   to.negative.reset();

@@ -8,8 +8,8 @@
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -159,6 +159,12 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
 
 }  // namespace
 
+Walker without_special_points(const Walker& walker) {
+  Walker plain = walker;
+  plain.options.limit_points = plain.options.branch_points = false;
+  return plain;
+}
+
 void sort_by_place(std::vector<Hit>& hits) {
   std::stable_sort(hits.begin(), hits.end(),
                    [](const Hit& a, const Hit& b) { return a.point.s < b.point.s; });
@@ -168,14 +174,8 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
                           const CurvePoint* middle, const std::vector<Event>& events) {
   const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
 
-  StepEvents result;
   const WatchedStep arc(walker, samples);
-  SingularPoints singular = singular_points(arc, samples);
-  result.doubt = singular.doubt;
-  result.unexplained = singular.unexplained;
-  result.passing = singular.passing;
-  result.flat = singular.flat;
-  result.hits = std::move(singular.hits);
+  StepEvents result = singular_points(arc, samples);
   auto& known = walker.memory->at_end;
   const bool is_known = known.events == events.data() && known.values.size() == events.size() &&
                         is_same(known.point, from);

@@ -230,8 +230,8 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 }  // namespace
 
-SingularPoints singular_points(const WatchedStep& arc, Samples samples) {
-  SingularPoints result;
+StepEvents singular_points(const WatchedStep& arc, Samples samples) {
+  StepEvents result;
   const CurvePoint& to = *samples.back();
   const TraceOptions& options = arc.walker().options;
   WatchedZeros turns = turns_on(arc, samples);

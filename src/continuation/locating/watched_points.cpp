@@ -50,8 +50,7 @@ bool WatchedStep::model_of_samples() const {
 }
 
 std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
-  if (model_.empty() && (settled_ || !model_of_samples()))
-    return point_between(walker_, from_, *samples_[sample_count_ - 1], ds);
+  if (model_.empty() && (settled_ || !model_of_samples())) return point_at(walker_, from_, ds);
   return point_near(walker_, model_, from_, ds);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/normalised.hpp"
 #include "continuation/points/working_memory.hpp"
 
 namespace springfold::continuation {
@@ -105,6 +106,36 @@ double distance_of(const Walker& walker, const ArcModel& model, const CurvePoint
   off.dx = expected.x - point.x;
   off.dlambda = expected.lambda - point.lambda;
   return length_of(walker, off);
+}
+
+std::vector<Stretch> smooth_stretches(const Walker& walker, const Normalised& own,
+                                      const Curve& curve) {
+  std::vector<Stretch> found{{own.inside(curve.points.front())}};
+  const auto begin = [&](const CurvePoint& point) { found.push_back({own.inside(point)}); };
+  const auto add = [&](const CurvePoint& point) {
+    const CurvePoint& before = found.back().back();
+    if (!(point.s > before.s)) return;
+    if (point.piece != before.piece) return begin(point);
+    CurvePoint next = own.inside(point);
+    next.tangent = direction_seen_from(walker, before.x, next);
+    next.x = before.x + between(walker, before, next).dx;
+    found.back().push_back(std::move(next));
+  };
+  auto hit = curve.hits.begin();
+  const auto take_hits = [&](double until) {
+    for (; hit != curve.hits.end() && hit->point.s <= until; ++hit) {
+      const bool last = hit + 1 == curve.hits.end() && hit->point.s > curve.points.back().s;
+      if (hit->switches.empty() && !last) continue;
+      add(hit->point);
+      begin(hit->leaving.empty() ? hit->point : hit->leaving.front());
+    }
+  };
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    take_hits(curve.points[i].s);
+    add(curve.points[i]);
+  }
+  take_hits(infinity);
+  return found;
 }
 
 }  // namespace springfold::continuation

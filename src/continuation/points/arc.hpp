@@ -2,11 +2,30 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
-#include "continuation/points/samples.hpp"
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
+
+/// A step's ends and points between them, in order; all on one piece.
+using Samples = std::span<const CurvePoint* const>;
+
+/// The ends and, if there is one, a point between them.
+class StepSamples {
+ public:
+  StepSamples(const CurvePoint& from, const CurvePoint* middle, const CurvePoint& to)
+      : points_{&from, middle ? middle : &to, &to}, count_{middle ? 3u : 2u} {}
+
+  operator Samples() const { return Samples(points_).first(count_); }  // NOLINT: on purpose
+
+ private:
+  std::array<const CurvePoint*, 3> points_;
+  std::size_t count_;
+};
+
+class Normalised;
 
 /// The polynomial through points of the curve and their tangents, in Newton's form with double knots. On one smooth piece the
 /// curve is a function u(t) = (x, lambda)(t) of the way t = tau_0 . (u - u_0) along the tangent at one of its points, the
@@ -51,5 +70,13 @@ double way_to(const Vector& weights, const CurvePoint& origin, const CurvePoint&
 /// How far a model passes from a point.
 double distance_of(const Walker& walker, const ArcModel& model, const CurvePoint& origin,
                    const CurvePoint& point);
+
+/// Points of a curve on one smooth piece, in order.
+using Stretch = std::vector<CurvePoint>;
+
+/// The points of a curve, in the engine's own units, parted at kinks and where the piece changes, up to the special point that
+/// ended it. Each is seen from the one before: a closed curve may end at another copy of its start, whole periods away.
+std::vector<Stretch> smooth_stretches(const Walker& walker, const Normalised& own,
+                                      const Curve& curve);
 
 }  // namespace springfold::continuation

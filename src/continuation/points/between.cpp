@@ -19,7 +19,7 @@ namespace {
 /// Part of a curve on one piece, from one of its points to another.
 struct PointGap {
   CurvePoint from{}, to{};
-  const CurvePoint* middle = nullptr;  ///< where one is known between them
+  std::optional<CurvePoint> middle{};  ///< where one is known between them
   bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
   bool goes_on = false;  ///< `from` is the end of the gap before, on one smooth curve
 };
@@ -28,11 +28,13 @@ struct PointGap {
 /// it begins.
 class Filler {
  public:
+  using Nodes = std::vector<const CurvePoint*>;
+
   Filler(const Walker& walker, double spacing, Between& result)
       : walker_{walker}, spacing_{spacing}, result_{result} {}
 
   /// @param around  further points of the smooth curve that the gap lies on, the nearest ones first
-  void fill(const PointGap& gap, const std::vector<CurvePoint>& around) {
+  void fill(const PointGap& gap, const Nodes& around) {
     gap_ = &gap;
     length_ = way(gap.to);
     const double h = gap.to.s - gap.from.s;
@@ -61,8 +63,6 @@ class Filler {
   }
 
  private:
-  using Nodes = std::vector<const CurvePoint*>;
-
   /// A model through no more nodes than this is not compared with the one without the last.
   static constexpr std::size_t few = 5;
   /// Where the quintic is off by e at two nodes more, the polynomial through all five, of degree nine, is
@@ -70,7 +70,7 @@ class Filler {
   static constexpr double nearly_exact = one_place;
   static constexpr int deepest = 24;
   /// Cosine of a turn up to which polynomials of the way along a tangent converge fast.
-  static constexpr double little_turned = 0.9;
+  static constexpr double little_turned = 1 - small_share;
 
   double way(const CurvePoint& p) const { return way_to(walker_.weights, gap_->from, p); }
   double way_of(double k) const { return (k * spacing_ - gap_->from.s) * per_s_; }
@@ -83,17 +83,17 @@ class Filler {
 
   const CurvePoint* known_middle() const {
     const double t = gap_->middle ? way(*gap_->middle) : 0;
-    return t > 0 && t < length_ ? gap_->middle : nullptr;
+    return t > 0 && t < length_ ? &*gap_->middle : nullptr;
   }
 
   /// The gap's ends, and points of the curve around it, as far as it turns little: a quarter of a turn away it is no function
   /// of the way any more, and polynomials see that from afar.
-  Nodes nodes_of(const std::vector<CurvePoint>& around) const {
+  Nodes nodes_of(const Nodes& around) const {
     const CurvePoint& from = gap_->from;
     Nodes nodes{&from, &gap_->to};
-    for (const CurvePoint& p : around) {
-      const bool ahead = metric_product(walker_.weights, p.tangent, from.tangent) > little_turned;
-      if (ahead && (p.s < from.s ? way(p) < 0 : way(p) > length_)) nodes.push_back(&p);
+    for (const CurvePoint* p : around) {
+      const bool ahead = metric_product(walker_.weights, p->tangent, from.tangent) > little_turned;
+      if (ahead && (p->s < from.s ? way(*p) < 0 : way(*p) > length_)) nodes.push_back(p);
     }
     return nodes;
   }
@@ -182,75 +182,60 @@ class Filler {
   Vector u_{}, rate_{}, F_{};
 };
 
-bool is_kink(const Hit& hit) { return !hit.switches.empty(); }
-
-bool changes_the_count(const Hit& hit) { return hit.kind != HitKind::user; }
-
-/// The stretches of a curve: from point to point, parted at kinks, up to the event that ended it.
-std::vector<PointGap> stretches_of(const Curve& curve, bool counts) {
-  std::vector<PointGap> stretches;
-  CurvePoint from = curve.points.front();
-  bool special = false, goes_on = false;
-  const auto up_to = [&](const CurvePoint& to) {
-    const bool counted = !special && from.negative == to.negative;
-    if (to.s > from.s)
-      stretches.push_back({from, to, nullptr, counted && (from.negative || !counts), goes_on});
-    goes_on = goes_on || to.s > from.s;
-    special = false;
+/// The gaps between a curve's points.
+/// @param counts  numbers of negative eigenvalues are known
+std::vector<PointGap> gaps_of(const std::vector<Stretch>& stretches, const Curve& curve,
+                              bool counts) {
+  std::vector<PointGap> gaps;
+  const auto add = [&](const CurvePoint& from, const CurvePoint& to, bool goes_on) {
+    const bool special = std::ranges::any_of(curve.hits, [&](const Hit& hit) {
+      return hit.kind != HitKind::user && hit.point.s >= from.s && hit.point.s <= to.s;
+    });
+    const bool counted = !special && from.negative == to.negative && (from.negative || !counts);
+    gaps.push_back({from, to, std::nullopt, counted, goes_on});
   };
-  std::size_t h = 0;
-  const auto take_hits = [&](double until) {
-    for (; h < curve.hits.size() && curve.hits[h].point.s <= until; ++h) {
-      const Hit& hit = curve.hits[h];
-      special = special || changes_the_count(hit);
-      const bool last = h + 1 == curve.hits.size() && hit.point.s > curve.points.back().s;
-      if (!is_kink(hit) && !last) continue;
-      up_to(hit.point);
-      from = hit.leaving.empty() ? hit.point : hit.leaving.front();
-      special = is_kink(hit);
-      goes_on = false;
-    }
-  };
-  for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    take_hits(curve.points[i].s);
-    up_to(curve.points[i]);
-    from = curve.points[i];
+  for (const Stretch& stretch : stretches) {
+    // Between pieces, without a kink that was found.
+    if (!gaps.empty() && gaps.back().to.s < stretch.front().s)
+      add(gaps.back().to, stretch.front(), true);
+    for (std::size_t i = 1; i < stretch.size(); ++i) add(stretch[i - 1], stretch[i], i > 1);
   }
-  take_hits(infinity);
-  return stretches;
+  return gaps;
 }
 
-/// Ends of the stretches before and behind on the same smooth curve, and points between them, the nearest ones first, as many
+/// Ends of the gaps before and behind on the same smooth curve, and points between them, the nearest ones first, as many
 /// as a polynomial can use: with more of them rounding of the tangents grows faster than the error falls.
-std::vector<const CurvePoint*> points_around(const std::vector<PointGap>& stretches,
-                                             std::size_t i) {
+std::vector<const CurvePoint*> points_around(const std::vector<PointGap>& gaps, std::size_t i) {
   constexpr std::size_t most = 7;
   std::vector<const CurvePoint*> before, behind, points;
-  for (std::size_t k = i; before.size() < most && stretches[k].goes_on;) {
-    if (stretches[--k].middle) before.push_back(stretches[k].middle);
-    before.push_back(&stretches[k].from);
+  for (std::size_t k = i; before.size() < most && gaps[k].goes_on;) {
+    if (gaps[--k].middle) before.push_back(&*gaps[k].middle);
+    before.push_back(&gaps[k].from);
   }
-  for (std::size_t k = i + 1; behind.size() < most && k < stretches.size() && stretches[k].goes_on;
-       ++k) {
-    if (stretches[k].middle) behind.push_back(stretches[k].middle);
-    behind.push_back(&stretches[k].to);
+  for (std::size_t k = i + 1; behind.size() < most && k < gaps.size() && gaps[k].goes_on; ++k) {
+    if (gaps[k].middle) behind.push_back(&*gaps[k].middle);
+    behind.push_back(&gaps[k].to);
   }
   auto back = before.begin(), ahead = behind.begin();
   while (points.size() < most && (back != before.end() || ahead != behind.end())) {
-    const double away = back != before.end() ? stretches[i].from.s - (*back)->s : infinity;
-    const double along = ahead != behind.end() ? (*ahead)->s - stretches[i].to.s : infinity;
+    const double away = back != before.end() ? gaps[i].from.s - (*back)->s : infinity;
+    const double along = ahead != behind.end() ? (*ahead)->s - gaps[i].to.s : infinity;
     points.push_back(away <= along ? *back++ : *ahead++);
   }
   return points;
 }
 
-/// Each of the points, in the order of s, belongs to the stretch that it lies in.
-void put_middles(const std::vector<CurvePoint>& middles, std::vector<PointGap>& stretches) {
+/// Each of the points, in the order of s, belongs to the gap that it lies in.
+void put_middles(const Walker& walker, const Normalised& own,
+                 const std::vector<CurvePoint>& middles, std::vector<PointGap>& gaps) {
   auto middle = middles.begin();
-  for (PointGap& stretch : stretches) {
-    while (middle != middles.end() && middle->s <= stretch.from.s) ++middle;
+  for (PointGap& gap : gaps) {
+    while (middle != middles.end() && middle->s <= gap.from.s) ++middle;
     if (middle == middles.end()) return;
-    if (middle->s < stretch.to.s && middle->piece == stretch.from.piece) stretch.middle = &*middle;
+    if (!(middle->s < gap.to.s && middle->piece == gap.from.piece)) continue;
+    gap.middle = own.inside(*middle);
+    gap.middle->tangent = direction_seen_from(walker, gap.from.x, *gap.middle);
+    gap.middle->x = gap.from.x + between(walker, gap.from, *gap.middle).dx;
   }
 }
 
@@ -272,26 +257,10 @@ Between points_between(ProblemView problem, const Curve& curve,
   const Normalised own(problem, start.x, start.lambda, start.piece);
   const Walker walker{own, own.metric(), options};
   Filler filler(walker, spacing, result);
-  std::vector<PointGap> stretches = stretches_of(curve, problem.symmetric());
-  put_middles(middles, stretches);
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    PointGap stretch = stretches[i];
-    stretch.from = own.inside(stretch.from);
-    // A closed curve may end at another copy of its start, whole periods away.
-    const auto as_seen = [&](const CurvePoint& point) {
-      CurvePoint p = own.inside(point);
-      const Direction chord = between(walker, stretch.from, p);
-      p.tangent = direction_seen_from(walker, stretch.from.x, p);
-      p.x = stretch.from.x + chord.dx;
-      return p;
-    };
-    stretch.to = as_seen(stretch.to);
-    std::optional<CurvePoint> middle;
-    if (stretch.middle != nullptr) stretch.middle = &middle.emplace(as_seen(*stretch.middle));
-    std::vector<CurvePoint> around;
-    for (const CurvePoint* point : points_around(stretches, i)) around.push_back(as_seen(*point));
-    filler.fill(stretch, around);
-  }
+  std::vector<PointGap> gaps =
+      gaps_of(smooth_stretches(walker, own, curve), curve, problem.symmetric());
+  put_middles(walker, own, middles, gaps);
+  for (std::size_t i = 0; i < gaps.size(); ++i) filler.fill(gaps[i], points_around(gaps, i));
   for (CurvePoint& point : result.points) point = own.outside(std::move(point));
   return result;
 }

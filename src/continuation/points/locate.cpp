@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -27,6 +28,7 @@ std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from,
 std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model,
                                      const CurvePoint& origin, double t) {
   std::optional<CurvePoint> point(std::in_place);
+  constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;  // its cosine
   StepMeasures measures;
   std::string refusal;
   model.point(walker.weights, origin, t, *point);
@@ -37,19 +39,12 @@ std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model
   return point;
 }
 
-std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
-                                        const CurvePoint& to, double ds) {
-  ArcModel chord;
-  return chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))
-             ? point_near(walker, chord, from, ds)
-             : point_at(walker, from, ds);
-}
-
-std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,
+std::optional<Located> locate(const std::function<std::optional<CurvePoint>(double)>& point_at,
+                              double a, double b, double tolerance,
                               const std::function<double(const CurvePoint&)>& value) {
   bool failed = false;
   const auto f = [&](double ds) -> double {
-    const auto point = point_at(walker, from, ds);
+    const auto point = point_at(ds);
     const double v = point ? value(*point) : not_a_number;
     failed = failed || !std::isfinite(v);
     return failed ? 0.0 : v;
@@ -61,15 +56,20 @@ std::optional<Located> locate(const Walker& walker, const CurvePoint& from, doub
     low = high = fa == 0 ? a : b;
   } else {
     if (!(a < b) || !std::isfinite(a) || !std::isfinite(b)) return std::nullopt;
-    const double tolerance = walker.options.location_tolerance * std::abs(b - a);
     const auto close = [tolerance](double l, double h) { return std::abs(h - l) <= tolerance; };
     std::uintmax_t most = 100;
     std::tie(low, high) = boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most);
   }
   if (failed) return std::nullopt;
-  auto point = point_at(walker, from, 0.5 * (low + high));
+  auto point = point_at(0.5 * (low + high));
   if (!point) return std::nullopt;
   return Located{std::move(*point), std::min(low, high), std::max(low, high)};
+}
+
+std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,
+                              const std::function<double(const CurvePoint&)>& value) {
+  return locate([&](double ds) { return point_at(walker, from, ds); }, a, b,
+                walker.options.location_tolerance * std::abs(b - a), value);
 }
 
 }  // namespace springfold::continuation
