@@ -48,10 +48,7 @@ std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc,
   const Index n = u.size() - 1;
   const auto border = flow_at(walker, u, arc.from);
   CurvePoint point{.s = arc.from.s + t, .x = u.head(n), .lambda = u[n]};
-  StepMeasures measures;
-  std::string refusal;
-  if (!border || !find_point(walker, arc.from.piece, *border, point, measures, refusal))
-    return std::nullopt;
+  if (!border || !find_point(walker, arc.from.piece, *border, point)) return std::nullopt;
   const double off =
       std::max((point.x - u.head(n)).lpNorm<Eigen::Infinity>(), std::abs(point.lambda - u[n]));
   if (!(off <= largest_return * std::max(1.0, u.lpNorm<Eigen::Infinity>()))) return std::nullopt;

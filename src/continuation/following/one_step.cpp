@@ -105,23 +105,22 @@ bool closes_behind_kink(const Walker& walker, const CurvePoint& leaving, Curve& 
 /// Predicts, corrects and looks inside: does the step stay on its curve? Its end and, if there is evidence, its middle stand in
 /// the working memory.
 bool take_step(const Walker& walker, const Progress& progress, const Curve& curve,
-               StepMeasures& measures, Refusal& refused) {
+               StepReport& report, Refusal& refused) {
   CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
   const CurvePoint& here = progress.here;
-  std::string& refusal = refused.reason;
   const ArcModel *const behind = model_behind(walker, progress, curve), *model = behind;
-  if (model && !try_step(walker, here, progress.ds, model, next, measures, refusal))
-    model = nullptr;
-  if (!model && (!try_step(walker, here, progress.ds, nullptr, next, measures, refusal) ||
-                 may_be_another(walker, next, progress.ds, refusal)))
+  if (model && !try_step(walker, here, progress.ds, model, next, report)) model = nullptr;
+  if (!model && (!try_step(walker, here, progress.ds, nullptr, next, report) ||
+                 may_be_another(walker, next, progress.ds, report.refusal)))
     return false;
   if (!walker.options.verify) return true;
-  examine(walker, model, here, next, half_way, refusal);
-  if (!refusal.empty()) return false;
+  examine(walker, model, here, next, half_way, report.refusal);
+  if (!report.refusal.empty()) return false;
   const CurvePoint* known = middle_behind(progress);
   refused.astray =
       behind && !leads_on(walker, *behind, known ? *known : progress.before, here, half_way, next);
-  if (refused.astray) refusal = "the end is not where the curve leads: another branch may be near";
+  if (refused.astray)
+    report.refusal = "the end is not where the curve leads: another branch may be near";
   return !refused.astray;
 }
 
@@ -161,8 +160,11 @@ void move_on(const Following& following, const CurvePoint* start, Progress& prog
 Outcome advance(const Following& following, bool report, Progress& progress, Curve& curve,
                 Refusal& refused) {
   const Walker& walker = following.walker;
-  StepMeasures measures;
-  if (!take_step(walker, progress, curve, measures, refused)) return Outcome::shorten;
+  StepReport step;
+  if (!take_step(walker, progress, curve, step, refused)) {
+    refused.reason = step.refusal;
+    return Outcome::shorten;
+  }
   const CurvePoint& next = walker.memory->next;
   const CurvePoint* middle = walker.options.verify ? &walker.memory->middle : nullptr;
   KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
@@ -197,7 +199,7 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
   }
   // Past something unresolved the next step gets away from it.
   progress.ds = found.doubt.empty() || found.flat
-                    ? next_step_length(progress.ds, measures, walker.options.step)
+                    ? next_step_length(progress.ds, step.measures, walker.options.step)
                     : std::min(100 * unresolved_length, walker.options.step.maximum);
   return Outcome::go_on;
 }

@@ -39,9 +39,7 @@ WatchedStep::WatchedStep(const Walker& walker, Samples samples)
 std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  StepMeasures measures;
-  std::string refusal;
-  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  if (!find_point(walker_, from_.piece, from_.tangent, *point)) return {};
   return point;
 }
 

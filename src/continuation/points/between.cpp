@@ -157,11 +157,8 @@ class Filler {
 
   void one_by_one(const ArcModel& curve, double first, double last) {
     for (double k = first; k <= last; ++k) {
-      StepMeasures measures;
-      std::string refusal;
       CurvePoint point = curve.empty() ? gap_->from : on_model(curve, k);
-      if (!curve.empty() &&
-          find_point(walker_, point.piece, gap_->from.tangent, point, measures, refusal))
+      if (!curve.empty() && find_point(walker_, point.piece, gap_->from.tangent, point))
         result_.points.push_back(std::move(point));
       else
         ++result_.missed;

@@ -11,12 +11,10 @@
 namespace springfold::continuation {
 
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point) {
-  StepMeasures measures;
-  std::string refusal;
   point.x = from.x + ds * from.tangent.dx;
   point.lambda = from.lambda + ds * from.tangent.dlambda;
   point.s = from.s + ds;
-  return find_point(walker, from.piece, from.tangent, point, measures, refusal);
+  return find_point(walker, from.piece, from.tangent, point);
 }
 
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds) {
@@ -29,11 +27,9 @@ std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model
                                      const CurvePoint& origin, double t) {
   std::optional<CurvePoint> point(std::in_place);
   constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;  // its cosine
-  StepMeasures measures;
-  std::string refusal;
   model.point(walker.weights, origin, t, *point);
   const Direction expected = point->tangent;
-  if (!find_point(walker, origin.piece, origin.tangent, *point, measures, refusal) ||
+  if (!find_point(walker, origin.piece, origin.tangent, *point) ||
       metric_product(walker.weights, point->tangent, expected) < half_a_right_angle)
     point.reset();
   return point;

@@ -90,7 +90,7 @@ bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
 /// try_step(), point_at() and examine() with their results in storage of the caller's.
 /// @param model  the curve behind `from`, its origin, which is continued where it promises an even way; or nullptr
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,
-              CurvePoint& to, StepMeasures& measures, std::string& refusal);
+              CurvePoint& to, StepReport& report);
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
 /// @param doubt   why the step is not to be trusted; empty: it is
 /// @returns whether the middle was found
