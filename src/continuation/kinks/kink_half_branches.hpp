@@ -2,7 +2,7 @@
 #pragma once
 
 #include "continuation/locating/events.hpp"
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
 
 namespace springfold::continuation {
 

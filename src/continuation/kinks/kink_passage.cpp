@@ -157,6 +157,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
                             ? hit.name
                             : std::to_string(hit.leaving.size()) + " ways out at " + hit.name;
     if (*reason == StopReason::no_way_out && !rays.complete) curve.stop_detail += ": " + rays.why;
+    hit.stops = true;
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;
   }

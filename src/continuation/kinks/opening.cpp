@@ -14,10 +14,6 @@
 namespace springfold::continuation {
 namespace {
 
-double way_along(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
-  return metric_product(walker.weights, {to.x - from.x, to.lambda - from.lambda}, from.tangent);
-}
-
 /// The branch near the singular point.
 struct Continuation {
   const Walker& walker;
@@ -44,9 +40,10 @@ struct Continuation {
 
 /// Is the model the curve, as far as corrected points can tell, and does nothing happen on it?
 bool is_known(const Continuation& c, const CurvePoint& farther) {
-  const auto check = point_at(c.walker, c.half, -0.5 * way_along(c.walker, c.junction, c.half));
+  const auto check =
+      point_at(c.walker, c.half, -0.5 * way_to(c.walker.weights, c.junction, c.half));
   if (!check || !told_from_zero(farther) || !told_from_zero(c.half)) return false;
-  return distance_of(c.walker.weights, c.model, c.junction, *check) <= promised_place &&
+  return distance_of(c.walker, c.model, c.junction, *check) <= promised_place &&
          sense_of(c.half) == sense_of(farther) && c.half.negative == farther.negative;
 }
 
@@ -90,7 +87,7 @@ std::optional<Opening> opening_of(const Walker& walker, const CurvePoint& juncti
                                   const CurvePoint& farther) {
   if (walker.problem.switch_count() == 0) return std::nullopt;
   Continuation c{.walker = walker, .junction = junction};
-  auto half = point_at(walker, farther, -0.5 * way_along(walker, junction, farther));
+  auto half = point_at(walker, farther, -0.5 * way_to(walker.weights, junction, farther));
   if (!half) return std::nullopt;
   c.half = std::move(*half);
   const StepSamples nodes(junction, &c.half, farther);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
 #include "springfold/core/extended_matrix.hpp"
 

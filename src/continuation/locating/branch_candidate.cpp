@@ -6,8 +6,8 @@
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/sigma_touch.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/interpolated.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {

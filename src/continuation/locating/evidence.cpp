@@ -111,10 +111,8 @@ bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from
   doubt = residual_doubt(walker, model, from, ds);
   if (!doubt.empty()) return false;
   // Predicted by nothing that lies ahead.
-  StepMeasures measures;
-  std::string refusal;
   const bool found = (expect(walker, model, from, 0.5 * ds, middle) &&
-                      find_point(walker, from.piece, from.tangent, middle, measures, refusal)) ||
+                      find_point(walker, from.piece, from.tangent, middle)) ||
                      find_point_at(walker, from, 0.5 * ds, middle);
   if (!found) {
     doubt = "no point of the curve found half-way";

@@ -111,7 +111,7 @@ Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
   return best;
 }
 
-/// The point of a ray as a point of its branch, like point_on_curve, but without the corrector's
+/// The point of a ray as a point of its branch, like find_point, but without the corrector's
 /// judgement: close to other branches rounding moves the point along the sphere.
 std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoint& ray) {
   const Walker& walker = *e.walker;

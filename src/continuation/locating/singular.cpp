@@ -1,7 +1,6 @@
 #include "continuation/locating/singular.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "continuation/locating/determined.hpp"
@@ -11,62 +10,40 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
-#include "springfold/core/small_lu.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Are the rates at the samples, and on average between them, so much alike that the polynomial of may_turn() stays
+/// Are lambda's rates at the samples, and on average between them, so much alike that the polynomial of may_turn() stays
 /// close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as much from
 /// a constant as they do (its Lebesgue constant).
-/// @param u      places of the samples, shares of the step
-/// @param rates  at the samples, then integrals up to all but the first
-bool is_even(const Eigen::Ref<const Vector>& u, const Eigen::Ref<const Vector>& rates) {
+bool is_even(const WatchedStep& arc, Samples samples) {
   constexpr double alike = 0.04;
-  const Index m = u.size();
-  const double first = rates[0];
-  if (m > 2 && !(u[1] > near_share && u[1] < 1 - near_share)) return false;
-  for (Index i = 1; i < m; ++i) {
-    const double mean = rates[m + i - 1] / u[i];
-    if (!(std::abs(rates[i] - first) <= alike * std::abs(first)) ||
-        !(std::abs(mean - first) <= alike * std::abs(first)))
-      return false;
-  }
-  return true;
+  const CurvePoint& from = *samples.front();
+  const double first = from.tangent.dlambda;
+  const auto is_alike = [&](double rate) {
+    return std::abs(rate - first) <= alike * std::abs(first);
+  };
+  return std::ranges::all_of(samples.subspan(1), [&](const CurvePoint* p) {
+    const double away = p->s - from.s, share = away / arc.length();
+    return (p == samples.back() || (share > near_share && share < 1 - near_share)) &&
+           is_alike(p->tangent.dlambda /
+                    metric_product(arc.walker().weights, p->tangent, from.tangent)) &&
+           is_alike((p->lambda - from.lambda) / away);
+  });
 }
 
-/// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
-/// that has the samples' rates and leads from one sample's lambda to the next.
+/// Could lambda turn, or almost turn, between the samples? Its rate is that of the model through them.
 bool may_turn(const WatchedStep& arc, Samples samples) {
-  const CurvePoint& from = *samples.front();
-  const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
-  constexpr int most = 5;
-  assert(n <= most);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> A(n, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> right(n);
-  for (Index i = 0; i < m; ++i) {
-    const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
-    const double u = (p.s - from.s) / arc.length();
-    double power = 1;
-    for (Index k = 0; k < n; ++k) {
-      A(i, k) = power;
-      power *= u;
-      if (i > 0) A(m + i - 1, k) = power / static_cast<double>(k + 1);
-    }
-    right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
-    if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
-  }
-  if (is_even(A.col(1).head(m), right)) return false;
-  const SmallLu polynomial(A);
-  if (!(polynomial.smallest_pivot() > 0)) return true;  // samples that coincide: nothing is known
-  polynomial.solve(right.data());
-  const auto& c = right;
+  if (is_even(arc, samples)) return false;
+  ArcModel& model = arc.walker().memory->chord;
+  if (!model.go_through(arc.walker().weights, *samples.front(), samples))
+    return true;  // nothing is known
   constexpr int parts = 24;
   constexpr double far = near_share;  // from zero, compared with the largest rate
   double low = infinity, high = -low;
   for (int i = 0; i <= parts; ++i) {
-    double rate = 0;
-    for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
+    const double rate = model.rate_of_lambda(model.end() * i / parts);
     low = std::min(low, rate);
     high = std::max(high, rate);
   }
@@ -253,8 +230,8 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 }  // namespace
 
-SingularPoints singular_points(const WatchedStep& arc, Samples samples) {
-  SingularPoints result;
+StepEvents singular_points(const WatchedStep& arc, Samples samples) {
+  StepEvents result;
   const CurvePoint& to = *samples.back();
   const TraceOptions& options = arc.walker().options;
   WatchedZeros turns = turns_on(arc, samples);

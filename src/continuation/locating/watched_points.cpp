@@ -39,9 +39,7 @@ WatchedStep::WatchedStep(const Walker& walker, Samples samples)
 std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  StepMeasures measures;
-  std::string refusal;
-  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  if (!find_point(walker_, from_.piece, from_.tangent, *point)) return {};
   return point;
 }
 
@@ -50,15 +48,8 @@ bool WatchedStep::model_of_samples() const {
 }
 
 std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
-  if (model_.empty() && (settled_ || !model_of_samples()))
-    return point_between(walker_, from_, *samples_[sample_count_ - 1], ds);
-  auto point = corrected(ds);
-  if (!point) return {};
-  CurvePoint expected;
-  model_.point(walker_.weights, from_, ds, expected);
-  if (metric_product(walker_.weights, point->tangent, expected.tangent) < half_a_right_angle)
-    return {};
-  return point;
+  if (model_.empty() && (settled_ || !model_of_samples())) return point_at(walker_, from_, ds);
+  return point_near(walker_, model_, from_, ds);
 }
 
 /// The samples' polynomial is compared with corrected points between them; these become nodes as well, and others are

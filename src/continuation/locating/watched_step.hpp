@@ -9,7 +9,6 @@
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
 

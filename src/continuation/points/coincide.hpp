@@ -15,6 +15,9 @@ Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b
 
 double length_of(const Walker& walker, const Direction& d);
 
+/// What lengths at a point are judged against.
+double scale_of(const CurvePoint& point);
+
 /// The direction (dx, dlambda) with length one.
 Direction unit_direction(const Walker& walker, const Vector& u);
 Direction unit_direction(const Walker& walker, Direction d);
