@@ -81,6 +81,14 @@ inline constexpr double level_reach = 1e-2;
 inline constexpr double located_rank = 100 * promised_place;
 /// The same at points that may be placed poorly.
 inline constexpr double vanishing_rank = poor;
+/// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the others.
+inline Index vanishing_values(const Vector& values) {
+  constexpr double gap = 30;
+  for (Index i = 0; i < values.size(); ++i)
+    if (values[i] <= vanishing_rank && values[i] * gap < (i > 0 ? values[i - 1] : 1))
+      return values.size() - i;
+  return 0;
+}
 /// Ratio of singular values from which a piece is regular at a kink on a curve, which is corrected to rounding; then its
 /// tangent has this error.
 inline constexpr double regular_at_kinks = one_place;

@@ -9,8 +9,8 @@
 
 #include "continuation/branches/attach.hpp"
 #include "continuation/branches/junction_ways.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/opening.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
 #include "continuation/kinks/piece_ways.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"

@@ -62,4 +62,17 @@ struct KinkSearch {
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);
 
+/// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
+/// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
+///               equations look singular; nullptr: not known
+Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
+                 double full_rank, const Direction* along = nullptr);
+
+/// Rate of g_j along a direction.
+double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
+
+/// Do two unit directions agree to `tolerance`?
+bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
+                    double tolerance);
+
 }  // namespace springfold::continuation

@@ -1,11 +1,10 @@
-#include "continuation/kinks/kink_half_branches.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/locating/equilibrated.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/coincide.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"

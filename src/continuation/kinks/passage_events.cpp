@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_half_branches.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/points/locate.hpp"

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/locating/equilibrated.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
@@ -86,10 +85,8 @@ std::optional<Kernel> kernel_of(const Walker& walker, const CurvePoint& at) {
   if (!own) return std::nullopt;
   const Index n = own->J.rows();
   const Svd svd = jacobi_svd(own->J, SingularVectors::none, SingularVectors::full);
-  const Vector& values = svd.values;
-  const double size = std::max(values[0], 1.0);  // entries nearby are of size 1
-  Index rank = n;
-  while (rank > 0 && values[rank - 1] <= located_rank * size) --rank;
+  const double size = std::max(svd.values[0], 1.0);  // entries nearby are of size 1
+  const Index rank = (svd.values.array() > located_rank * size).count();
   const Vector root = metric_roots(walker.weights);
   const Matrix scaled =
       root.cwiseProduct(own->columns).asDiagonal() * svd.V.rightCols(n + 1 - rank);
@@ -118,10 +115,8 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
                  const std::vector<Direction>& known) {
   if (!is_subspace(rates)) return false;
   const Svd svd = jacobi_svd(rates, SingularVectors::none, SingularVectors::full);
-  const Vector& values = svd.values;
-  const double size = values.size() > 0 ? values[0] : 0;
-  Index rank = 0;
-  while (rank < values.size() && values[rank] > located_rank * std::max(size, located_rank)) ++rank;
+  const double size = svd.values.size() > 0 ? svd.values[0] : 0;
+  const Index rank = (svd.values.array() > located_rank * std::max(size, located_rank)).count();
   const Index left = rates.cols() - rank;
   if (left == 0) return true;
   if (left > 1) return false;

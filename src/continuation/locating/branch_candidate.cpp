@@ -1,11 +1,10 @@
-#include "continuation/locating/branch_candidate.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "continuation/locating/branch_point.hpp"
+#include "continuation/locating/cluster.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/locating/sigma_touch.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/interpolated.hpp"
 #include "springfold/continuation/numerics.hpp"

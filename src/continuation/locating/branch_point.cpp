@@ -14,10 +14,10 @@ namespace springfold::continuation {
 namespace {
 
 /// What J has in the kernels, entry (q, j) at q (k + 1) + j.
-Vector in_kernels(const ReducedEquation& e, const ScaledJacobian& J) {
-  const Matrix G = J.structured ? Matrix((e.L.transpose() * product(J, e.N)).transpose())
-                                : Matrix((e.L.transpose() * J.dense * e.N).transpose());
-  return G.reshaped();
+Vector in_kernels(const ReducedEquation& e, const ExtendedMatrix& J) {
+  const Matrix G = J.at.structured ? Matrix(e.L.transpose() * product(J, e.N))
+                                   : Matrix(e.L.transpose() * J.dense * e.N);
+  return Matrix(G.transpose()).reshaped();
 }
 
 /// Its derivative along N: k (k + 1) x (k + 1).
@@ -32,7 +32,13 @@ Matrix rate_in_kernels(const ReducedEquation& e) {
 /// Second derivatives below this are rounding of J over the length of their differences.
 double least_rate(const ReducedEquation& e, double largest) {
   const auto J = jacobian_at(*e.walker, e.U0, e.root, e.piece);
-  return J ? promised_place * size_of(*J) + one_place * largest : infinity;
+  if (!J) return infinity;
+  const Index n = J->columns();
+  const double size =  // Frobenius norm; structured: estimated
+      J->at.structured
+          ? std::sqrt(static_cast<double>(n)) * product(*J, irregular_columns(n, 1)).norm()
+          : J->dense.norm();
+  return promised_place * size + one_place * largest;
 }
 
 /// One step from U with the kernels of e: first what F asks for across them, then along them from there.
@@ -41,8 +47,9 @@ std::optional<Vector> step_from(const ReducedEquation& e, const Svd& rate, const
   if (!residual_at(e, U, F)) return std::nullopt;
   Vector right = Vector::Zero(F.size() + e.k + 1);
   right.head(F.size()) = -F;
-  const Vector across = Vector(e.bordered.solve(right)).head(U.size());
-  if (!across.allFinite()) return std::nullopt;
+  const auto solved = e.bordered.solve(right);
+  if (!solved || !solved->allFinite()) return std::nullopt;
+  const Vector across = solved->col(0).head(U.size());
   const auto J = jacobian_at(*e.walker, U + across, e.root, e.piece);
   if (!J) return std::nullopt;
   Vector step = across + e.N * rate.solve(-in_kernels(e, *J));
@@ -83,9 +90,9 @@ Places places_around(const ReducedEquation& e, const Svd& rate, const Vector& U,
 
 /// Error of the place by rounding that is the same everywhere, so that no scatter shows it: a unit in the
 /// last place of every entry of J, independent of each other.
-double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double least_rate) {
-  const Matrix rows = J.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
-                                   : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
+double constant_error(const ReducedEquation& e, const ExtendedMatrix& J, double least_rate) {
+  const Matrix rows = J.at.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
+                                      : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
   const Matrix squares = e.L.cwiseAbs2().transpose() * rows;
   return rounding_unit * std::sqrt(squares.sum()) / least_rate;
 }

@@ -1,5 +1,3 @@
-#include "continuation/locating/exit_rays.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "continuation/locating/reduced_equation.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 

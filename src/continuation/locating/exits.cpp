@@ -5,8 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "continuation/locating/equilibrated.hpp"
-#include "continuation/locating/exit_rays.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -265,15 +264,8 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
 int corank_of(const Walker& walker, const CurvePoint& at) {
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return -1;
-  const Index n = own->J.rows();
-  if (n == 0) return 0;
-  const Vector values = divided_svd(own->J).values;
-  constexpr double gap = 30;
-  for (Index i = 0; i < n; ++i) {
-    const double above = i > 0 ? values[i - 1] : 1;
-    if (values[i] <= vanishing_rank && values[i] * gap < above) return static_cast<int>(n - i);
-  }
-  return 0;
+  if (own->J.rows() == 0) return 0;
+  return static_cast<int>(vanishing_values(divided_svd(own->J).values));
 }
 
 }  // namespace springfold::continuation

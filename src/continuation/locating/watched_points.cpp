@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/locating/branch_candidate.hpp"
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/locating/branch_candidate.hpp"
-#include "continuation/locating/sigma_touch.hpp"
+#include "continuation/locating/cluster.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
