@@ -286,34 +286,43 @@ std::optional<double> Augmented::far_on_line(double mu) const {
   return family_.line(mu);
 }
 
+bool Augmented::put_rows(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                         Matrix& rows) const {
+  const Vector x = state(X);
+  const double l = lambda(X);
+  const Matrix &V = terms.at.V, &W = terms.at.W;
+  const Index crossing = rows.rows() - 1;
+  const auto second = [&](const Vector& w, const Vector& along) {
+    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
+  };
+  for (Index i = 0; i < crossing; ++i) {
+    const auto part = second(W.col(i), terms.along.col(0));
+    if (!part) return false;
+    rows.row(i) = part->transpose();
+  }
+  if (!is_bordered()) {
+    const auto gradient = surface_gradient(x, l, mu);
+    if (gradient) rows.row(crossing) = gradient->transpose();
+    return gradient.has_value();
+  }
+  for (Index i = 0; i < V.cols(); ++i) {
+    Vector along = Vector::Zero(n_ + 1);
+    along.head(n_) = V.col(i);
+    const auto part = second(W.col(i), along);
+    if (!part) return false;
+    rows.row(crossing) -= part->transpose();
+  }
+  return true;
+}
+
 bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                             Differences& found) const {
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
   const Index crossing = k_ > 0 && !held_ ? k_ : 0;
-  const auto second = [&](const Vector& w, const Vector& along) {
-    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
-  };
   found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
-  if (is_bordered()) {
-    for (Index i = 0; i < V.cols(); ++i) {
-      Vector along = Vector::Zero(n_ + 1);
-      along.head(n_) = V.col(i);
-      const auto part = second(W.col(i), along);
-      if (!part) return false;
-      found.by_X.row(crossing) -= part->transpose();
-    }
-  } else {
-    const auto gradient = surface_gradient(x, l, mu);
-    if (!gradient) return false;
-    found.by_X.row(crossing) = gradient->transpose();
-  }
-  for (Index i = 0; i < crossing; ++i) {
-    const auto part = second(W.col(i), terms.along.col(0));
-    if (!part) return false;
-    found.by_X.row(i) = part->transpose();
-  }
+  if (!put_rows(X, mu, terms, exactness, found.by_X)) return false;
   BaseTerms there;
   const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
     Vector values(n_ + crossing + 1);

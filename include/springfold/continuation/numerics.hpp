@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/rounding.hpp"
@@ -39,6 +40,24 @@ inline bool has_settled(double moved, double before, double fine, double small) 
   constexpr double no_longer =
       0.3;  // above still_falls: the last contraction may have been a poor one
   return moved <= fine || (moved < small && moved > no_longer * before);
+}
+/// One step of an iteration: how far it went, and what is fine and what is small where it ended.
+struct IterationStep {
+  double moved = 0, fine = 0, small = 0;
+};
+/// Newton's method and its kin: steps are taken until they have settled.
+/// @param step  takes one, told how far the last one went; returns nothing where the iteration is to be given up
+/// @returns false where it is, or has not settled after `most` steps
+template <class Step>
+bool settles(int most, const Step& step) {
+  double before = infinity;
+  for (int i = 0; i < most; ++i) {
+    const std::optional<IterationStep> taken = step(before);
+    if (!taken) return false;
+    if (has_settled(taken->moved, before, taken->fine, taken->small)) return true;
+    before = taken->moved;
+  }
+  return false;
 }
 
 // Is it the same place?

@@ -48,7 +48,7 @@ bool same_level(const Walker& walker, const std::vector<const CurvePoint*>& poin
   if (best == nullptr) return false;
   Vector F;
   return std::all_of(points.begin(), points.end(), [&](const CurvePoint* p) {
-    const double scale = std::max({1.0, p->x.lpNorm<Eigen::Infinity>(), std::abs(p->lambda)});
+    const double scale = std::max(1.0, size_of(*p));
     return walker.problem.residual(p->x, best->lambda, p->piece, F) &&
            F.lpNorm<Eigen::Infinity>() <=
                2 * residual_bound(walker.problem, p->piece, walker.options.newton, scale);

@@ -72,17 +72,10 @@ class Collector {
   }
 
  private:
-  static bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
-    for (std::size_t j = 0; j < a.size(); ++j)
-      if (a[j] != b[j] &&
-          std::find(where.begin(), where.end(), static_cast<Index>(j)) == where.end())
-        return false;
-    return true;
-  }
   std::vector<Index> others(const std::vector<Index>& resting) const {
     std::vector<Index> rest;
     for (Index j = 0; j < static_cast<Index>(preferred_.size()); ++j)
-      if (std::find(resting.begin(), resting.end(), j) == resting.end()) rest.push_back(j);
+      if (!contains(resting, j)) rest.push_back(j);
     return rest;
   }
 
@@ -143,6 +136,12 @@ bool same_direction(const Vector& weights, const Direction& a, const Direction& 
                     double tolerance) {
   const Direction d{a.dx - b.dx, a.dlambda - b.dlambda};
   return metric_product(weights, d, d) <= tolerance * tolerance;
+}
+
+bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (a[j] != b[j] && !contains(where, static_cast<Index>(j))) return false;
+  return true;
 }
 
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda) {

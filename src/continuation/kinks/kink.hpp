@@ -1,6 +1,7 @@
 // Where a piecewise-smooth curve meets its switching surfaces. Private to the engine.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "continuation/points/step.hpp"
@@ -29,6 +30,13 @@ inline constexpr std::size_t most_active = 12;
 /// @pre active.size() <= most_active
 Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
              const std::vector<Index>& active);
+
+inline bool contains(const std::vector<Index>& switches, Index j) {
+  return std::find(switches.begin(), switches.end(), j) != switches.end();
+}
+
+/// Are two pieces on the same sides of all surfaces but these?
+bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where);
 
 /// Switches that are zero at a point, within options.simultaneous.
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda);

@@ -14,10 +14,6 @@
 namespace springfold::continuation {
 namespace {
 
-double way_along(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
-  return metric_product(walker.weights, {to.x - from.x, to.lambda - from.lambda}, from.tangent);
-}
-
 /// The branch near the singular point.
 struct Continuation {
   const Walker& walker;
@@ -79,7 +75,7 @@ std::optional<double> first_surface(const Continuation& c) {
 
 bool satisfies(const Walker& walker, const CurvePoint& p) {
   Vector F;
-  const double scale = std::max({1.0, p.x.lpNorm<Eigen::Infinity>(), std::abs(p.lambda)});
+  const double scale = std::max(1.0, size_of(p));
   return walker.problem.residual(p.x, p.lambda, p.piece, F) &&
          F.lpNorm<Eigen::Infinity>() <= residual_level * scale;
 }

@@ -178,8 +178,7 @@ bool before_next_surface(const Walker& walker, const CurvePoint& at, const Surfa
     return false;
   for (Index j = 0; j < m; ++j) {
     const double side = start.piece[static_cast<std::size_t>(j)];
-    const bool active =
-        std::find(surfaces.active.begin(), surfaces.active.end(), j) != surfaces.active.end();
+    const bool active = contains(surfaces.active, j);
     // Clear of a surface that is left as its rate says; as clear as half of what there is of others.
     const double expected =
         !active ? side * here[j]

@@ -165,7 +165,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
-  const auto Phi = solve_with(E, borders, right), Psi = solve_with(E, borders, right, true);
+  const BorderedMatrix bordered(E, borders);
+  const auto Phi = bordered.solve(right), Psi = bordered.solve(right, true);
   if (!Phi || !Psi) return infinity;
   const double noise =
       few_roundings *
@@ -176,7 +177,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
 double rate_noise(const ExtendedMatrix& E) {
   const Index n = E.rows();
   const Matrix unit = Vector::Unit(n, n - 1);
-  const auto solution = solve_with(E, {}, unit), row = solve_with(E, {}, unit, true);
+  const BorderedMatrix matrix(E, {});
+  const auto solution = matrix.solve(unit), row = matrix.solve(unit, true);
   if (!solution || !row) return infinity;
   const Vector tangent = solution->col(0) / solution->col(0).norm();
   const double noise = few_roundings * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));

@@ -164,39 +164,37 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
   const Index n = near.x.size();
   const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
   Vector U = U_near;
-  double before = infinity;
-  for (int iteration = 0; iteration < 14; ++iteration) {
+  std::optional<ReducedEquation> e;
+  Svd rate;
+  const auto take = [&] {
     place.point.x = U.head(n).cwiseQuotient(root.head(n));
     place.point.lambda = U[n];
-    const auto e = reduce(walker, place.point, corank);
+  };
+  const bool found = settles(14, [&](double) -> std::optional<IterationStep> {
+    take();
+    e = reduce(walker, place.point, corank);
     if (!e) return std::nullopt;
-    const Svd rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
-    const Vector& values = rate.values;
-    if (!(values[corank] > least_rate(*e, values[0]))) return std::nullopt;
+    rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
+    if (!(rate.values[corank] > least_rate(*e, rate.values[0]))) return std::nullopt;
     const auto step = step_from(*e, rate, U);
     if (!step) return std::nullopt;
-    const double moved = step->norm();
-    // What the kernels of a place nearby make of the step is of second order in the distance from it.
-    if (has_settled(moved, before, function_noise * e->scale, together * e->scale)) {
-      U += *step;
-      for (int polish = 0; polish < 2; ++polish)
-        if (const auto last = step_from(*e, rate, U)) U += *last;
-      place.off = settle(*e, rate, U);
-      if (!((U - U_near).norm() <= reach)) return std::nullopt;
-      place.point.x = U.head(n).cwiseQuotient(root.head(n));
-      place.point.lambda = U[n];
-      const auto J = jacobian_at(walker, U, root, near.piece);
-      if (!J) return std::nullopt;
-      place.misfit = in_kernels(*e, *J).norm() / values[corank];
-      place.off = std::max(place.off, constant_error(*e, *J, values[corank]));
-      place.left = left_at(*e, U);
-      return place;
-    }
     U += *step;
     if (!((U - U_near).norm() <= 2 * reach)) return std::nullopt;
-    before = moved;
-  }
-  return std::nullopt;
+    // What the kernels of a place nearby make of the step is of second order in the distance from it.
+    return IterationStep{step->norm(), function_noise * e->scale, together * e->scale};
+  });
+  if (!found) return std::nullopt;
+  for (int polish = 0; polish < 2; ++polish)
+    if (const auto last = step_from(*e, rate, U)) U += *last;
+  place.off = settle(*e, rate, U);
+  if (!((U - U_near).norm() <= reach)) return std::nullopt;
+  take();
+  const auto J = jacobian_at(walker, U, root, near.piece);
+  if (!J) return std::nullopt;
+  place.misfit = in_kernels(*e, *J).norm() / rate.values[corank];
+  place.off = std::max(place.off, constant_error(*e, *J, rate.values[corank]));
+  place.left = left_at(*e, U);
+  return place;
 }
 
 double left_of_residual(const Walker& walker, const CurvePoint& point, int corank) {

@@ -1,7 +1,6 @@
 #include "continuation/locating/determined.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "springfold/continuation/numerics.hpp"
 
@@ -38,18 +37,17 @@ std::optional<Vector> rounding_of(const WatchedStep& arc, const ExtendedMatrix& 
 
 /// How far what is left of F, or its rounding with a few patterns of signs, may have moved a corrected point.
 double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point) {
-  constexpr double unknown = std::numeric_limits<double>::infinity();
   const Index n = point.x.size();
   Vector F;
-  if (!arc.walker().problem.residual(point.x, point.lambda, point.piece, F)) return unknown;
+  if (!arc.walker().problem.residual(point.x, point.lambda, point.piece, F)) return infinity;
   const auto rounding_of_F = rounding_of(arc, E, point, F);
-  if (!rounding_of_F) return unknown;
+  if (!rounding_of_F) return infinity;
   Matrix right = Matrix::Zero(n + 1, patterns + 1);
   right.col(patterns).head(n) = F;
   for (Index k = 0; k < patterns; ++k)
     for (Index i = 0; i < n; ++i) right(i, k) = (*rounding_of_F)[i] * sign(k, i);
   const auto moved = solve_with(E, {}, right);
-  if (!moved) return unknown;
+  if (!moved) return infinity;
   double worst = 0;
   for (Index k = 0; k < right.cols(); ++k) {
     const Direction d{moved->col(k).head(n), (*moved)(n, k)};

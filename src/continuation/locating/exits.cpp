@@ -235,10 +235,6 @@ Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& d
 
 }  // namespace
 
-Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
-  return exits_at(walker, at, corank, {});
-}
-
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough) {
   if (corank < 0 || corank > 2 || corank > at.x.size())

@@ -13,11 +13,6 @@ namespace {
 
 bool is_clear(const CurvePoint& p, double level) { return std::abs(p.tangent.dlambda) > level; }
 
-/// The way from one point to another along the first one's tangent.
-double way(const Walker& walker, const CurvePoint& from, const CurvePoint& to) {
-  return metric_product(walker.weights, {to.x - from.x, to.lambda - from.lambda}, from.tangent);
-}
-
 /// Regular steps along the tangent until lambda's rate is above a level.
 std::optional<CurvePoint> until_clear(const Walker& walker, CurvePoint p, double step,
                                       double level) {
@@ -47,13 +42,12 @@ std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
   const auto right = left ? until_clear(walker, to, step, level) : std::nullopt;
   if (!right) return std::nullopt;
   left->tangent = opposite(left->tangent);
-  left->s = from.s - way(walker, *left, from);
-  const double length = way(walker, *left, *right);
+  left->s = from.s - way_along(walker, *left, from);
+  const double length = way_along(walker, *left, *right);
   if (!(length > 0)) return std::nullopt;
   const StepResult whole = try_step(walker, *left, length);
   if (!whole.point) return std::nullopt;
-  const Direction off{whole.point->x - right->x, whole.point->lambda - right->lambda};
-  if (metric_product(walker.weights, off, off) > same_point * same_point) return std::nullopt;
+  if (length_of(walker, difference(*whole.point, *right)) > same_point) return std::nullopt;
   if (!examine(walker, *left, *whole.point).doubt.empty()) return std::nullopt;
   return WideStep{*left, *whole.point};
 }
@@ -90,7 +84,7 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   for (ZeroOf turn : found.zeros) {
     const auto& point = arc.point(turn.at);
     if (!point) return std::nullopt;
-    const double moved = way(walker, from, *point) - turn.at;
+    const double moved = way_along(walker, from, *point) - turn.at;
     turn.at += moved;
     turn.before += moved;
     turn.after += moved;

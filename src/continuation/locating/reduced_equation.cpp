@@ -160,32 +160,31 @@ std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector
   const Index n = e.L.rows(), m = e.k + 1;
   const double rho = c.norm(), enough = std::max(one_place * rho * rho, rounding_unit * e.scale);
   const Vector U1 = e.U0 + e.N * c;
-  Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
+  Vector w = Vector::Zero(n + 1), g, F, right = Vector::Zero(n + m);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
   BorderedMatrix own;
   const BorderedMatrix* system = &e.bordered;
-  double before = infinity;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    if (!residual_at(e, U1 + w, F)) return std::nullopt;
-    right.head(n) = -F;
-    const auto solved = system->solve(right);
-    if (!solved) return std::nullopt;
-    const Vector step = solved->col(0);
-    w += step.head(n + 1);
-    const double moved = step.head(n + 1).norm();
-    if (!(w.norm() < rho)) return std::nullopt;
-    if (has_settled(moved, before, enough, residual_level * e.scale))
-      return ReducedValue{U1 + w, -step.tail(e.k)};
-    if (moved > still_falls * before) {
+  bool slow = false;
+  const bool found = settles(12, [&](double before) -> std::optional<IterationStep> {
+    if (slow) {
       const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
       if (!J) return std::nullopt;
       own = BorderedMatrix(*J, {e.L, e.N});
       system = &own;
     }
-    before = moved;
-  }
-  return std::nullopt;
+    if (!residual_at(e, U1 + w, F)) return std::nullopt;
+    right.head(n) = -F;
+    const auto step = system->solve(right);
+    if (!step) return std::nullopt;
+    w += step->col(0).head(n + 1);
+    g = -step->col(0).tail(e.k);
+    if (!(w.norm() < rho)) return std::nullopt;
+    const double moved = step->col(0).head(n + 1).norm();
+    slow = moved > still_falls * before;
+    return IterationStep{moved, enough, residual_level * e.scale};
+  });
+  return found ? std::optional(ReducedValue{U1 + w, g}) : std::nullopt;
 }
 
 std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start, double rho) {
@@ -193,8 +192,7 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
   RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
   Matrix A(n + 1, n + 1);
   Vector F, right(n + 1);
-  double before = infinity;
-  for (int iteration = 0; iteration < 16; ++iteration) {
+  const bool found = settles(16, [&](double) -> std::optional<IterationStep> {
     const double length = ray.c.norm();
     const auto J = jacobian_at(*e.walker, ray.U, e.root, e.piece, true);
     if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
@@ -208,18 +206,14 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     ray.U += step;
     ray.c = e.N.transpose() * (ray.U - e.U0);
     if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
+    ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
+    ray.sign = lu.sign();
     const bool small =
         F.lpNorm<Eigen::Infinity>() <=
         residual_bound(e.walker->problem, e.piece, e.walker->options.newton, e.scale);
-    if (has_settled(moved, before, function_noise * rho,
-                    small ? near_share * told_apart * rho : 0)) {
-      ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
-      ray.sign = lu.sign();
-      return ray;
-    }
-    before = moved;
-  }
-  return std::nullopt;
+    return IterationStep{moved, function_noise * rho, small ? near_share * told_apart * rho : 0};
+  });
+  return found ? std::optional(ray) : std::nullopt;
 }
 
 std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start,
@@ -229,7 +223,7 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
   double size = 0;
   for (const Matrix& Q : e.quadratic) size = std::max(size, Q.norm());
   if (!(size > 0) && e.k > 0) return std::nullopt;
-  for (int iteration = 0; iteration < 10; ++iteration) {
+  const bool found = settles(10, [&](double) -> std::optional<IterationStep> {
     Matrix A(m, m);
     Vector right(m);
     for (Index q = 0; q < e.k; ++q) {
@@ -244,9 +238,9 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
     const Vector step = svd.solve(right);
     c = (c + step).normalized();
     if (!((c - start.normalized()).norm() < reach)) return std::nullopt;
-    if (step.norm() < refined_step || (iteration > 5 && step.norm() < residual_level)) return c;
-  }
-  return std::nullopt;
+    return IterationStep{step.norm(), refined_step, residual_level};
+  });
+  return found ? std::optional(c) : std::nullopt;
 }
 
 }  // namespace springfold::continuation

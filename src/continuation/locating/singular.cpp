@@ -1,74 +1,48 @@
 #include "continuation/locating/singular.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "continuation/locating/determined.hpp"
 #include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
-#include "springfold/core/small_lu.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Are the rates at the samples, and on average between them, so much alike that the polynomial of may_turn() stays
-/// close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as much from
-/// a constant as they do (its Lebesgue constant).
-/// @param u      places of the samples, shares of the step
-/// @param rates  at the samples, then integrals up to all but the first
-bool is_even(const Eigen::Ref<const Vector>& u, const Eigen::Ref<const Vector>& rates) {
+/// Are the rates of lambda at the samples, and on average from the first one to them, so much alike that the polynomial of
+/// may_turn() stays close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as
+/// much from a constant as they do (its Lebesgue constant).
+bool is_even(const WatchedStep& arc, Samples samples) {
   constexpr double alike = 0.04;
-  const Index m = u.size();
-  const double first = rates[0];
-  if (m > 2 && !(u[1] > near_share && u[1] < 1 - near_share)) return false;
-  for (Index i = 1; i < m; ++i) {
-    const double mean = rates[m + i - 1] / u[i];
-    if (!(std::abs(rates[i] - first) <= alike * std::abs(first)) ||
-        !(std::abs(mean - first) <= alike * std::abs(first)))
-      return false;
-  }
-  return true;
+  const CurvePoint &from = *samples.front(), &second = *samples[1];
+  const double first = from.tangent.dlambda, share = (second.s - from.s) / arc.length();
+  if (samples.size() > 2 && !(share > near_share && share < 1 - near_share)) return false;
+  return std::all_of(samples.begin() + 1, samples.end(), [&](const CurvePoint* p) {
+    const double rate =
+        p->tangent.dlambda / metric_product(arc.walker().weights, p->tangent, from.tangent);
+    const double mean = (p->lambda - from.lambda) / (p->s - from.s);
+    return std::abs(rate - first) <= alike * std::abs(first) &&
+           std::abs(mean - first) <= alike * std::abs(first);
+  });
 }
 
-/// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
-/// that has the samples' rates and leads from one sample's lambda to the next.
+/// Could lambda turn, or almost turn, between the samples? Its rate along the step is that of the polynomial through them.
 bool may_turn(const WatchedStep& arc, Samples samples) {
-  const CurvePoint& from = *samples.front();
-  const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
-  constexpr int most = 5;
-  assert(n <= most);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> A(n, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> right(n);
-  for (Index i = 0; i < m; ++i) {
-    const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
-    const double u = (p.s - from.s) / arc.length();
-    double power = 1;
-    for (Index k = 0; k < n; ++k) {
-      A(i, k) = power;
-      power *= u;
-      if (i > 0) A(m + i - 1, k) = power / static_cast<double>(k + 1);
-    }
-    right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
-    if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
-  }
-  if (is_even(A.col(1).head(m), right)) return false;
-  const SmallLu polynomial(A);
-  if (!(polynomial.smallest_pivot() > 0)) return true;  // samples that coincide: nothing is known
-  polynomial.solve(right.data());
-  const auto& c = right;
+  if (is_even(arc, samples)) return false;
   constexpr int parts = 24;
   constexpr double far = near_share;  // from zero, compared with the largest rate
   double low = infinity, high = -low;
   for (int i = 0; i <= parts; ++i) {
-    double rate = 0;
-    for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
-    low = std::min(low, rate);
-    high = std::max(high, rate);
+    const auto rate = arc.rate_of_model(arc.length() * i / parts);
+    if (!rate) return true;  // samples that coincide: nothing is known
+    low = std::min(low, *rate);
+    high = std::max(high, *rate);
   }
   return !(low > far * high && high > 0) && !(high < far * low && low < 0);
 }
@@ -241,8 +215,7 @@ Hit hit_of(const WatchedStep& arc, Candidate candidate) {
 
 /// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
 std::optional<Hit> inexact_place(const Hit& hit, double off) {
-  const double scale =
-      std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
+  const double scale = std::max(1.0, size_of(hit.point));
   if (hit.kind != HitKind::branch_point || off <= promised_place * scale) return std::nullopt;
   Hit doubt = hit;
   doubt.kind = HitKind::inexact;

@@ -12,20 +12,8 @@
 namespace springfold::continuation {
 namespace {
 
-Direction difference(const CurvePoint& a, const CurvePoint& b) {
-  return {a.x - b.x, a.lambda - b.lambda};
-}
-
-Direction difference(const Direction& a, const Direction& b) {
-  return {a.dx - b.dx, a.dlambda - b.dlambda};
-}
-
 /// Shares of a step at which a model of it is compared with the curve: between its nodes, and not evenly.
 constexpr std::array places_of_comparison{0.07, 0.4, 0.6, 0.93};
-
-double size_of(const CurvePoint& p) {
-  return std::max(p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda));
-}
 
 }  // namespace
 

@@ -52,13 +52,13 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
   for (const double start : {t, curve->a, curve->b}) {
     double place = start;
     // All entries are multiples of t - t* near the place.
-    for (int i = 0; i < 40; ++i) {
+    settles(40, [&](double) -> std::optional<IterationStep> {
       const Vector s = (*Sigma)(place), d = Sigma->slope(place);
       const double step = -d.dot(s) / d.squaredNorm();
-      if (!std::isfinite(step)) break;
+      if (!std::isfinite(step)) return std::nullopt;
       place = std::clamp(place + step, curve->a, curve->b);
-      if (std::abs(step) < few_roundings) break;
-    }
+      return IterationStep{std::abs(step), few_roundings};
+    });
     const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
                         error / Sigma->slope(place).norm();
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {

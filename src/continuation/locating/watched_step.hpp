@@ -58,6 +58,11 @@ class WatchedStep {
     const auto& p = point(ds);
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
   }
+  /// Of lambda, as the polynomial through the step's samples, or a better one, has it; nothing where there is none.
+  std::optional<double> rate_of_model(double ds) const {
+    if (model_.empty() && (settled_ || !model_of_samples())) return std::nullopt;
+    return model_.rate_of_lambda(ds);
+  }
   std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
     const Place* place = place_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
     if (!place) return std::nullopt;
