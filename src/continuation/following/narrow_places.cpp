@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "continuation/locating/determined.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/arc.hpp"
 #include "springfold/continuation/numerics.hpp"
 

@@ -2,9 +2,10 @@
 // say so, where its rate along a curve cannot. Private to the engine.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "continuation/points/step.hpp"
+#include "continuation/kinks/kink.hpp"
 
 namespace springfold::continuation {
 
@@ -35,5 +36,22 @@ bool same_level(const Walker& walker, const std::vector<const CurvePoint*>& poin
 /// @param direction  +1: ahead along the tangent, -1: back
 /// @param room       no further away than this
 bool is_level(const Walker& walker, const CurvePoint& at, int direction, double room);
+
+/// From the singular point to the first surface.
+struct Opening {
+  Beside
+      middle{};  ///< half-way; how lambda moves and how many eigenvalues are negative on the stretch
+  KinkSearch kink{};  ///< the surface, found
+};
+
+/// Beside a singular point rounding of F moves lambda by eps / q at the distance q, but lambda changes by q^2 only: what a
+/// branch does within 1e-5 of the point cannot be seen there. F of one piece is smooth beyond its surfaces, so the branch is
+/// corrected farther out and read from the polynomial through the singular point, its tangent, and these points.
+/// @param junction  the singular point, off all surfaces, with the branch's tangent and piece; s = 0
+/// @param farther   a point of the branch on the smooth continuation of the piece
+/// @returns nothing where no surface lies within `told_apart`, or more than one thing may happen before it, or the polynomial
+///          is not the curve
+std::optional<Opening> opening_of(const Walker& walker, const CurvePoint& junction,
+                                  const CurvePoint& farther);
 
 }  // namespace springfold::continuation

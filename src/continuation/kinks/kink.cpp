@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/kinks/piece_ways.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"

@@ -1,4 +1,3 @@
-#include "continuation/kinks/piece_ways.hpp"
 
 #include <algorithm>
 #include <cmath>

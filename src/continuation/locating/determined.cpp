@@ -1,7 +1,6 @@
-#include "continuation/locating/determined.hpp"
-
 #include <cmath>
 
+#include "continuation/locating/watched_step.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/coincide.hpp"

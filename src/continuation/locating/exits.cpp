@@ -19,40 +19,30 @@ Direction direction_of(const ReducedEquation& e, const Vector& U) {
   return unit_direction(*e.walker, Vector(U.cwiseQuotient(e.root)));
 }
 
-/// Pairs the rays at two radii by direction: order[i] is the partner of a's ray i.
-/// @returns nothing unless each has exactly one
-std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) {
-  if (a.rays.size() != b.rays.size()) return std::nullopt;
-  std::vector<std::size_t> order;
-  std::vector<bool> taken(b.rays.size(), false);
-  for (const RayPoint& ray : a.rays) {
-    double least = infinity;
-    std::size_t nearest = 0;
-    for (std::size_t j = 0; j < b.rays.size(); ++j) {
-      const double distance = (ray.c / a.rho - b.rays[j].c / b.rho).norm();
-      if (distance < least) least = distance, nearest = j;
-    }
-    if (!(least < 0.15) || taken[nearest]) return std::nullopt;
-    taken[nearest] = true;
-    order.push_back(nearest);
-  }
-  return order;
+std::vector<Vector> directions_of(const RaySet& set) {
+  std::vector<Vector> directions;
+  for (const RayPoint& ray : set.rays) directions.push_back(ray.c / set.rho);
+  return directions;
 }
 
-/// Has each of these directions a ray of its own?
-bool covers(const RaySet& set, const std::vector<Vector>& directions) {
-  std::vector<bool> taken(set.rays.size(), false);
+/// Has each of these directions a ray of its own, nearer than `within`?
+bool covers(const RaySet& set, const std::vector<Vector>& directions, double within) {
+  std::vector<Vector> free = directions_of(set);
   for (const Vector& d : directions) {
-    double least = near_share;
-    std::size_t nearest = taken.size();
-    for (std::size_t j = 0; j < taken.size(); ++j) {
-      const double distance = (set.rays[j].c / set.rho - d).norm();
-      if (!taken[j] && distance < least) least = distance, nearest = j;
-    }
-    if (nearest == taken.size()) return false;
-    taken[nearest] = true;
+    const auto off = [&d](const Vector& ray) { return (ray - d).norm(); };
+    const auto nearest =
+        std::min_element(free.begin(), free.end(),
+                         [&](const Vector& a, const Vector& b) { return off(a) < off(b); });
+    if (nearest == free.end() || !(off(*nearest) < within)) return false;
+    free.erase(nearest);
   }
   return true;
+}
+
+/// Do two radii show the same branches?
+bool same_rays(const RaySet& a, const RaySet& b) {
+  constexpr double one_ray = 0.15;
+  return a.rays.size() == b.rays.size() && covers(b, directions_of(a), one_ray);
 }
 
 bool balanced(const RaySet& set) {
@@ -212,8 +202,8 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
       complement(e, last, set);
       complement(e, set, last);
     }
-    const bool same = agreeing > 0 && pairs(last, set).has_value();
-    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure);
+    const bool same = agreeing > 0 && same_rays(last, set);
+    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure, near_share);
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);

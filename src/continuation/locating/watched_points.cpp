@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/locating/determined.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
