@@ -128,18 +128,22 @@ Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X) {
                     [&](const Vector& v) { return magnitudes(*E.at.structured, v); });
 }
 
+Matrix bordered(const Matrix& A, const Borders& borders) {
+  const Index left = borders.B.cols(), right = borders.C.cols();
+  Matrix M = Matrix::Zero(A.rows() + right, A.cols() + left);
+  M.topLeftCorner(A.rows(), A.cols()) = A;
+  if (left > 0) M.topRightCorner(A.rows(), left) = borders.B;
+  if (right > 0) M.bottomLeftCorner(right, A.cols()) = borders.C.transpose();
+  return M;
+}
+
 BorderedMatrix::BorderedMatrix(const ExtendedMatrix& E, const Borders& borders)
     : structured_{E.at.structured} {
   if (structured_) {
     borders_ = borders_of_jacobian(E, borders);
     return;
   }
-  const Index left = borders.B.cols(), right = borders.C.cols();
-  Matrix A = Matrix::Zero(E.rows() + right, E.columns() + left);
-  A.topLeftCorner(E.rows(), E.columns()) = E.dense;
-  if (left > 0) A.topRightCorner(E.rows(), left) = borders.B;
-  if (right > 0) A.bottomLeftCorner(right, E.columns()) = borders.C.transpose();
-  lu_.compute(A);
+  lu_.compute(bordered(E.dense, borders));
 }
 
 std::optional<Matrix> BorderedMatrix::solve(const Matrix& right, bool transposed) const {
@@ -166,8 +170,8 @@ bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders) {
   right.bottomRows(k).setIdentity();
   left.bottomRows(m).setIdentity();
   for (Index step = 0; step < most_steps; ++step) {
-    const BorderedMatrix bordered(E, borders);
-    const auto V = bordered.solve(right), W = bordered.solve(left, true);
+    const BorderedMatrix M(E, borders);
+    const auto V = M.solve(right), W = M.solve(left, true);
     if (!V || !W || !V->allFinite() || !W->allFinite()) return false;
     const Matrix C = orthonormal(V->topRows(E.columns())), B = orthonormal(W->topRows(E.rows()));
     const double moved = (C - borders.C * (borders.C.transpose() * C)).norm() +

@@ -6,6 +6,7 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/core/small_lu.hpp"
 
@@ -57,15 +58,6 @@ Matrix aligned(const Matrix& left, const Matrix& right) {
 
 }  // namespace
 
-Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
-  const Index n = B.rows(), k = B.cols();
-  Matrix M = Matrix::Zero(n + k, n + k);
-  M.topLeftCorner(n, n) = base.J.leftCols(n);
-  M.topRightCorner(n, k) = B;
-  M.bottomLeftCorner(k, n) = C.transpose();
-  return M;
-}
-
 double BorderedPlace::largest() const {
   return std::max(V.colwise().norm().maxCoeff(), W.colwise().norm().maxCoeff());
 }
@@ -76,7 +68,7 @@ std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& 
   BorderedPlace p;
   if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
   const Index n = x.size(), k = B.cols();
-  const Matrix M = bordered_matrix(p.base, B, C);
+  const Matrix M = bordered(p.base.J.leftCols(n), {B, C});
   Matrix solution;
   if (!solve_borders(M, k, solution)) return std::nullopt;
   p.V = solution.topRows(n);
@@ -220,7 +212,7 @@ std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) con
     Vector right = Vector::Zero(n_ + k_);
     right.head(n_) = terms.at.base.J.col(n_);
     const Vector solution =
-        Lu(bordered_matrix(terms.at.base, borders_.left, borders_.right)).solve(right);
+        Lu(bordered(terms.at.base.J.leftCols(n_), {borders_.left, borders_.right})).solve(right);
     terms.along.resize(n_ + 1, 1);
     terms.along << -solution.head(n_), 1.0;
     terms.load = solution.tail(k_);

@@ -8,10 +8,7 @@
 
 namespace springfold::continuation {
 
-/// M = [dF/dx B; C^T 0].
-Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C);
-
-/// What M defines at one place.
+/// What M = [dF/dx B; C^T 0] defines at one place.
 struct BorderedPlace {
   BaseTerms base{};
   Matrix V{}, W{};  ///< n x k

@@ -45,6 +45,9 @@ struct Borders {
 Matrix product(const ExtendedMatrix& E, const Matrix& X);
 Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X);
 
+/// | A B; C^T 0 | of any A.
+Matrix bordered(const Matrix& A, const Borders& borders);
+
 /// The bordered matrix, ready to be solved with.
 class BorderedMatrix {
  public:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "continuation/kinks/kink.hpp"
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/coincide.hpp"
@@ -10,7 +11,6 @@
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
-#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
@@ -239,10 +239,7 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   CurvePoint& point = kink.point;
   Linearisation at;
   if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return;
-  const ExtendedMatrix E = extended_matrix(at, walker.weights, point.tangent);
-  const Vector least = least_singular_values(E, 1);
-  const double size = magnitudes(E, irregular_columns(point.x.size() + 1, 1)).norm();
-  if (!(least.size() > 0 && least[0] <= perhaps_singular * size)) return;
+  if (!is_singular(extended_matrix(at, walker.weights, point.tangent), perhaps_singular)) return;
   const auto place = refine_branch_point(walker, point);
   if (!place) return;
   Vector g;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "continuation/kinks/kink.hpp"
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
@@ -53,9 +54,8 @@ std::optional<Direction> structured_tangent(const Walker& walker, const CurvePoi
   for (int step = 0; tangent && step < 3; ++step)
     tangent = tangent_at(linear, walker.weights, *tangent);
   if (!tangent) return std::nullopt;
-  const ExtendedMatrix E = extended_matrix(linear, walker.weights, *tangent);
-  const double size = magnitudes(E, irregular_columns(n + 1, 1)).norm();
-  if (!(least_singular_values(E, 1)[0] > full_rank * size)) return std::nullopt;
+  if (is_singular(extended_matrix(linear, walker.weights, *tangent), full_rank))
+    return std::nullopt;
   if (tangent->dlambda < 0) *tangent = opposite(*tangent);  // that in which lambda grows first
   return tangent;
 }

@@ -152,6 +152,11 @@ Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
   return reach;
 }
 
+bool is_singular(const ExtendedMatrix& E, double share) {
+  const double size = magnitudes(E, irregular_columns(E.rows(), 1)).norm();
+  return !(least_singular_values(E, 1)[0] > share * size);
+}
+
 std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
   Matrix right = Matrix::Zero(n + m, m);
@@ -165,8 +170,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
   Matrix right = Matrix::Zero(n + m, m);
   right.bottomRows(m).setIdentity();
-  const BorderedMatrix bordered(E, borders);
-  const auto Phi = bordered.solve(right), Psi = bordered.solve(right, true);
+  const BorderedMatrix M(E, borders);
+  const auto Phi = M.solve(right), Psi = M.solve(right, true);
   if (!Phi || !Psi) return infinity;
   const double noise =
       few_roundings *

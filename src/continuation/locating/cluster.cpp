@@ -168,7 +168,7 @@ bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const Zero
 
 std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
   // Shares of half the step: how wide a cluster may be, and how far from the step's ends.
-  constexpr double wide = 0.35, clear = 0.35;
+  constexpr double wide = 0.35, clear = wide;
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const WatchedStep arc(walker, samples);
   const auto roots = all_roots(arc, samples);

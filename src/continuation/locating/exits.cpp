@@ -57,9 +57,8 @@ void complement(const ReducedEquation& e, const RaySet& from, RaySet& to) {
 }
 
 struct Limit {
-  Vector c{};
-  double accuracy = 0;
-  bool found = false;
+  Vector c{};  ///< empty: not found
+  double accuracy = infinity;
 };
 
 /// Points of the ray at 4 rho, 2 rho, rho, rho / 2, ... as far as the branch can be followed.
@@ -82,21 +81,21 @@ std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, doubl
 
 /// c / rho on the branch for rho -> 0 (Neville's scheme), where change and rounding are least.
 Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
-  Limit best{.c = {}, .accuracy = infinity};
+  Limit best;
   std::vector<Vector> row;
   for (const RayPoint& point : along(e, ray, rho)) {
     std::vector<Vector> fresh{point.c.normalized()};
     for (std::size_t j = 0; j < row.size(); ++j) {
       fresh.push_back(fresh[j] + (fresh[j] - row[j]) / (std::exp2(static_cast<double>(j + 1)) - 1));
       const double doubt = (fresh[j + 1] - fresh[j]).norm() + 3 * point.noise;
-      if (doubt < best.accuracy) best = {fresh[j + 1].normalized(), doubt, true};
+      if (doubt < best.accuracy) best = {fresh[j + 1].normalized(), doubt};
     }
     row = std::move(fresh);
   }
-  if (!best.found) return best;
+  if (best.c.size() == 0) return best;
   const auto exact = quadratic_direction(e, best.c, negligible_share);
   if (exact && (*exact - best.c).norm() < told_apart + 10 * best.accuracy)
-    best = {*exact, promised_place, true};
+    best = {*exact, promised_place};
   return best;
 }
 
@@ -165,7 +164,7 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   auto start = branch_point_of(e, ray);
   if (!start) return doubt("a branch near the point could not be corrected to the tolerance");
   const Limit limit = limit_of(e, ray, rho);
-  if (!limit.found) return doubt("a branch near the point could not be followed into it");
+  if (limit.c.size() == 0) return doubt("a branch near the point could not be followed into it");
   if (limit.accuracy > nearly_same_line)
     doubt("the tangent of a branch is known to " + rounded(limit.accuracy) + " only");
   const double away =

@@ -243,11 +243,10 @@ double residual_at(const Walker& walker, const CurvePoint& p) {
 /// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated from
 /// farther off satisfies F as well as it does, that one is nearer to the curve.
 CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
-  constexpr double window = 0.2;
   if (corrected.x.size() == 0)
     return corrected;  // a body that is driven in all its ways: lambda alone is left
   const double ds = corrected.s - step.from().s;
-  const auto curve = curve_near(step, ds, window * step.length());
+  const auto curve = curve_near(step, ds, aside_share * step.length());
   if (!curve) return corrected;
   CurvePoint point = corrected;
   const Vector u = (*curve)(ds);
@@ -276,7 +275,7 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
   const WatchedStep step(walker, samples);
   for (std::size_t i = 1; i < hits.size(); ++i) {
     const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
-    for (const double share : {0.5, 0.3, 0.7}) {
+    for (const double share : {0.5, near_share, 1 - near_share}) {
       const double s = left + share * (right - left);
       if (!(s > left && s < right)) break;
       const auto& point = step.point(s - from.s);

@@ -134,7 +134,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
 
 /// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
 std::vector<double> singular_distances(const WatchedStep& arc, double t) {
-  const double d = 0.02 * arc.length();
+  const double d = 2 * negligible_share * arc.length();
   std::vector<ExtendedMatrix> E;
   for (const double ds : {t, t - d, t + d}) {
     const auto& p = arc.point(ds);
