@@ -99,6 +99,12 @@ Matrix irregular_columns(Index rows, Index columns) {
   return orthonormal(X);
 }
 
+Matrix unit_rows_below(Index rows, Index columns) {
+  Matrix X = Matrix::Zero(rows, columns);
+  X.bottomRows(columns).setIdentity();
+  return X;
+}
+
 ExtendedMatrix extended_matrix(const Linearisation& at, const Vector& weights,
                                const Direction& tau) {
   ExtendedMatrix E;
@@ -166,9 +172,7 @@ std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders
 bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders) {
   const Index k = m + E.columns() - E.rows();
   borders = {irregular_columns(E.rows(), m), irregular_columns(E.columns(), k)};
-  Matrix right = Matrix::Zero(E.rows() + k, k), left = Matrix::Zero(E.columns() + m, m);
-  right.bottomRows(k).setIdentity();
-  left.bottomRows(m).setIdentity();
+  const Matrix right = unit_rows_below(E.rows() + k, k), left = unit_rows_below(E.columns() + m, m);
   for (Index step = 0; step < most_steps; ++step) {
     const BorderedMatrix M(E, borders);
     const auto V = M.solve(right), W = M.solve(left, true);

@@ -34,8 +34,7 @@ bool vanishes_along(const Vector& form, const Vector& direction, double first) {
 
 /// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
 bool solve_borders(const Matrix& M, Index k, Matrix& result) {
-  result = Matrix::Zero(M.rows(), k);
-  result.bottomRows(k).setIdentity();
+  result = unit_rows_below(M.rows(), k);
   if (SmallLu::fits(M.rows())) {
     const SmallLu lu(M);
     if (!(lu.smallest_pivot() > 0)) return false;

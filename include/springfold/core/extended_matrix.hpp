@@ -95,6 +95,9 @@ std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatri
 /// Matrices of more rows are not formed with their entries where they are structured.
 inline constexpr Index most_entries = 4000;
 
+/// | 0; I | of so many rows.
+Matrix unit_rows_below(Index rows, Index columns);
+
 /// Orthonormal columns of a fixed, irregular kind to start iterations from.
 Matrix irregular_columns(Index rows, Index columns);
 Matrix orthonormal(const Matrix& columns);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
@@ -54,7 +55,7 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
               Rays& rays) {
   for (Ray& ray : rays.rays) {
     if (!differ_only(ray.piece, piece, ray.resting) ||
-        !same_direction(walker.weights, ray.tangent, way.tangent, 10 * way.accuracy))
+        !(length_of(walker, difference(ray.tangent, way.tangent)) <= 10 * way.accuracy))
       continue;
     const auto as_preferred = [&](Index j) {
       return piece[static_cast<std::size_t>(j)] == preferred[static_cast<std::size_t>(j)];
@@ -113,12 +114,6 @@ void sort_by_piece(const std::vector<Index>& active, std::vector<Ray>& rays) {
 
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
-}
-
-bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
-                    double tolerance) {
-  const Direction d{a.dx - b.dx, a.dlambda - b.dlambda};
-  return metric_product(weights, d, d) <= tolerance * tolerance;
 }
 
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {

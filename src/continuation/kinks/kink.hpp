@@ -81,10 +81,6 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
 /// Rate of g_j along a direction.
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
 
-/// Do two unit directions agree to `tolerance`?
-bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
-                    double tolerance);
-
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {
   Direction tangent{};

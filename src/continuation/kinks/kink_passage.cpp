@@ -6,6 +6,7 @@
 
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -26,7 +27,7 @@ void take_way_back(const Walker& walker, CurvePoint& arrived, std::vector<Ray>& 
   if (best == rays.end()) return;
   const bool singular = best->start.has_value();
   if (!(singular ? off(*best) <= nearly_same_line
-                 : same_direction(walker.weights, best->tangent, back, one_direction)))
+                 : length_of(walker, difference(best->tangent, back)) <= one_direction))
     return;
   if (singular) arrived.tangent = opposite(best->tangent);
   rays.erase(best);

@@ -158,18 +158,15 @@ bool is_singular(const ExtendedMatrix& E, double share) {
 }
 
 std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders) {
-  const Index n = E.rows(), m = borders.B.cols();
-  Matrix right = Matrix::Zero(n + m, m);
-  right.bottomRows(m).setIdentity();
-  const auto solution = solve_with(E, borders, right);
+  const Index m = borders.B.cols();
+  const auto solution = solve_with(E, borders, unit_rows_below(E.rows() + m, m));
   if (!solution) return std::nullopt;
   return solution->bottomRows(m);
 }
 
 double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
-  Matrix right = Matrix::Zero(n + m, m);
-  right.bottomRows(m).setIdentity();
+  const Matrix right = unit_rows_below(n + m, m);
   const BorderedMatrix M(E, borders);
   const auto Phi = M.solve(right), Psi = M.solve(right, true);
   if (!Phi || !Psi) return infinity;

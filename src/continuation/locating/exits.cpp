@@ -129,12 +129,7 @@ std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, c
                                double rho) {
   if (auto ray = ray_point(e, e.U0 + 0.5 * (last.U - e.U0), rho)) return ray;
   const Vector c = rho * limit;
-  RayPoint ray{.U = e.U0 + e.N * c, .c = c};
-  const Index m = e.k + 1;
-  for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < m; ++j)
-      ray.U += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
-  return ray;
+  return RayPoint{.U = e.U0 + e.N * c + bend_along(e, c), .c = c};
 }
 
 /// Brings the start of a branch in until it is near enough.

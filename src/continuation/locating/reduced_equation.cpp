@@ -156,13 +156,19 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   return std::nullopt;
 }
 
+Vector bend_along(const ReducedEquation& e, const Vector& c) {
+  const Index m = e.k + 1;
+  Vector w = Vector::Zero(e.U0.size());
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  return w;
+}
+
 std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector& c) {
   const Index n = e.L.rows(), m = e.k + 1;
   const double rho = c.norm(), enough = std::max(one_place * rho * rho, rounding_unit * e.scale);
   const Vector U1 = e.U0 + e.N * c;
-  Vector w = Vector::Zero(n + 1), g, F, right = Vector::Zero(n + m);
-  for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  Vector w = bend_along(e, c), g, F, right = Vector::Zero(n + m);
   BorderedMatrix own;
   const BorderedMatrix* system = &e.bordered;
   bool slow = false;

@@ -51,6 +51,9 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
 /// F at U; false where it is not defined.
 bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F);
 
+/// w(c) to second order.
+Vector bend_along(const ReducedEquation& e, const Vector& c);
+
 struct ReducedValue {
   Vector U{};  ///< u0 + N c + w(c)
   Vector g{};  ///< k
