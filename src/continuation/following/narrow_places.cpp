@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/arc.hpp"
 #include "springfold/continuation/numerics.hpp"

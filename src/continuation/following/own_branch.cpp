@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/following/tube_test.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"

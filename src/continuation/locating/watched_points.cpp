@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
