@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "continuation/branches/junction_ways.hpp"
+#include "continuation/kinks/beside.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/kinks/opening.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/kinks/piece_ways.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"

@@ -6,7 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "continuation/locating/determined.hpp"
+#include "continuation/locating/evidence.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"

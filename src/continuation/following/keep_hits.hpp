@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/opening.hpp"
 #include "continuation/points/arc.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/trace.hpp"

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "continuation/following/keep_hits.hpp"
-#include "continuation/locating/determined.hpp"
 #include "continuation/locating/evidence.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "continuation/following/tube_test.hpp"
-#include "continuation/locating/determined.hpp"
+#include "continuation/locating/evidence.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"

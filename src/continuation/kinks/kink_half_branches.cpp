@@ -1,11 +1,10 @@
-#include "continuation/kinks/kink_half_branches.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/locating/equilibrated.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -131,9 +130,9 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   CurvePoint& first = points.front();
   Linearisation at;
   if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
-  const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
-  const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
-  if (!(least_singular_values(E, 1)[0] <= located_rank * size) || is_regular(walker, first)) return;
+  if (!is_singular(extended_matrix(at, walker.weights, first.tangent), located_rank) ||
+      is_regular(walker, first))
+    return;
   auto moved = point_at(walker, own, negligible_share * (points.back().s - first.s));
   if (!moved) return;
   moved->piece = first.piece;

@@ -4,11 +4,9 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_half_branches.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
-#include "continuation/locating/flat_turns.hpp"
+#include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"

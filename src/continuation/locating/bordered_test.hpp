@@ -25,6 +25,9 @@ struct Reach {
 };
 Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle);
 
+/// Is the smallest singular value of E no larger than this share of the size of E?
+bool is_singular(const ExtendedMatrix& E, double share);
+
 /// @returns nothing when the bordered matrix is singular
 std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders);
 

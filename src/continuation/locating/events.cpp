@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/chebyshev.hpp"
@@ -86,6 +85,19 @@ double scatter_of(const WatchedStep& arc, Samples samples, const Event& event,
   return scatter;
 }
 
+/// The event between the ends; at the ends the very values that the neighbouring steps see: a sign must not change in between.
+SampledFunction value_on(const WatchedStep& arc, const Event& event,
+                         std::span<const double> values) {
+  return [&arc, &event, values](double ds) -> std::optional<double> {
+    if (ds == 0) return values.front();
+    if (ds == arc.length()) return values.back();
+    if (const CurvePoint* straight = arc.straight_point(ds)) return event.value(*straight);
+    auto point = event.of_place ? arc.exact_place(ds) : arc.exact_point(ds);
+    if (!point) point = arc.point_once(ds);
+    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
+  };
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
@@ -109,15 +121,7 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
   for (double* outer : {&values.front(), &values.back()})
     if (std::abs(*outer) <= noise) *outer = 0;
   if (!within_reach(values)) return true;
-  // At the ends the very values that the neighbouring steps see: a sign must not change in between.
-  const auto value = [&](double ds) -> std::optional<double> {
-    if (ds == 0) return values.front();
-    if (ds == h) return values.back();
-    if (const CurvePoint* straight = arc.straight_point(ds)) return event.value(*straight);
-    auto point = event.of_place ? arc.exact_place(ds) : arc.exact_point(ds);
-    if (!point) point = arc.point_once(ds);
-    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
-  };
+  const SampledFunction value = value_on(arc, event, values);
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
   const bool is_met = !search.zeros.empty() || !search.resolved;
   // Values that are no larger than they scatter are zero to rounding all along the step, and have no zeros.

@@ -29,4 +29,26 @@ struct StepEvents {
 /// @param samples  its ends and points between them, in order; all on one piece
 StepEvents singular_points(const WatchedStep& arc, Samples samples);
 
+/// Rates of lambda this many times their rounding have a sign beyond doubt.
+inline constexpr double clear_of_rounding = 100;
+
+/// A regular step of the curve, as long as need be, on which lambda's rate rises clear of its rounding on
+/// both sides of a shorter one: it is given by the curve, not by the length of the shorter step.
+struct WideStep {
+  CurvePoint from{}, to{};
+};
+
+/// @param noise  rounding of lambda's rate
+/// @returns nothing where lambda stands still for longer than a regular step can be, or the evidence for a step
+/// is missing
+std::optional<WideStep> widened(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                                double noise);
+
+/// Zeros of lambda's rate on the widened step, those of them that lie between `from` and `high` beyond
+/// it; places as distances from `from` along its tangent.
+/// @returns nothing where there is no such step or its zeros are too close together
+std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const CurvePoint& from,
+                                                    const CurvePoint& to, double high,
+                                                    double noise);
+
 }  // namespace springfold::continuation
