@@ -32,7 +32,6 @@ using BorderedRest =
 void BorderedFactors::begin(const Linearisation& at, bool symmetric) {
   at_ = &at;
   n_ = at.dF_dlambda.size();
-  symmetric_ = symmetric;
   factorised_ = finite_ = bordered_ = regular_ = false;
   way_ = at.structured                                ? Way::structured
          : symmetric && n_ <= SmallSymmetric::largest ? Way::symmetric

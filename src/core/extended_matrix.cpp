@@ -29,12 +29,13 @@ constexpr Index most_cheap_steps = 64;
 /// All columns of a structured E by a function of columns of dF/dx.
 template <class Columns>
 Matrix by_columns(const ExtendedMatrix& E, const Matrix& X, bool sizes, Columns columns) {
-  const Index n = E.row.size();
-  Matrix Y(n + 1, X.cols());
+  const Index n = E.at.dF_dlambda.size();
+  Matrix Y(E.rows(), X.cols());
   for (Index c = 0; c < X.cols(); ++c) {
     const double last = X(n, c);
     Y.col(c).head(n) = columns(X.col(c).head(n));
     Y.col(c).head(n) += last * E.at.dF_dlambda;
+    if (!E.has_last) continue;
     Y(n, c) = (sizes ? Vector(E.row.cwiseAbs()) : E.row).dot(X.col(c).head(n)) +
               (sizes ? std::abs(E.corner) : E.corner) * last;
   }
@@ -44,44 +45,33 @@ Matrix by_columns(const ExtendedMatrix& E, const Matrix& X, bool sizes, Columns 
 /// The borders of E as borders of dF/dx,
 ///
 ///     | dF/dx    dF/dlambda  B_x |
-///     | row^T    corner      B_l |
+///     | row^T    corner      B_l |      (where E has a last row)
 ///     | C_x^T    C_l^T       0   |
 FrontalBorders borders_of_jacobian(const ExtendedMatrix& E, const Borders& borders) {
-  const Index n = E.row.size(), m = borders.B.cols();
-  FrontalBorders all{Matrix(n, m + 1), Matrix(n, m + 1), Matrix::Zero(m + 1, m + 1)};
+  const Index n = E.at.dF_dlambda.size(), last = E.has_last ? 1 : 0;
+  const Index left = borders.B.cols(), right = borders.C.cols();
+  FrontalBorders all{Matrix(n, 1 + left), Matrix(n, last + right),
+                     Matrix::Zero(last + right, 1 + left)};
   all.B.col(0) = E.at.dF_dlambda;
-  all.C.col(0) = E.row;
-  all.D(0, 0) = E.corner;
-  if (m == 0) return all;
-  all.B.rightCols(m) = borders.B.topRows(n);
-  all.C.rightCols(m) = borders.C.topRows(n);
-  all.D.block(0, 1, 1, m) = borders.B.bottomRows(1);
-  all.D.block(1, 0, m, 1) = borders.C.bottomRows(1).transpose();
+  if (E.has_last) all.C.col(0) = E.row;
+  if (E.has_last) all.D(0, 0) = E.corner;
+  if (right == 0) return all;
+  all.B.rightCols(left) = borders.B.topRows(n);
+  all.C.rightCols(right) = borders.C.topRows(n);
+  if (E.has_last) all.D.topRightCorner(1, left) = borders.B.bottomRows(1);
+  all.D.bottomLeftCorner(right, 1) = borders.C.bottomRows(1).transpose();
   return all;
 }
 
-/// Singular vectors by inverse iteration: with M = | E B; C^T 0 |, which is regular also where E is not,
-/// M^-1 | 0; I | holds better right vectors than C, and M^-T | 0; I | better left ones than B.
 struct LeastVectors {
   Borders borders{};
   Vector values{};  ///< ascending
 };
 
 LeastVectors least_vectors(const ExtendedMatrix& E, Index m) {
-  const Index n = E.rows();
-  LeastVectors result{{irregular_columns(n, m), irregular_columns(n, m)}, Vector::Zero(m)};
+  LeastVectors result;
   Borders& borders = result.borders;
-  Matrix right = Matrix::Zero(n + m, m);
-  right.bottomRows(m).setIdentity();
-  for (Index step = 0; step < most_steps; ++step) {
-    const auto V = solve_with(E, borders, right), W = solve_with(E, borders, right, true);
-    if (!V || !W) break;
-    const Matrix C = orthonormal(V->topRows(n)), B = orthonormal(W->topRows(n));
-    const double moved = (C - borders.C * (borders.C.transpose() * C)).norm() +
-                         (B - borders.B * (borders.B.transpose() * B)).norm();
-    borders = {B, C};
-    if (moved < settled) break;
-  }
+  kernel_borders(E, m, borders);
   const Matrix image = product(E, borders.C);
   const Svd svd =
       jacobi_svd(borders.B.transpose() * image, SingularVectors::full, SingularVectors::full);
@@ -107,6 +97,12 @@ Matrix irregular_columns(Index rows, Index columns) {
   for (Index c = 0; c < columns; ++c)
     for (Index r = 0; r < rows; ++r) X(r, c) = irregular(r, c);
   return orthonormal(X);
+}
+
+Matrix unit_rows_below(Index rows, Index columns) {
+  Matrix X = Matrix::Zero(rows, columns);
+  X.bottomRows(columns).setIdentity();
+  return X;
 }
 
 ExtendedMatrix extended_matrix(const Linearisation& at, const Vector& weights,
@@ -138,24 +134,56 @@ Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X) {
                     [&](const Vector& v) { return magnitudes(*E.at.structured, v); });
 }
 
-std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders,
-                                 const Matrix& right, bool transposed) {
-  if (E.at.structured) {
-    Matrix X = right;
-    if (!E.at.structured->solve(borders_of_jacobian(E, borders), X, transposed))
-      return std::nullopt;
+Matrix bordered(const Matrix& A, const Borders& borders) {
+  const Index left = borders.B.cols(), right = borders.C.cols();
+  Matrix M = Matrix::Zero(A.rows() + right, A.cols() + left);
+  M.topLeftCorner(A.rows(), A.cols()) = A;
+  if (left > 0) M.topRightCorner(A.rows(), left) = borders.B;
+  if (right > 0) M.bottomLeftCorner(right, A.cols()) = borders.C.transpose();
+  return M;
+}
+
+BorderedMatrix::BorderedMatrix(const ExtendedMatrix& E, const Borders& borders)
+    : structured_{E.at.structured} {
+  if (structured_) {
+    borders_ = borders_of_jacobian(E, borders);
+    return;
+  }
+  lu_.compute(bordered(E.dense, borders));
+}
+
+std::optional<Matrix> BorderedMatrix::solve(const Matrix& right, bool transposed) const {
+  Matrix X;
+  if (structured_) {
+    X = right;
+    if (!structured_->solve(borders_, X, transposed)) return std::nullopt;
     return X;
   }
-  const Index n = E.dense.rows(), m = borders.B.cols();
-  Matrix A(n + m, n + m);
-  A.topLeftCorner(n, n) = E.dense;
-  if (m > 0) A.topRightCorner(n, m) = borders.B;
-  if (m > 0) A.bottomLeftCorner(m, n) = borders.C.transpose();
-  A.bottomRightCorner(m, m).setZero();
-  if (transposed) A.transposeInPlace();
-  Matrix X = Lu(A).solve(right);
+  X = transposed ? lu_.solve_transposed(right) : lu_.solve(right);
   if (!X.allFinite()) return std::nullopt;
   return X;
+}
+
+std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders,
+                                 const Matrix& right, bool transposed) {
+  return BorderedMatrix(E, borders).solve(right, transposed);
+}
+
+bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders) {
+  const Index k = m + E.columns() - E.rows();
+  borders = {irregular_columns(E.rows(), m), irregular_columns(E.columns(), k)};
+  const Matrix right = unit_rows_below(E.rows() + k, k), left = unit_rows_below(E.columns() + m, m);
+  for (Index step = 0; step < most_steps; ++step) {
+    const BorderedMatrix M(E, borders);
+    const auto V = M.solve(right), W = M.solve(left, true);
+    if (!V || !W || !V->allFinite() || !W->allFinite()) return false;
+    const Matrix C = orthonormal(V->topRows(E.columns())), B = orthonormal(W->topRows(E.rows()));
+    const double moved = (C - borders.C * (borders.C.transpose() * C)).norm() +
+                         (B - borders.B * (borders.B.transpose() * B)).norm();
+    borders = {B, C};
+    if (moved < settled) break;
+  }
+  return true;
 }
 
 Borders borders_of(const ExtendedMatrix& E, Index m) {

@@ -6,6 +6,7 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/core/small_lu.hpp"
 
@@ -33,8 +34,7 @@ bool vanishes_along(const Vector& form, const Vector& direction, double first) {
 
 /// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
 bool solve_borders(const Matrix& M, Index k, Matrix& result) {
-  result = Matrix::Zero(M.rows(), k);
-  result.bottomRows(k).setIdentity();
+  result = unit_rows_below(M.rows(), k);
   if (SmallLu::fits(M.rows())) {
     const SmallLu lu(M);
     if (!(lu.smallest_pivot() > 0)) return false;
@@ -57,15 +57,6 @@ Matrix aligned(const Matrix& left, const Matrix& right) {
 
 }  // namespace
 
-Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C) {
-  const Index n = B.rows(), k = B.cols();
-  Matrix M = Matrix::Zero(n + k, n + k);
-  M.topLeftCorner(n, n) = base.J.leftCols(n);
-  M.topRightCorner(n, k) = B;
-  M.bottomLeftCorner(k, n) = C.transpose();
-  return M;
-}
-
 double BorderedPlace::largest() const {
   return std::max(V.colwise().norm().maxCoeff(), W.colwise().norm().maxCoeff());
 }
@@ -76,7 +67,7 @@ std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& 
   BorderedPlace p;
   if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
   const Index n = x.size(), k = B.cols();
-  const Matrix M = bordered_matrix(p.base, B, C);
+  const Matrix M = bordered(p.base.J.leftCols(n), {B, C});
   Matrix solution;
   if (!solve_borders(M, k, solution)) return std::nullopt;
   p.V = solution.topRows(n);
@@ -220,7 +211,7 @@ std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) con
     Vector right = Vector::Zero(n_ + k_);
     right.head(n_) = terms.at.base.J.col(n_);
     const Vector solution =
-        Lu(bordered_matrix(terms.at.base, borders_.left, borders_.right)).solve(right);
+        Lu(bordered(terms.at.base.J.leftCols(n_), {borders_.left, borders_.right})).solve(right);
     terms.along.resize(n_ + 1, 1);
     terms.along << -solution.head(n_), 1.0;
     terms.load = solution.tail(k_);
@@ -286,34 +277,43 @@ std::optional<double> Augmented::far_on_line(double mu) const {
   return family_.line(mu);
 }
 
+bool Augmented::put_rows(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                         Matrix& rows) const {
+  const Vector x = state(X);
+  const double l = lambda(X);
+  const Matrix &V = terms.at.V, &W = terms.at.W;
+  const Index crossing = rows.rows() - 1;
+  const auto second = [&](const Vector& w, const Vector& along) {
+    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
+  };
+  for (Index i = 0; i < crossing; ++i) {
+    const auto part = second(W.col(i), terms.along.col(0));
+    if (!part) return false;
+    rows.row(i) = part->transpose();
+  }
+  if (!is_bordered()) {
+    const auto gradient = surface_gradient(x, l, mu);
+    if (gradient) rows.row(crossing) = gradient->transpose();
+    return gradient.has_value();
+  }
+  for (Index i = 0; i < V.cols(); ++i) {
+    Vector along = Vector::Zero(n_ + 1);
+    along.head(n_) = V.col(i);
+    const auto part = second(W.col(i), along);
+    if (!part) return false;
+    rows.row(crossing) -= part->transpose();
+  }
+  return true;
+}
+
 bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                             Differences& found) const {
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
   const Index crossing = k_ > 0 && !held_ ? k_ : 0;
-  const auto second = [&](const Vector& w, const Vector& along) {
-    return second_along(family_, x, l, mu, start_.piece, w, along, exactness);
-  };
   found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
-  if (is_bordered()) {
-    for (Index i = 0; i < V.cols(); ++i) {
-      Vector along = Vector::Zero(n_ + 1);
-      along.head(n_) = V.col(i);
-      const auto part = second(W.col(i), along);
-      if (!part) return false;
-      found.by_X.row(crossing) -= part->transpose();
-    }
-  } else {
-    const auto gradient = surface_gradient(x, l, mu);
-    if (!gradient) return false;
-    found.by_X.row(crossing) = gradient->transpose();
-  }
-  for (Index i = 0; i < crossing; ++i) {
-    const auto part = second(W.col(i), terms.along.col(0));
-    if (!part) return false;
-    found.by_X.row(i) = part->transpose();
-  }
+  if (!put_rows(X, mu, terms, exactness, found.by_X)) return false;
   BaseTerms there;
   const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
     Vector values(n_ + crossing + 1);

@@ -8,10 +8,7 @@
 
 namespace springfold::continuation {
 
-/// M = [dF/dx B; C^T 0].
-Matrix bordered_matrix(const BaseTerms& base, const Matrix& B, const Matrix& C);
-
-/// What M defines at one place.
+/// What M = [dF/dx B; C^T 0] defines at one place.
 struct BorderedPlace {
   BaseTerms base{};
   Matrix V{}, W{};  ///< n x k
@@ -84,6 +81,9 @@ class Augmented {
   std::optional<double> far_on_line(double mu) const;
   bool differences(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                    Differences& found) const;
+  /// Its by_X. @param rows  zero, of the right size
+  bool put_rows(const Vector& X, double mu, const Terms& terms, Exactness exactness,
+                Matrix& rows) const;
   /// Exact ones at this place, or as near to it as the corrector comes.
   const Differences* known_differences(const Vector& X, double mu) const;
   /// May the components along the null vectors be held? Where all second derivatives vanish in which the branches bend or

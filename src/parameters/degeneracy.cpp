@@ -5,6 +5,7 @@
 
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::continuation {
@@ -115,7 +116,7 @@ double other_eigenvalue(const Augmented& s, const CurvePoint& p) {
   if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base))
     return not_a_number;
   const auto problem = s.family().at(p.lambda);
-  return signed_least(bordered_matrix(base, s.borders().left, s.borders().right),
+  return signed_least(bordered(base.J.leftCols(s.n()), {s.borders().left, s.borders().right}),
                       problem && problem->symmetric());
 }
 

@@ -151,18 +151,17 @@ class LeadingTerms {
 };
 
 std::optional<Vector> solved_near(const LeadingTerms& terms, Vector u, double L) {
-  constexpr int most = 30;
-  for (int i = 0; i < most; ++i) {
-    Vector g, by_L;
-    Matrix J;
+  Vector g, by_L;
+  Matrix J;
+  const bool found = settles(30, [&](double) -> std::optional<IterationStep> {
     terms.residual(u, L, g);
     terms.derivatives(u, L, J, by_L);
     const Vector step = -Lu(J).solve(g);
     if (!step.allFinite()) return std::nullopt;
     u += step;
-    if (step.norm() <= refined_step * (1 + u.norm())) return u;
-  }
-  return std::nullopt;
+    return IterationStep{step.norm(), refined_step * (1 + u.norm())};
+  });
+  return found ? std::optional(u) : std::nullopt;
 }
 
 /// The imperfect path from the unloaded side to its first critical point. @returns its L

@@ -6,6 +6,7 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
+#include "springfold/core/extended_matrix.hpp"
 #include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::continuation {
@@ -142,7 +143,7 @@ std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStar
   ReducedForm form{.V = std::move(null->right), .W = std::move(null->left)};
   form.by_lambda = form.W.transpose() * base->J.col(n);
   form.tangent = {form.V.transpose() * tangent.dx, tangent.dlambda};
-  const Lu bordered(bordered_matrix(*base, form.W, form.V));
+  const Lu bordered(springfold::bordered(base->J.leftCols(n), {form.W, form.V}));
   Vector right = Vector::Zero(n + k);
   right.head(n) = -base->J.col(n);
   const Vector z = bordered.solve(right).head(n);

@@ -29,20 +29,16 @@ void check_start(const Family& family, const CriticalStart& start) {
 }  // namespace
 
 std::optional<Vector> solve_at(const Augmented& system, Vector X, double mu) {
-  constexpr int most = 12;
-  double before = infinity;
-  for (int i = 0; i < most; ++i) {
-    Vector F, by_mu;
-    Matrix J;
+  Vector F, by_mu;
+  Matrix J;
+  const bool found = settles(12, [&](double) -> std::optional<IterationStep> {
     if (!system.residual(X, mu, F) || !system.derivatives(X, mu, J, by_mu)) return std::nullopt;
     const Vector step = -Lu(J).solve(F);
-    if (!step.allFinite() || step.norm() > 1) return std::nullopt;
+    if (!(step.norm() <= 1)) return std::nullopt;
     X += step;
-    const double moved = step.norm();
-    if (has_settled(moved, before, refined_step * (1 + X.norm()), one_place)) return X;
-    before = moved;
-  }
-  return std::nullopt;
+    return IterationStep{step.norm(), refined_step * (1 + X.norm()), one_place};
+  });
+  return found ? std::optional(X) : std::nullopt;
 }
 
 std::optional<Augmented> system_at(const Family& family, const CriticalStart& start) {

@@ -60,7 +60,7 @@ inline Ray ray_of(ProblemView problem, const StartPoint& start, const TraceOptio
 }
 
 /// Laws: every point on the curve with a unit tangent along it, s increasing, every special point
-/// on the curve and inside the interval that proves it, in the order of s.
+/// on the curve and inside the interval that proves it, in the order of s; the last one stops the curve, or none does.
 inline void expect_laws(ProblemView problem, const Curve& curve) {
   const Vector weights = problem.metric();
   const auto expect_on_curve = [&](const CurvePoint& p, const std::string& what) {
@@ -82,12 +82,16 @@ inline void expect_laws(ProblemView problem, const Curve& curve) {
     s = p.s;
   }
   s = 0;
+  const bool ends_at_one = curve.stop == StopReason::event || curve.stop == StopReason::joined ||
+                           curve.stop == StopReason::several_ways ||
+                           curve.stop == StopReason::no_way_out;
   for (const Hit& hit : curve.hits) {
     if (hit.kind != HitKind::unresolved) expect_on_curve(hit.point, hit.name);
     EXPECT_LE(hit.s_before, hit.s_after) << hit.name;
     EXPECT_GE(hit.point.s, hit.s_before - 1e-9) << hit.name;
     EXPECT_LE(hit.point.s, hit.s_after + 1e-9) << hit.name;
     EXPECT_GE(hit.point.s, s - 1e-9) << hit.name << ": special points come in the order of s";
+    EXPECT_EQ(hit.stops, ends_at_one && &hit == &curve.hits.back()) << hit.name;
     s = hit.point.s;
   }
   EXPECT_FALSE(to_string(curve.stop).empty());

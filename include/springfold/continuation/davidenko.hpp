@@ -18,9 +18,9 @@ namespace springfold::continuation {
 /// The result reads like that of trace(), with these differences:
 ///
 ///  - s is the arc length itself, to the tolerance of the integration;
-///  - branch points, touches and unresolved places are not looked for and never reported, also
-///    where the number of negative eigenvalues changes. lambda turning back is reported as a limit
-///    point, also where it does so at a branch point (the vertex of a pitchfork);
+///  - branch points, touches and unresolved places between kinks are not looked for and never
+///    reported, also where the number of negative eigenvalues changes. lambda turning back is
+///    reported as a limit point, also where it does so at a branch point (the vertex of a pitchfork);
 ///  - a closed curve is not recognised: it is followed on, lap after lap;
 ///  - kinks are passed, as in trace(), where there is exactly one way out;
 ///  - of `options` these count: step.initial, .minimum, .maximum, .turn and .growth, newton,

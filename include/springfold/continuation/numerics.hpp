@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "springfold/continuation/options.hpp"
@@ -40,6 +41,24 @@ inline bool has_settled(double moved, double before, double fine, double small) 
   constexpr double no_longer =
       0.3;  // above still_falls: the last contraction may have been a poor one
   return moved <= fine || (moved < small && moved > no_longer * before);
+}
+/// One step of an iteration: how far it went, and what is fine and what is small where it ended.
+struct IterationStep {
+  double moved = 0, fine = 0, small = 0;
+};
+/// Newton's method and its kin: steps are taken until they have settled.
+/// @param step  takes one, told how far the last one went; returns nothing where the iteration is to be given up
+/// @returns false where it is, or has not settled after `most` steps
+template <class Step>
+bool settles(int most, const Step& step) {
+  double before = infinity;
+  for (int i = 0; i < most; ++i) {
+    const std::optional<IterationStep> taken = step(before);
+    if (!taken) return false;
+    if (has_settled(taken->moved, before, taken->fine, taken->small)) return true;
+    before = taken->moved;
+  }
+  return false;
 }
 
 // Is it the same place?
@@ -82,6 +101,14 @@ inline constexpr double level_reach = 1e-2;
 inline constexpr double located_rank = 100 * promised_place;
 /// The same at points that may be placed poorly.
 inline constexpr double vanishing_rank = poor;
+/// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the others.
+inline Index vanishing_values(const Vector& values) {
+  constexpr double gap = 30;
+  for (Index i = 0; i < values.size(); ++i)
+    if (values[i] <= vanishing_rank && values[i] * gap < (i > 0 ? values[i - 1] : 1))
+      return values.size() - i;
+  return 0;
+}
 /// Ratio of singular values from which a piece is regular at a kink on a curve, which is corrected to rounding; then its
 /// tangent has this error.
 inline constexpr double regular_at_kinks = one_place;

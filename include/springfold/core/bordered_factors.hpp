@@ -61,7 +61,6 @@ class BorderedFactors {
   const Linearisation* at_ = nullptr;
   Index n_ = 0;
   Way way_ = Way::large;
-  bool symmetric_ = false;
   bool factorised_ = false, finite_ = false;  ///< dF/dx as L D L^T
   bool bordered_ = false, regular_ = false;   ///< the whole, with the last row
   Vector row_{};

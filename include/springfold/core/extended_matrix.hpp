@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/linearisation.hpp"
 
 namespace springfold {
@@ -13,14 +14,19 @@ namespace springfold {
 ///     E = | dF/dx            dF/dlambda |
 ///         | (w tau.dx)^T     tau.dl     |,     (n + 1) x (n + 1):
 ///
-/// regular at limit points, singular exactly at branch points; its corank is theirs.
+/// regular at limit points, singular exactly at branch points; its corank is theirs. Without its last row it is the curve's
+/// extended Jacobian.
 struct ExtendedMatrix {
-  Matrix dense{};      ///< empty where dF/dx is structured
-  Linearisation at{};  ///< then this and the last row
-  Vector row{};        ///< w tau.dx
-  double corner = 0;   ///< tau.dl
+  Matrix dense{};        ///< empty where dF/dx is structured
+  Linearisation at{};    ///< then this and the last row
+  Vector row{};          ///< w tau.dx
+  double corner = 0;     ///< tau.dl
+  bool has_last = true;  ///< false: n x (n + 1)
 
-  Index rows() const { return at.structured ? row.size() + 1 : dense.rows(); }
+  Index rows() const {
+    return at.structured ? at.dF_dlambda.size() + (has_last ? 1 : 0) : dense.rows();
+  }
+  Index columns() const { return at.structured ? at.dF_dlambda.size() + 1 : dense.cols(); }
 };
 
 ExtendedMatrix extended_matrix(const Linearisation& at, const Vector& weights,
@@ -32,17 +38,40 @@ ExtendedMatrix extended_matrix(const Linearisation& at, const Vector& weights,
 ///     |        | |       | = |   |,      Sigma singular <=> E singular, with equal corank.
 ///     | C^T  0 | | Sigma |   | I |
 struct Borders {
-  Matrix B{}, C{};  ///< (n + 1) x m
+  Matrix B{}, C{};  ///< (n + 1) x m; without the last row B: n x m, C: (n + 1) x (m + 1)
 };
 
 /// E X, and |E| |X| entry by entry.
 Matrix product(const ExtendedMatrix& E, const Matrix& X);
 Matrix magnitudes(const ExtendedMatrix& E, const Matrix& X);
 
-/// Solves with the bordered matrix, or with its transpose; (n + 1 + m) rows.
-/// @returns nothing when it is singular
+/// | A B; C^T 0 | of any A.
+Matrix bordered(const Matrix& A, const Borders& borders);
+
+/// The bordered matrix, ready to be solved with.
+class BorderedMatrix {
+ public:
+  BorderedMatrix() = default;
+  BorderedMatrix(const ExtendedMatrix& E, const Borders& borders);
+
+  /// Solves with it or with its transpose. @returns nothing when it is singular
+  std::optional<Matrix> solve(const Matrix& right, bool transposed = false) const;
+
+ private:
+  Lu lu_{};
+  std::shared_ptr<const StructuredMatrix> structured_{};
+  FrontalBorders borders_{};
+};
+
+/// The same once.
 std::optional<Matrix> solve_with(const ExtendedMatrix& E, const Borders& borders,
                                  const Matrix& right, bool transposed = false);
+
+/// Orthonormal borders that span the kernels of E of corank m, or what is nearest to them, by inverse iteration: with
+/// M = | E B; C^T 0 |, which is regular also where E is not, M^-1 | 0; I | holds better right vectors than C, and
+/// M^-T | 0; I | better left ones than B.
+/// @returns false where it leaves off, M being singular; `borders` are then as good as they were
+bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders);
 
 /// Left and right singular vectors of the m smallest singular values, m = 1...
 /// A structured E has them by inverse iteration with bordered matrices.
@@ -65,6 +94,9 @@ std::vector<double> relative_motion(const ExtendedMatrix& E, const ExtendedMatri
 
 /// Matrices of more rows are not formed with their entries where they are structured.
 inline constexpr Index most_entries = 4000;
+
+/// | 0; I | of so many rows.
+Matrix unit_rows_below(Index rows, Index columns);
 
 /// Orthonormal columns of a fixed, irregular kind to start iterations from.
 Matrix irregular_columns(Index rows, Index columns);

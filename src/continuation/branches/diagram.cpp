@@ -1,17 +1,17 @@
 #include "springfold/continuation/diagram.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
 #include <utility>
 
-#include "continuation/branches/attach.hpp"
 #include "continuation/branches/junction_ways.hpp"
+#include "continuation/kinks/beside.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/kinks/opening.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
@@ -59,29 +59,27 @@ class Tracer {
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
   bool at_hit(const Hit& hit, bool ends = false);
-  bool ends_at_once(const Task& task, Curve& curve) const;
-  Begin begin_of(const Task& task) const;
+  bool ends_at_once(const Task& task, Curve& curve);
+  Begin begin_of(const Task& task);
+  bool is_wanted(const Task& task);
   void follow(const Task& task);
   /// The two curves that leave a start count as one branch.
   bool too_many(int start = -1) const {
-    int count = 0, twins = 0;
-    for (const Branch& branch : diagram_.branches) {
-      const bool second = branch.start >= 0 && branch.start == start;
-      twins += second ? 1 : 0;
-      count += branch.start < 0 || first_of_pair(branch) ? 1 : 0;
-    }
-    return twins % 2 == 0 && count >= options_.maximum_branches;
-  }
-  bool first_of_pair(const Branch& branch) const {
-    int before = 0;
-    for (const Branch* other = diagram_.branches.data(); other != &branch; ++other)
-      before += other->start == branch.start ? 1 : 0;
-    return before % 2 == 0;
+    std::map<int, int> of_start;
+    int count = 0;
+    for (const Branch& branch : diagram_.branches)
+      if (branch.start < 0 || of_start[branch.start]++ % 2 == 0) ++count;
+    return of_start[start] % 2 == 0 && count >= options_.maximum_branches;
   }
   void doubt(DoubtKind kind, std::string what, const CurvePoint& where, int junction = -1) {
     diagram_.doubts.push_back({kind, std::move(what), where, junction, current_});
   }
   Junction& at(int junction) { return diagram_.junctions[static_cast<std::size_t>(junction)]; }
+  /// Of its junction, or of the ordinary kink at its start.
+  Way& way_of(const Task& task) {
+    return at(task.junction >= 0 ? task.junction : task.kink)
+        .ways[static_cast<std::size_t>(task.way)];
+  }
   void note_early_end();
 
   const Walker& walker_;
@@ -98,8 +96,7 @@ class Tracer {
 /// The nearest junction that is the same point. Points that a curve has passed right before are others: between two
 /// passages of one point lies a whole loop.
 int Tracer::junction_at(const Hit& hit) {
-  const double scale = std::max({1.0, hit.point.x.norm(), std::abs(hit.point.lambda)});
-  const double same = options_.same_place * scale;
+  const double same = options_.same_place * scale_of(hit.point);
   const auto just_passed = [&](int number) {
     return std::any_of(met_.begin(), met_.end(), [&](const Met& met) {
       return met.junction == number && std::abs(met.s - hit.point.s) <= 2 * same;
@@ -235,12 +232,8 @@ void Tracer::add_start(const DiagramStart& start, int number) {
 }
 
 /// A curve that ends where it begins, if its way leads out of the range there.
-bool Tracer::ends_at_once(const Task& task, Curve& curve) const {
-  CurvePoint begin = task.from;
-  if (task.junction >= 0)
-    begin = diagram_.junctions[static_cast<std::size_t>(task.junction)]
-                .ways[static_cast<std::size_t>(task.way)]
-                .point;
+bool Tracer::ends_at_once(const Task& task, Curve& curve) {
+  CurvePoint begin = task.junction >= 0 ? way_of(task).point : task.from;
   begin.s = 0;
   const std::string reason = options_.ends_at ? options_.ends_at(begin) : "";
   if (!reason.empty()) curve = {{begin}, {}, StopReason::event, reason, {}};
@@ -248,53 +241,52 @@ bool Tracer::ends_at_once(const Task& task, Curve& curve) const {
 }
 
 /// Where the trace along a way begins: a little away from its junction, unless the curve in between is known.
-Begin Tracer::begin_of(const Task& task) const {
+Begin Tracer::begin_of(const Task& task) {
   Begin begin{.from = task.from,
               .ray = {task.from.piece, task.from.tangent, {}, {}, {}},
               .attached = task.junction < 0};
   if (begin.attached) return begin;
-  const Junction& junction = diagram_.junctions[static_cast<std::size_t>(task.junction)];
-  const Way& way = junction.ways[static_cast<std::size_t>(task.way)];
+  const Way& way = way_of(task);
   begin.attached = way.beyond && opening_of(walker_, way.point, *way.beyond);
   if (begin.attached) {
     begin.from = way.point;
     begin.ray = {way.point.piece, way.point.tangent, {}, {}, way.beyond};
     return begin;
   }
-  const double gap = length_of(walker_, between(walker_, junction.point, task.from));
+  const double gap = length_of(walker_, between(walker_, at(task.junction).point, task.from));
   if (gap > 0) begin.ray.start = task.from;
   if (gap > 0) begin.ray.start->s = gap;
   return begin;
 }
 
-void Tracer::follow(const Task& task) {
+/// May the way be followed, or does a branch run along it already, or are there enough?
+bool Tracer::is_wanted(const Task& task) {
+  bool wanted = true;
   if (task.junction >= 0) {
-    Way& way = diagram_.junctions[static_cast<std::size_t>(task.junction)]
-                   .ways[static_cast<std::size_t>(task.way)];
-    if (way.branch >= 0) return;
-    if (task.depth > options_.maximum_depth || too_many()) {
-      ++diagram_.not_followed;
-      return;
-    }
-    way.branch = static_cast<int>(diagram_.branches.size());
+    if (way_of(task).branch >= 0) return false;
+    wanted = task.depth <= options_.maximum_depth && !too_many();
   } else {
     for (std::size_t i = 0; i < diagram_.branches.size(); ++i) {
       const Branch& branch = diagram_.branches[i];
       const bool own = branch.start == task.start, closed = branch.curve.stop == StopReason::closed;
       if (own && closed && task.kink >= 0) {  // it came back along this way, on another piece
-        at(task.kink).ways[static_cast<std::size_t>(task.way)].branch = static_cast<int>(i);
-        return;
+        way_of(task).branch = static_cast<int>(i);
+        return false;
       }
       const bool twin = own && !closed;
-      if (!twin && passes_through(walker_.problem, branch.curve, task.from, options_.trace)) return;
+      if (!twin && passes_through(walker_.problem, branch.curve, task.from, options_.trace))
+        return false;
     }
-    if (too_many(task.start)) {
-      ++diagram_.not_followed;
-      return;
-    }
+    wanted = !too_many(task.start);
   }
+  if (!wanted) ++diagram_.not_followed;
+  return wanted;
+}
+
+void Tracer::follow(const Task& task) {
+  if (!is_wanted(task)) return;
   current_ = static_cast<int>(diagram_.branches.size());
-  if (task.kink >= 0) at(task.kink).ways[static_cast<std::size_t>(task.way)].branch = current_;
+  if (task.junction >= 0 || task.kink >= 0) way_of(task).branch = current_;
   met_.clear();
   depth_ = task.depth;
   diagram_.branches.push_back(
@@ -305,26 +297,21 @@ void Tracer::follow(const Task& task) {
       trace_in_own_units(walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_,
                          options_.trace, observer_, [this](const Hit& hit) { return at_hit(hit); });
   // A kink with several ways out ends the trace by itself.
-  Branch& branch = diagram_.branches[static_cast<std::size_t>(current_)];
-  branch.curve = std::move(curve);
-  if (branch.curve.stop == StopReason::several_ways && options_.through_kinks &&
-      !branch.curve.hits.empty() && branch.curve.hits.back().kind == HitKind::branching_kink)
-    at_hit(branch.curve.hits.back(), true);
-  for (Hit& hit : branch.curve.hits)
+  if (curve.stop == StopReason::several_ways && options_.through_kinks && !curve.hits.empty() &&
+      curve.hits.back().kind == HitKind::branching_kink)
+    at_hit(curve.hits.back(), true);
+  for (Hit& hit : curve.hits)
     for (const Met& met : met_)
       if (met.s == hit.point.s && is_junction(hit)) {
         hit.junction = met.junction;
         hit.way_back = met.way_back;
         hit.way_on = met.way_on;
       }
-  if (branch.curve.stop == StopReason::event || branch.curve.stop == StopReason::joined ||
-      branch.curve.stop == StopReason::several_ways || branch.curve.stop == StopReason::no_way_out)
-    if (!branch.curve.hits.empty()) branch.curve.hits.back().stops = true;
+  Curve& traced = diagram_.branches[static_cast<std::size_t>(current_)].curve = std::move(curve);
   note_early_end();
   if (begin.attached) return;
   const Junction& junction = at(task.junction);
-  const Way& way = junction.ways[static_cast<std::size_t>(task.way)];
-  if (!attach_to_junction(walker_, options_, junction.point, way, branch.curve))
+  if (!attach_to_junction(walker_, options_, junction.point, way_of(task), traced))
     doubt(DoubtKind::not_attached, "a branch could not be traced back to its branch point",
           junction.point, task.junction);
 }
@@ -332,20 +319,12 @@ void Tracer::follow(const Task& task) {
 /// A branch that ended where nothing asked it to is a doubt.
 void Tracer::note_early_end() {
   const Curve& curve = diagram_.branches[static_cast<std::size_t>(current_)].curve;
-  const bool at_junction = !curve.hits.empty() && curve.hits.back().junction >= 0 &&
-                           curve.stop == StopReason::several_ways;
-  switch (curve.stop) {
-    case StopReason::event:
-    case StopReason::closed:
-    case StopReason::joined:
-    case StopReason::observer:
-      return;
-    case StopReason::several_ways:
-      if (at_junction || !options_.through_kinks) return;
-      break;
-    default:
-      break;
-  }
+  const bool at_junction = !curve.hits.empty() && curve.hits.back().junction >= 0;
+  constexpr std::array as_asked{StopReason::event, StopReason::closed, StopReason::joined,
+                                StopReason::observer};
+  if (std::ranges::find(as_asked, curve.stop) != as_asked.end() ||
+      (curve.stop == StopReason::several_ways && (at_junction || !options_.through_kinks)))
+    return;
   std::string text = "a branch stopped early: " + std::string(to_string(curve.stop));
   if (!curve.stop_detail.empty()) text += ": " + curve.stop_detail;
   doubt(DoubtKind::stopped_early, std::move(text), curve.points.back());

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
-#include <cassert>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
-#include "continuation/following/davidenko_arc.hpp"
-#include "continuation/following/many_points.hpp"
+#include "continuation/following/finished.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
+#include "continuation/points/locate.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/entry_checks.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -20,6 +20,121 @@ namespace {
 constexpr double integration_error = function_noise;  ///< of one step, relative to max(1, |u_i|)
 constexpr int order = 5;                              ///< of Dormand's and Prince's pair
 constexpr double no_rate = exact_model;               ///< |dlambda/ds| below this has no sign
+constexpr double largest_return =
+    root_of_rounding;  ///< farther from the curve the flow is not trusted
+
+using Value = std::function<double(const CurvePoint&)>;
+
+/// From one point of the curve along the flow, arc lengths t = 0 to h from there.
+struct FlowArc {
+  CurvePoint from{};
+  double h = 0;
+  std::function<Vector(double t)> dense{};  ///< (x, lambda), near the curve; n + 1 entries
+};
+
+/// Unit tangent at u = (x, lambda), on or beside the curve, oriented like that of `from`.
+std::optional<Direction> flow_at(const Walker& walker, const Vector& u, const CurvePoint& from) {
+  const Index n = u.size() - 1;
+  Linearisation linear;
+  if (!linearise(walker.problem, u.head(n), u[n], from.piece, linear)) return std::nullopt;
+  return tangent_at(linear, walker.weights, from.tangent);
+}
+
+/// Point of the curve at arc length t, brought back from the dense output.
+/// @returns nothing where that is too far away
+std::optional<CurvePoint> point_on_arc(const Walker& walker, const FlowArc& arc, double t) {
+  if (t == 0) return arc.from;
+  const Vector u = arc.dense(t);
+  const Index n = u.size() - 1;
+  const auto border = flow_at(walker, u, arc.from);
+  CurvePoint point{.s = arc.from.s + t, .x = u.head(n), .lambda = u[n]};
+  if (!border || !find_point(walker, arc.from.piece, *border, point)) return std::nullopt;
+  const double off =
+      std::max((point.x - u.head(n)).lpNorm<Eigen::Infinity>(), std::abs(point.lambda - u[n]));
+  if (!(off <= largest_return * std::max(1.0, u.lpNorm<Eigen::Infinity>()))) return std::nullopt;
+  return point;
+}
+
+/// Zero of a function between the arc lengths a and b from arc.from.
+std::optional<Located> zero_on_arc(const Walker& walker, const FlowArc& arc, double a, double b,
+                                   const Value& value) {
+  return locate([&](double t) { return point_on_arc(walker, arc, t); }, a, b,
+                walker.options.location_tolerance * arc.h, value);
+}
+
+/// Where the arc meets its first switching surface.
+struct ArcSurface {
+  std::optional<Located> met{};
+  std::string doubt{};  ///< set: a shorter step is needed; why
+};
+
+/// Values of the switches on the side of the point's piece, and their slopes along the curve.
+struct SwitchSides {
+  Vector values{}, slopes{};
+};
+
+std::optional<SwitchSides> sides_of(ProblemView problem, const CurvePoint& point) {
+  SwitchSides sides;
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!problem.switches(point.x, point.lambda, sides.values) ||
+      !problem.switch_gradients(point.x, point.lambda, dg_dx, dg_dlambda))
+    return std::nullopt;
+  sides.slopes = dg_dx * point.tangent.dx + point.tangent.dlambda * dg_dlambda;
+  for (Index j = 0; j < sides.values.size(); ++j) {
+    sides.values[j] *= point.piece[static_cast<std::size_t>(j)];
+    sides.slopes[j] *= point.piece[static_cast<std::size_t>(j)];
+  }
+  return sides;
+}
+
+/// Where switch j leaves its side between two samples, or dips below zero and comes back.
+ArcSurface surface_between(const Walker& walker, const FlowArc& arc, const CurvePoint& a,
+                           const CurvePoint& b, Index j, bool left) {
+  const std::string doubt = "close to " + walker.problem.switch_name(j);
+  const auto read = [&walker, j](Vector SwitchSides::*what) {
+    return [&walker, j, what](const CurvePoint& point) {
+      const auto sides = sides_of(walker.problem, point);
+      return sides ? ((*sides).*what)[j] : not_a_number;
+    };
+  };
+  const Value value = read(&SwitchSides::values), slope = read(&SwitchSides::slopes);
+  double begin = a.s - arc.from.s, end = b.s - arc.from.s;
+  if (!(value(b) < 0)) {
+    if (!(slope(a) < 0 && slope(b) > 0)) return {.doubt = std::isnan(value(b)) ? doubt : ""};
+    const auto lowest = zero_on_arc(walker, arc, begin, end, slope);
+    if (!lowest) return {.doubt = doubt};
+    if (!(value(lowest->point) < 0)) return {};
+    end = lowest->point.s - arc.from.s;
+  }
+  if (left) {  // it starts at zero: begin where it is clearly on its side
+    begin += tiny_share * (end - begin);
+    const auto beside = point_on_arc(walker, arc, begin);
+    if (!beside || !(value(*beside) > 0)) return {.doubt = doubt};
+  }
+  auto met = zero_on_arc(walker, arc, begin, end, value);
+  if (!met) return {.doubt = doubt};
+  return {.met = std::move(met)};
+}
+
+/// Where the arc meets its first switching surface.
+/// @param samples  points of the arc in order, the first is arc.from
+/// @param left  switches that are zero at arc.from because the curve leaves them there
+ArcSurface first_surface(const Walker& walker, const FlowArc& arc,
+                         const std::vector<CurvePoint>& samples, const std::vector<Index>& left) {
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    ArcSurface first;
+    for (Index j = 0; j < walker.problem.switch_count(); ++j) {
+      const bool leaves = k == 1 && std::find(left.begin(), left.end(), j) != left.end();
+      ArcSurface next = surface_between(walker, arc, samples[k - 1], samples[k], j, leaves);
+      if (!next.doubt.empty()) return next;
+      if (next.met && (!first.met || next.met->point.s < first.met->point.s))
+        first = std::move(next);
+    }
+    if (first.met) return first;
+  }
+  return {};
+}
 
 /// Integrates the flow over the arc length h.
 /// @returns the relative error of the step, nothing where the tangent is not defined
@@ -72,10 +187,14 @@ int sign_of(double value, double nothing = 0) {
 /// A function whose changes of sign are special points, with the last sign that it had.
 struct Watched {
   std::function<double(const CurvePoint&)> value{};
-  Hit hit{};  ///< kind and name
-  bool stops = false;
+  Hit hit{};           ///< what they are
   double nothing = 0;  ///< smaller values have no sign
   int sign = 0;
+
+  /// Where a curve begins, or begins again: what jumps at a kink has no zero there.
+  void begin_at(const CurvePoint& point) {
+    if (const int now = sign_of(value(point), nothing)) sign = now;
+  }
 };
 
 std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool limit_points) {
@@ -88,8 +207,10 @@ std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool 
   }
   for (const Event& event : events)
     all.push_back({.value = event.value,
-                   .hit = {.kind = HitKind::user, .name = event.name, .tag = event.tag},
-                   .stops = event.action == EventAction::stop});
+                   .hit = {.kind = HitKind::user,
+                           .name = event.name,
+                           .stops = event.action == EventAction::stop,
+                           .tag = event.tag}});
   return all;
 }
 
@@ -97,122 +218,89 @@ std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool 
 struct Walk {
   const Walker& walker;
   std::vector<Watched> watched{};
-  CurvePoint here{};
-  std::vector<Index> left{};  ///< switches that are zero at `here` and being left
-  double h = 0;
+  Progress progress{};
   Curve curve{};
 };
 
-enum class Advance { go_on, shorten, stop };
-
-Advance stop(Walk& walk, StopReason reason, std::string detail) {
+Outcome stop(Walk& walk, StopReason reason, std::string detail) {
   walk.curve.stop = reason;
   walk.curve.stop_detail = std::move(detail);
-  return Advance::stop;
+  return Outcome::stop;
 }
-
-struct FlowEvent {
-  Hit hit{};
-  bool stops = false;
-};
 
 /// Changes of sign of one function between the samples.
 /// @returns false where one could not be located
 bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
-                   const std::vector<CurvePoint>& samples, std::vector<FlowEvent>& found) {
-  std::size_t last = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const int sign = sign_of(watched.value(samples[k]), watched.nothing);
+                   const std::vector<CurvePoint>& samples, std::vector<Hit>& found) {
+  double last = 0;
+  for (const CurvePoint& sample : samples) {
+    const int sign = sign_of(watched.value(sample), watched.nothing);
     if (sign == 0) continue;
+    const double here = sample.s - arc.from.s;
     if (watched.sign * sign < 0) {
-      const double a = samples[last].s - arc.from.s, b = samples[k].s - arc.from.s;
-      const auto zero = zero_on_arc(walker, arc, a, b, watched.value);
+      const auto zero = zero_on_arc(walker, arc, last, here, watched.value);
       if (!zero) return false;
-      Hit hit = watched.hit;
-      hit.point = zero->point;
-      hit.s_before = arc.from.s + zero->before;
-      hit.s_after = arc.from.s + zero->after;
-      found.push_back({std::move(hit), watched.stops});
+      found.push_back(watched.hit);
+      found.back().point = zero->point;
+      found.back().s_before = arc.from.s + zero->before;
+      found.back().s_after = arc.from.s + zero->after;
     }
     watched.sign = sign;
-    last = k;
+    last = here;
   }
   return true;
 }
 
 /// Records what lies between the samples, in order.
-Advance record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
+Outcome record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
                std::string& refusal) {
   std::vector<Watched> watched = walk.watched;  // a refused step leaves no trace
-  std::vector<FlowEvent> found;
+  std::vector<Hit> found;
   for (Watched& w : watched)
     if (!find_zeros_of(w, walk.walker, arc, samples, found)) {
       refusal = "\"" + w.hit.name + "\" could not be located";
-      return Advance::shorten;
+      return Outcome::shorten;
     }
   walk.watched = std::move(watched);
-  std::stable_sort(found.begin(), found.end(), [](const FlowEvent& a, const FlowEvent& b) {
-    return a.hit.point.s < b.hit.point.s;
-  });
-  for (FlowEvent& f : found) {
-    walk.curve.hits.push_back(std::move(f.hit));
-    if (f.stops) return stop(walk, StopReason::event, walk.curve.hits.back().name);
+  sort_by_place(found);
+  for (const Hit& hit : found) {
+    walk.curve.hits.push_back(hit);
+    if (hit.stops) return stop(walk, StopReason::event, hit.name);
   }
-  return Advance::go_on;
+  return Outcome::go_on;
 }
 
 /// Takes the only way out of a switching surface, if there is only one.
-Advance leave_surface(Walk& walk, const ArcZero& met, double from) {
-  const ProblemView problem = walk.walker.problem;
-  const CurvePoint& arriving = met.point;
-  Hit hit{.kind = HitKind::kink,
-          .point = arriving,
-          .switches = active_switches(walk.walker, arriving.x, arriving.lambda),
-          .s_before = from + met.before,
-          .s_after = from + met.after};
-  hit.name = names_of(problem, hit.switches);
-  Rays rays{.complete = false, .why = "too many switches act at one point"};
-  if (hit.switches.size() <= 12)
-    rays = rays_at(walk.walker, arriving.x, arriving.lambda, arriving.piece, hit.switches);
-  for (const Ray& ray : rays.rays) {
-    const bool back = ray.piece == arriving.piece &&
-                      metric_product(walk.walker.weights, ray.tangent, arriving.tangent) < 0;
-    if (!back) hit.leaving.push_back(point_on_ray(walk.walker, arriving, ray));
-  }
-  const std::size_t ways = hit.leaving.size();
-  if (ways > 1) hit.kind = HitKind::branching_kink;
-  if (ways == 1 && rays.complete) {
-    walk.here = hit.leaving.front();
-    walk.left = hit.switches;
-    walk.h = std::min(walk.h, walk.walker.options.step.initial);
-    if (sign_of(walk.here.tangent.dlambda) * sign_of(arriving.tangent.dlambda) < 0)
-      hit.kind = HitKind::corner;
-    for (Watched& watched : walk.watched)  // what jumps at a kink has no zero there
-      if (const int sign = sign_of(watched.value(walk.here), watched.nothing)) watched.sign = sign;
-  }
-  walk.curve.hits.push_back(hit);
-  if (ways == 0) return stop(walk, StopReason::no_way_out, "no way out at " + hit.name);
-  if (ways > 1)
-    return stop(walk, StopReason::several_ways, std::to_string(ways) + " ways out at " + hit.name);
-  if (!rays.complete) return stop(walk, StopReason::several_ways, "unresolved kink: " + rays.why);
-  return Advance::go_on;
+Outcome leave_surface(Walk& walk, const Located& met) {
+  const KinkSearch kink{.status = KinkSearch::Status::found,
+                        .point = met.point,
+                        .before = met.before,
+                        .after = met.after,
+                        .active = active_switches(walk.walker, met.point.x, met.point.lambda)};
+  const double h = walk.progress.ds;
+  const Outcome outcome = pass_kink(walk.walker, kink, walk.progress, walk.curve);
+  if (outcome != Outcome::go_on) return outcome;
+  walk.progress.ds = std::min(walk.progress.ds, h);
+  for (Watched& watched : walk.watched) watched.begin_at(walk.progress.here);
+  return outcome;
 }
 
 /// The step itself: integrated and judged, then brought back onto the curve at four places.
 /// @returns the start and these four; nothing if the step is refused
 std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::string& refusal) {
   const StepOptions& options = walk.walker.options.step;
-  const double h = walk.h;
-  const auto error = integrate(walk.walker, walk.here, h, arc);
+  const double h = walk.progress.ds;
+  double& next = walk.progress.ds;
+  const auto error = integrate(walk.walker, walk.progress.here, h, arc);
   if (!error) {
     refusal = "the tangent is not defined somewhere on the step";
-    walk.h = 0.5 * h;
+    next = 0.5 * h;
     return std::nullopt;
   }
   const double factor = *error > 0
                             ? (1 - small_share) * std::pow(integration_error / *error, 1.0 / order)
                             : options.growth;
-  walk.h = std::clamp(h * std::clamp(factor, aside_share, options.growth), 0.0, options.maximum);
+  next = std::clamp(h * std::clamp(factor, aside_share, options.growth), 0.0, options.maximum);
   if (!(*error <= integration_error)) {
     refusal = "error of the integration " + rounded(*error);
     return std::nullopt;
@@ -222,7 +310,7 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::strin
     auto point = point_on_arc(walk.walker, arc, k < 4 ? k * h / 4 : h);
     if (!point) {
       refusal = "the end of the step is not close to the curve";
-      walk.h = 0.5 * h;
+      next = 0.5 * h;
       return std::nullopt;
     }
     samples.push_back(std::move(*point));
@@ -231,32 +319,32 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::strin
       std::min(1.0, metric_product(walk.walker.weights, arc.from.tangent, samples.back().tangent)));
   if (!(turn <= options.turn)) {
     refusal = "tangent turned by " + rounded(turn * 180 / std::numbers::pi) + " deg";
-    walk.h = 0.5 * h;
+    next = 0.5 * h;
     return std::nullopt;
   }
   return samples;
 }
 
-Advance advance(Walk& walk, std::string& refusal) {
-  const double h = walk.h;
+Outcome advance(Walk& walk, std::string& refusal) {
+  const double h = walk.progress.ds;
   FlowArc arc;
   auto samples = step(walk, arc, refusal);
-  if (!samples) return Advance::shorten;
-  ArcSurface surface = first_surface(walk.walker, arc, *samples, walk.left);
+  if (!samples) return Outcome::shorten;
+  ArcSurface surface = first_surface(walk.walker, arc, *samples, walk.progress.left);
   if (surface.met) {
     while (samples->back().s >= surface.met->point.s && samples->size() > 1) samples->pop_back();
     samples->push_back(surface.met->point);
   }
   refusal = surface.doubt;
-  const Advance recorded =
-      refusal.empty() ? record(walk, arc, *samples, refusal) : Advance::shorten;
-  if (recorded == Advance::shorten) walk.h = 0.5 * h;
-  if (recorded != Advance::go_on) return recorded;
-  if (surface.met) return leave_surface(walk, *surface.met, arc.from.s);
-  walk.here = std::move(samples->back());
-  walk.left.clear();
-  walk.curve.points.push_back(walk.here);
-  return Advance::go_on;
+  const Outcome recorded =
+      refusal.empty() ? record(walk, arc, *samples, refusal) : Outcome::shorten;
+  if (recorded == Outcome::shorten) walk.progress.ds = 0.5 * h;
+  if (recorded != Outcome::go_on) return recorded;
+  if (surface.met) return leave_surface(walk, *surface.met);
+  walk.progress.here = std::move(samples->back());
+  walk.progress.left.clear();
+  walk.curve.points.push_back(walk.progress.here);
+  return Outcome::go_on;
 }
 
 }  // namespace
@@ -268,29 +356,27 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
   check_ray(problem, start);
   const Walker walker{problem, problem.metric(), options};
   Walk walk{walker, everything_to_watch(events, options.limit_points)};
-  walk.here.x = x;
-  walk.here.lambda = lambda;
-  walk.here = point_on_ray(walker, walk.here, start);
-  walk.left = active_switches(walker, x, lambda);
-  walk.h = options.step.initial;
-  for (Watched& watched : walk.watched)
-    watched.sign = sign_of(watched.value(walk.here), watched.nothing);
-  walk.curve.points = {walk.here};
+  Progress& progress = walk.progress;
+  progress.here = point_on_ray(walker, {.x = x, .lambda = lambda}, start);
+  progress.left = active_switches(walker, x, lambda);
+  progress.ds = options.step.initial;
+  for (Watched& watched : walk.watched) watched.begin_at(progress.here);
+  walk.curve.points = {progress.here};
   walk.curve.stop = StopReason::max_points;
 
   while (static_cast<int>(walk.curve.points.size()) < options.maximum_points) {
-    const double from = walk.here.s, tried = walk.h;
+    const double from = progress.here.s, tried = progress.ds;
     std::string refusal;
-    const Advance outcome = advance(walk, refusal);
-    if (outcome == Advance::stop) return std::move(walk.curve);
-    if (outcome == Advance::shorten) {
+    const Outcome outcome = advance(walk, refusal);
+    if (outcome == Outcome::stop) return std::move(walk.curve);
+    if (outcome == Outcome::shorten) {
       walk.curve.log.push_back({from, tried, refusal});
-      if (walk.h >= options.step.minimum) continue;
+      if (progress.ds >= options.step.minimum) continue;
       stop(walk, StopReason::step_too_small, refusal);
       return std::move(walk.curve);
     }
-    walk.h = std::max(walk.h, options.step.minimum);
-    if (observer && !observer(walk.here)) {
+    progress.ds = std::max(progress.ds, options.step.minimum);
+    if (observer && !observer(progress.here)) {
       stop(walk, StopReason::observer, "");
       return std::move(walk.curve);
     }

@@ -1,6 +1,8 @@
 #include "continuation/following/keep_hits.hpp"
 
-#include "continuation/locating/unexplained.hpp"
+#include <algorithm>
+#include <cmath>
+
 #include "continuation/locating/watched_step.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -24,18 +26,18 @@ bool is_quiet(const Event& event, const CurvePoint& junction, const CurvePoint& 
 
 }  // namespace
 
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
           Curve& curve) {
   const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
-  for (std::size_t i = 0, next = 0; i < found.hits.size(); ++i) {
-    if (is_reported(curve, found.hits[i])) continue;
-    for (; next < between.size() && between[next].s < found.hits[i].point.s; ++next)
-      curve.points.push_back(between[next]);
-    const bool stops = found.stops[i];
-    curve.hits.push_back(found.hits[i]);
-    if (!stops && (!at_hit || at_hit(curve.hits.back()))) continue;
-    curve.stop = stops ? StopReason::event : StopReason::joined;
-    curve.stop_detail = curve.hits.back().name;
+  auto next = between.begin();
+  for (const Hit& hit : found.hits) {
+    if (is_reported(curve, hit)) continue;
+    for (; next != between.end() && next->s < hit.point.s; ++next) curve.points.push_back(*next);
+    curve.hits.push_back(hit);
+    if (!hit.stops && (!at_hit || at_hit(hit))) continue;
+    curve.hits.back().stops = true;
+    curve.stop = hit.stops ? StopReason::event : StopReason::joined;
+    curve.stop_detail = hit.name;
     return true;
   }
   return false;
@@ -44,18 +46,62 @@ bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, Step
 Outcome pass_opening(const Walker& walker, const std::vector<Event>& events,
                      const HitObserver& at_hit, const Opening& opening, Progress& progress,
                      Curve& curve) {
-  Walker plain = walker;
-  plain.options.limit_points = plain.options.branch_points = false;
   const CurvePoint &middle = opening.middle.point, &end = opening.kink.point;
   std::vector<Event> wanted;
   for (const Event& event : events)
     if (!is_quiet(event, progress.here, middle, end)) wanted.push_back(event);
-  StepEvents found = events_on_step(plain, progress.here, end, &middle, wanted);
+  StepEvents found =
+      events_on_step(without_special_points(walker), progress.here, end, &middle, wanted);
   if (!found.doubt.empty()) add_unresolved(progress.here, end, found, curve);
   if (keep(walker, StepSamples(progress.here, &middle, end), at_hit, found, curve))
     return Outcome::stop;
   if (found.hits.empty()) curve.points.push_back(middle);
   return pass_kink(walker, opening.kink, progress, curve, &opening.middle);
+}
+
+void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,
+                    Curve& curve) {
+  const int count = std::max(1, found.unexplained);
+  if (!curve.hits.empty() && curve.hits.back().kind == HitKind::unresolved &&
+      from.s - curve.hits.back().s_after < 1000 * unresolved_length) {
+    curve.hits.back().s_after = to.s;
+    if (!found.flat) curve.hits.back().multiplicity += count;
+    return;
+  }
+  Hit hit{.kind = HitKind::unresolved, .name = "unresolved: " + found.doubt};
+  hit.point = to;
+  hit.multiplicity = count;
+  hit.s_before = from.s;
+  hit.s_after = to.s;
+  curve.hits.push_back(std::move(hit));
+}
+
+void account_over_gap(Curve& curve) {
+  const CurvePoint& here = curve.points.back();
+  auto known = curve.points.rbegin() + 1;
+  while (known != curve.points.rend() && !known->negative) ++known;
+  if (!here.negative || known == curve.points.rend() || known == curve.points.rbegin() + 1) return;
+  int most = 0;
+  bool odd = false, parity = true;
+  for (const Hit& hit : curve.hits) {
+    if (hit.point.s < known->s || hit.kind == HitKind::user) continue;
+    const bool branch_point = hit.kind == HitKind::branch_point;
+    const bool limit_point = hit.kind == HitKind::limit_point;
+    if (!branch_point && !limit_point && hit.kind != HitKind::touch) return;
+    most += branch_point ? hit.multiplicity + 1 : limit_point ? 1 : 0;
+    odd = odd != limit_point;
+    parity = parity && !branch_point;  // lambda may turn there as well
+  }
+  const auto change = static_cast<int>(std::abs(*here.negative - *known->negative));
+  if (change <= most && (!parity || (change % 2 == 1) == odd)) return;
+  Hit hit{
+      .kind = HitKind::unresolved,
+      .name = "unresolved: number of negative eigenvalues and special points do not fit together"};
+  hit.point = here;
+  hit.multiplicity = std::max(1, change);
+  hit.s_before = known->s;
+  hit.s_after = here.s;
+  curve.hits.push_back(std::move(hit));
 }
 
 }  // namespace springfold::continuation

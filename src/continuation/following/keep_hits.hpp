@@ -3,16 +3,17 @@
 
 #include <vector>
 
+#include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/opening.hpp"
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/trace.hpp"
 
 namespace springfold::continuation {
 
 /// Keeps the special points of a step and, between any two, a point of the curve with the index there.
 /// @returns whether the curve ends at one of them
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, StepEvents& found,
+bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
           Curve& curve);
 
 /// The way to a surface just beside the singular point that the curve leaves, and past it: nothing of the engine's own lies
@@ -20,5 +21,16 @@ bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, Step
 Outcome pass_opening(const Walker& walker, const std::vector<Event>& events,
                      const HitObserver& at_hit, const Opening& opening, Progress& progress,
                      Curve& curve);
+
+/// Steps are not shortened below this to separate special points; what is left is one cluster.
+inline constexpr double unresolved_length = poor;
+
+/// Neighbouring unresolved steps are one cluster with its total multiplicity.
+void add_unresolved(const CurvePoint& from, const CurvePoint& to, const StepEvents& found,
+                    Curve& curve);
+
+/// Steps may end where an eigenvalue is zero to rounding. From the last point before them with a count of negative
+/// eigenvalues to the new one, the special points must explain its change.
+void account_over_gap(Curve& curve);
 
 }  // namespace springfold::continuation

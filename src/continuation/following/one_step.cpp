@@ -1,27 +1,57 @@
 #include "continuation/following/one_step.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "continuation/following/keep_hits.hpp"
-#include "continuation/following/own_branch.hpp"
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/unexplained.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
 
+/// Newton's method is drawn to the branch that is nearest. Where the matrix hardly changes within the length of its first
+/// correction, that is where it came from; elsewhere nothing says which branch a step along the tangent has found.
+/// To be asked right after the correction, whose lengths the working memory holds.
+/// @param ds       length of the step
+/// @param refusal  why, if so
+bool may_be_another(const Walker& walker, const CurvePoint& to, double ds, std::string& refusal) {
+  const NewtonResult& newton = walker.memory->newton;
+  const double moved = newton.corrections.empty() ? 0 : newton.corrections.front();
+  // Branches that are nearer than such points are to each other are looked for at narrow places.
+  if (moved <= same_point * (1 + to.x.norm())) return false;
+  if (stays_within(WatchedStep(walker, to, ds), to, moved, small_share)) return false;
+  refusal = "another branch may be as near as the corrected point is to the predicted one";
+  return true;
+}
+
+/// The curve through the step's middle as well, which was found by itself, must lead nearer to the step's end than the one from
+/// behind the step alone: on a smooth curve its error is smaller by an order of magnitude, while another branch is as far
+/// from the one as from the other. In a cluster, where rounding moves points by more than places are wide, nothing is asked.
+/// @param behind  the model of the curve up to the step
+/// @param before  the last point before `here` that it knows
+bool leads_on(const Walker& walker, const ArcModel& behind, const CurvePoint& before,
+              const CurvePoint& here, const CurvePoint& middle, const CurvePoint& to) {
+  ArcModel& nearer = walker.memory->ahead;
+  if (!nearer.go_through(walker.weights, here, StepSamples(before, &here, middle))) return true;
+  const double off = distance_of(walker, nearer, here, to);
+  // Rounding of exact points and tangents is magnified where a model leads on beyond its nodes by their own length.
+  if (off <= one_place * (1 + to.x.norm()) || off <= 0.5 * distance_of(walker, behind, here, to))
+    return true;
+  // In a cluster, where rounding moves points by more than one place is wide, nothing is told apart anyway.
+  return std::ranges::any_of(std::array{&middle, &to}, [&](const CurvePoint* p) {
+    const auto other = separation_at(WatchedStep(walker, *p, to.s - here.s), *p);
+    return other && other->blur > one_place && off <= between_samples * other->blur;
+  });
+}
+
 /// Special points behind the place at which a curve closes were met at its start, one at this place now.
 void end_at(const CurvePoint& start, StepEvents& found) {
   constexpr double same_place = same_point;
-  for (std::size_t i = found.hits.size(); i-- > 0;) {
-    if (found.hits[i].point.s <= start.s + same_place) continue;
-    found.hits.erase(found.hits.begin() + static_cast<std::ptrdiff_t>(i));
-    found.stops.erase(found.stops.begin() + static_cast<std::ptrdiff_t>(i));
-  }
+  std::erase_if(found.hits, [&](const Hit& hit) { return hit.point.s > start.s + same_place; });
 }
 
 /// The middle of the last step, where it is known.
@@ -72,62 +102,89 @@ bool closes_behind_kink(const Walker& walker, const CurvePoint& leaving, Curve& 
   return true;
 }
 
+/// Predicts, corrects and looks inside: does the step stay on its curve? Its end and, if there is evidence, its middle stand in
+/// the working memory.
+bool take_step(const Walker& walker, const Progress& progress, const Curve& curve,
+               StepReport& report, Refusal& refused) {
+  CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
+  const CurvePoint& here = progress.here;
+  const ArcModel *const behind = model_behind(walker, progress, curve), *model = behind;
+  if (model && !try_step(walker, here, progress.ds, model, next, report)) model = nullptr;
+  if (!model && (!try_step(walker, here, progress.ds, nullptr, next, report) ||
+                 may_be_another(walker, next, progress.ds, report.refusal)))
+    return false;
+  if (!walker.options.verify) return true;
+  examine(walker, model, here, next, half_way, report.refusal);
+  if (!report.refusal.empty()) return false;
+  const CurvePoint* known = middle_behind(progress);
+  refused.astray =
+      behind && !leads_on(walker, *behind, known ? *known : progress.before, here, half_way, next);
+  if (refused.astray)
+    report.refusal = "the end is not where the curve leads: another branch may be near";
+  return !refused.astray;
+}
+
+/// May the curve go on past special points that are not told apart? They are then one unresolved point.
+bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progress, Curve& curve,
+               Refusal& refused) {
+  if (!found.doubt.empty() && !found.of_caller && beside_junction(progress, end))
+    accept_beside_junction(progress.ds, found, progress, curve);
+  if (progress.blurred && beside_junction(progress, end)) end.negative.reset();
+  if (found.doubt.empty()) return true;
+  refused = {.reason = found.doubt, .special = true, .passing = found.passing};
+  const bool shortest = progress.ds <= unresolved_length && report && !found.passing;
+  if (shortest || found.flat) add_unresolved(progress.here, end, found, curve);
+  return shortest || found.flat;
+}
+
+/// Takes the end of the step, or the start of the curve that it passes, as the place where the curve is.
+void move_on(const Following& following, const CurvePoint* start, Progress& progress,
+             Curve& curve) {
+  WorkingMemory& memory = *following.walker.memory;
+  std::swap(progress.before, progress.here);
+  if (start)
+    progress.here = *start;
+  else
+    std::swap(progress.here, memory.next);
+  if (following.walker.options.verify) {
+    std::swap(progress.middle, memory.middle);
+    if (following.middles) following.middles->push_back(progress.middle);
+  }
+  progress.left.clear();
+  curve.points.push_back(progress.here);
+  account_over_gap(curve);
+}
+
 }  // namespace
 
 Outcome advance(const Following& following, bool report, Progress& progress, Curve& curve,
                 Refusal& refused) {
   const Walker& walker = following.walker;
-  std::string& refusal = refused.reason;
-  CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
-  StepMeasures measures;
-  const ArcModel *const behind = model_behind(walker, progress, curve), *model = behind;
-  if (model && !try_step(walker, progress.here, progress.ds, model, next, measures, refusal))
-    model = nullptr;
-  if (!model && (!try_step(walker, progress.here, progress.ds, nullptr, next, measures, refusal) ||
-                 may_be_another(walker, next, progress.ds, refusal)))
+  StepReport step;
+  if (!take_step(walker, progress, curve, step, refused)) {
+    refused.reason = step.refusal;
     return Outcome::shorten;
-  const CurvePoint* middle = nullptr;
-  if (walker.options.verify) {
-    examine(walker, model, progress.here, next, half_way, refusal);
-    if (!refusal.empty()) return Outcome::shorten;
-    middle = &half_way;
-    const CurvePoint* known = middle_behind(progress);
-    if (behind && !leads_on(walker, *behind, known ? *known : progress.before, progress.here,
-                            half_way, next)) {
-      refusal = "the end is not where the curve leads: another branch may be near";
-      refused.astray = true;
-      return Outcome::shorten;
-    }
   }
+  const CurvePoint& next = walker.memory->next;
+  const CurvePoint* middle = walker.options.verify ? &walker.memory->middle : nullptr;
   KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
-    refusal = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
-                                               : std::string("a switching surface"));
+    refused.reason = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
+                                                      : std::string("a switching surface"));
     return Outcome::shorten;
   }
   const auto start = start_again(walker, curve.points.front(), progress.here, next);
   const bool meets_kink = kink.status == KinkSearch::Status::found;
   const bool closed = start && !(meets_kink && kink.point.s < start->s);
-  CurvePoint& end = meets_kink ? kink.point : next;
+  CurvePoint& end = meets_kink ? kink.point : walker.memory->next;
   if (closed) kink.status = KinkSearch::Status::none;
-  const bool cut = meets_kink && !closed;
   StepEvents found = passage_events(walker, progress, kink, end, middle, following.events, curve);
   if (closed) end_at(*start, found);
-  if (!found.doubt.empty() && !found.of_caller && beside_junction(progress, end))
-    accept_beside_junction(progress.ds, found, progress, curve);
-  if (progress.blurred && beside_junction(progress, end)) end.negative.reset();
-  if (!found.doubt.empty()) {
-    refusal = found.doubt;
-    refused.special = true;
-    refused.passing = found.passing;
-    const bool shortest = progress.ds <= unresolved_length && report && !found.passing;
-    if (!shortest && !found.flat) return Outcome::shorten;
-    add_unresolved(progress.here, end, found, curve);
-  }
+  if (!passes_by(report, end, found, progress, curve, refused)) return Outcome::shorten;
   if (keep(walker, StepSamples(progress.here, middle && middle->s < end.s ? middle : nullptr, end),
            following.at_hit, found, curve))
     return Outcome::stop;
-  if (cut) {
+  if (meets_kink && !closed) {
     curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,
                          "cut: " + names_of(walker.problem, kink.active)});
     const Outcome passed = pass_kink(walker, kink, progress, curve);
@@ -135,25 +192,14 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
                ? Outcome::stop
                : passed;
   }
-  std::swap(progress.before, progress.here);
-  if (closed)
-    progress.here = *start;
-  else
-    std::swap(progress.here, next);
-  if (middle) {
-    std::swap(progress.middle, half_way);
-    if (following.middles) following.middles->push_back(progress.middle);
-  }
-  progress.left.clear();
-  curve.points.push_back(progress.here);
-  account_over_gap(curve);
+  move_on(following, closed ? &*start : nullptr, progress, curve);
   if (closed) {
     curve.stop = StopReason::closed;
     return Outcome::stop;
   }
   // Past something unresolved the next step gets away from it.
   progress.ds = found.doubt.empty() || found.flat
-                    ? next_step_length(progress.ds, measures, walker.options.step)
+                    ? next_step_length(progress.ds, step.measures, walker.options.step)
                     : std::min(100 * unresolved_length, walker.options.step.maximum);
   return Outcome::go_on;
 }

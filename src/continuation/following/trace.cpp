@@ -1,12 +1,10 @@
 #include "springfold/continuation/trace.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "continuation/following/finished.hpp"
 #include "continuation/following/keep_hits.hpp"
-#include "continuation/following/many_points.hpp"
-#include "continuation/following/narrow_places.hpp"
 #include "continuation/following/one_step.hpp"
 #include "continuation/following/wider_steps.hpp"
 #include "continuation/kinks/beside.hpp"
@@ -101,12 +99,23 @@ Curve trace_inside(ProblemView problem, const Vector& x, double lambda, const Ra
   return curve;
 }
 
-/// Those whose steps were not taken back.
-void keep_middles_of(const Curve& curve, std::vector<CurvePoint>& middles) {
-  std::stable_sort(middles.begin(), middles.end(),
-                   [](const CurvePoint& a, const CurvePoint& b) { return a.s < b.s; });
-  const double end = curve.points.back().s;
-  std::erase_if(middles, [end](const CurvePoint& p) { return !(p.s < end); });
+/// trace() in the engine's own units.
+Curve trace_normalised(ProblemView problem, const Vector& x, double lambda, const Ray& start,
+                       const std::vector<Event>& events, const TraceOptions& options,
+                       const StepObserver& observer, const HitObserver& at_hit,
+                       std::vector<CurvePoint>* middles) {
+  check_entry(problem, x, lambda, start.piece, options);
+  check_ray(problem, start);
+  const Normalised own(problem, x, lambda, start.piece);
+  Curve curve =
+      own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start), own.inside(events),
+                               options, own.inside(observer), own.inside(at_hit), middles));
+  if (!middles) return curve;
+  // Those whose steps were not taken back.
+  std::ranges::stable_sort(*middles, {}, &CurvePoint::s);
+  std::erase_if(*middles, [&](const CurvePoint& p) { return !(p.s < curve.points.back().s); });
+  for (CurvePoint& middle : *middles) middle = own.outside(std::move(middle));
+  return curve;
 }
 
 }  // namespace
@@ -128,12 +137,7 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
 Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& start,
             const std::vector<Event>& events, const TraceOptions& options,
             const StepObserver& observer, const HitObserver& at_hit) {
-  check_entry(problem, x, lambda, start.piece, options);
-  check_ray(problem, start);
-  const Normalised own(problem, x, lambda, start.piece);
-  return own.outside(trace_in_own_units(own, own.inside(x), lambda, own.inside(start),
-                                        own.inside(events), options, own.inside(observer),
-                                        own.inside(at_hit)));
+  return trace_normalised(problem, x, lambda, start, events, options, observer, at_hit, nullptr);
 }
 
 Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
@@ -145,15 +149,7 @@ Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, co
 Curve trace_with_middles(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                          const std::vector<Event>& events, const TraceOptions& options,
                          const StepObserver& observer, std::vector<CurvePoint>& middles) {
-  check_entry(problem, x, lambda, start.piece, options);
-  check_ray(problem, start);
-  const Normalised own(problem, x, lambda, start.piece);
-  Curve curve =
-      own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start), own.inside(events),
-                               options, own.inside(observer), {}, &middles));
-  keep_middles_of(curve, middles);
-  for (CurvePoint& middle : middles) middle = own.outside(std::move(middle));
-  return curve;
+  return trace_normalised(problem, x, lambda, start, events, options, observer, {}, &middles);
 }
 
 }  // namespace springfold::continuation

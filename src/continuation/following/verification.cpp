@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "continuation/following/tube_test.hpp"
-#include "continuation/locating/determined.hpp"
+#include "continuation/locating/evidence.hpp"
+#include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
@@ -22,60 +23,6 @@ constexpr int most_halvings = 7;
 /// A branch that crosses under a small angle is left by at least an eighth of its distance: less is the model's own error.
 constexpr double own_branch = small_share;
 
-/// Points of the curve on one smooth piece, in order; neighbours that are equal stand once.
-using Stretch = std::vector<CurvePoint>;
-
-/// The points of a curve, parted at kinks, up to the special point that ended it.
-class Stretches {
- public:
-  explicit Stretches(const Walker& walker) : walker_{walker} {}
-
-  std::vector<Stretch> of(const Curve& curve) {
-    found_.clear();
-    begin(curve.points.front());
-    std::size_t h = 0;
-    const auto take_hits = [&](double until) {
-      for (; h < curve.hits.size() && curve.hits[h].point.s <= until; ++h) {
-        const Hit& hit = curve.hits[h];
-        const bool last = h + 1 == curve.hits.size() && hit.point.s > curve.points.back().s;
-        if (hit.switches.empty() && !last) continue;
-        add(hit.point);
-        begin(hit.leaving.empty() ? hit.point : hit.leaving.front());
-      }
-    };
-    for (std::size_t i = 1; i < curve.points.size(); ++i) {
-      take_hits(curve.points[i].s);
-      add(curve.points[i]);
-    }
-    take_hits(infinity);
-    std::erase_if(found_, [](const Stretch& s) { return s.size() < 2; });
-    return std::move(found_);
-  }
-
-  std::vector<Arc> gaps{};  ///< between pieces, without a kink that was found
-
- private:
-  void begin(const CurvePoint& point) { found_.push_back({point}); }
-
-  /// Seen from the point before: a closed curve may end at another copy of its start, whole periods away.
-  void add(const CurvePoint& point) {
-    Stretch& stretch = found_.back();
-    const CurvePoint& before = stretch.back();
-    if (!(point.s > before.s)) return;
-    if (point.piece != before.piece) {
-      gaps.push_back({.s_begin = before.s, .s_end = point.s});
-      return begin(point);
-    }
-    CurvePoint next = point;
-    next.x = before.x + between(walker_, before, point).dx;
-    next.tangent = direction_seen_from(walker_, before.x, point);
-    stretch.push_back(std::move(next));
-  }
-
-  const Walker& walker_;
-  std::vector<Stretch> found_{};
-};
-
 /// One arc after the other, each cut into windows as the test needs them.
 class Verifier {
  public:
@@ -85,9 +32,7 @@ class Verifier {
   void verify(std::size_t k) {
     arc_ = k;
     passes_.reset();
-    const Direction chord{points_[k + 1].x - points_[k].x,
-                          points_[k + 1].lambda - points_[k].lambda};
-    way_ = metric_product(walker_.weights, chord, points_[k].tangent);
+    way_ = way_to(walker_.weights, points_[k], points_[k + 1]);
     if (make_model(k))
       window({0, way_}, 0);
     else
@@ -156,7 +101,7 @@ class Verifier {
     if (!model.go_through(walker_.weights, points_[from], nodes)) return false;
     const WatchedStep step(walker_, to, length(arc_));
     const auto other = separation_at(step, to);
-    const double off = distance_of(walker_.weights, model, points_[from], to);
+    const double off = distance_of(walker_, model, points_[from], to);
     return other && std::isfinite(other->blur) && off <= own_branch * other->distance;
   }
 
@@ -192,25 +137,19 @@ std::vector<Arc> verified_arcs(ProblemView problem, const Curve& curve,
   const CurvePoint& start = curve.points.front();
   const Normalised own(problem, start.x, start.lambda, start.piece);
   const Walker walker{own, own.metric(), options};
-  Curve inside;
-  for (const CurvePoint& p : curve.points) inside.points.push_back(own.inside(p));
-  for (Hit hit : curve.hits) {
-    hit.point = own.inside(hit.point);
-    for (CurvePoint& p : hit.leaving) p = own.inside(p);
-    inside.hits.push_back(std::move(hit));
-  }
-  Stretches stretches(walker);
-  for (const Stretch& stretch : stretches.of(inside)) {
+  double end = start.s;
+  for (const Stretch& stretch : smooth_stretches(walker, own, curve)) {
+    // Between pieces, without a kink that was found.
+    if (end < stretch.front().s) arcs.push_back({.s_begin = end, .s_end = stretch.front().s});
+    end = stretch.back().s;
+    if (stretch.size() < 2) continue;
     if (problem.structured()) {
-      arcs.push_back({stretch.front().s, stretch.back().s});
+      arcs.push_back({stretch.front().s, end});
       continue;
     }
     Verifier verifier(walker, stretch, arcs);
     for (std::size_t k = 0; k + 1 < stretch.size(); ++k) verifier.verify(k);
   }
-  arcs.insert(arcs.end(), stretches.gaps.begin(), stretches.gaps.end());
-  std::stable_sort(arcs.begin(), arcs.end(),
-                   [](const Arc& a, const Arc& b) { return a.s_begin < b.s_begin; });
   return arcs;
 }
 

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "continuation/following/keep_hits.hpp"
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/unexplained.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/samples.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -17,14 +16,12 @@ namespace {
 /// A curve on which steps end elsewhere more often than this is crowded all along: shorter steps, which are counted, lead on.
 constexpr int most_elsewhere = 200;
 /// Share of the anchor's step: a cluster is not crossed from nearer to it.
-constexpr double near_cluster = 0.2;
+constexpr double near_cluster = aside_share;
 
 /// Crosses a cluster of special points in one step from `before.here`, looking for the caller's events only.
 bool cross_from(const Following& following, const Progress& before, double ds, Progress& progress,
                 Curve& curve) {
   const Walker& walker = following.walker;
-  Walker plain = walker;
-  plain.options.limit_points = plain.options.branch_points = false;
   const CurvePoint& from = before.here;
   const StepResult step = try_step(walker, from, ds);
   if (!step.point) return false;
@@ -34,8 +31,8 @@ bool cross_from(const Following& following, const Progress& before, double ds, P
   if (first_kink(walker, from, *step.point, {}).status != KinkSearch::Status::none) return false;
   auto cluster = cluster_on_step(walker, StepSamples(from, &*evidence.middle, *step.point));
   if (!cluster) return false;
-  const StepEvents wanted =
-      events_on_step(plain, from, *step.point, &*evidence.middle, following.events);
+  const StepEvents wanted = events_on_step(without_special_points(walker), from, *step.point,
+                                           &*evidence.middle, following.events);
   if (!wanted.hits.empty() || !wanted.doubt.empty()) return false;
   std::erase_if(curve.points, [&](const CurvePoint& p) { return p.s > from.s; });
   curve.log.push_back({from.s, ds, "crosses a cluster of special points in one step"});

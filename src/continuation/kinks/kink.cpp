@@ -4,8 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/kinks/piece_ways.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
@@ -45,55 +44,33 @@ std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const Pie
   return sides;
 }
 
-/// Collects rays; one that several pieces share because switches rest on it is kept once.
-class Collector {
- public:
-  Collector(const Walker& walker, const Piece& preferred)
-      : walker_{walker}, preferred_{preferred} {}
+void add_doubt(std::string why, Rays& rays) {
+  rays.complete = false;
+  rays.why = std::move(why);
+}
 
-  Rays result{};
-
-  void doubt(std::string why) {
-    result.complete = false;
-    result.why = std::move(why);
-  }
-
-  /// True if this ray of this piece is known already from a piece beyond its resting switches. It is kept in the
-  /// piece that was asked for, if that is regular.
-  bool known(const Piece& piece, const Direction& d, double accuracy, bool regular) {
-    for (Ray& ray : result.rays) {
-      if (!differ_only(ray.piece, piece, ray.resting) ||
-          !same_direction(walker_.weights, ray.tangent, d, 10 * accuracy))
-        continue;
-      if (regular && !ray.resting.empty() && differ_only(piece, preferred_, others(ray.resting)))
-        ray.piece = piece;
-      return true;
-    }
-    return false;
-  }
-
- private:
-  static bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
-    for (std::size_t j = 0; j < a.size(); ++j)
-      if (a[j] != b[j] &&
-          std::find(where.begin(), where.end(), static_cast<Index>(j)) == where.end())
-        return false;
+/// Is this way of a piece known already from a piece beyond its resting switches? Such a ray is kept once, in the piece that was
+/// asked for, if that is regular.
+bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, const PieceWay& way,
+              Rays& rays) {
+  for (Ray& ray : rays.rays) {
+    if (!differ_only(ray.piece, piece, ray.resting) ||
+        !(length_of(walker, difference(ray.tangent, way.tangent)) <= 10 * way.accuracy))
+      continue;
+    const auto as_preferred = [&](Index j) {
+      return piece[static_cast<std::size_t>(j)] == preferred[static_cast<std::size_t>(j)];
+    };
+    if (!way.start && !ray.resting.empty() &&
+        std::all_of(ray.resting.begin(), ray.resting.end(), as_preferred))
+      ray.piece = piece;
     return true;
   }
-  std::vector<Index> others(const std::vector<Index>& resting) const {
-    std::vector<Index> rest;
-    for (Index j = 0; j < static_cast<Index>(preferred_.size()); ++j)
-      if (std::find(resting.begin(), resting.end(), j) == resting.end()) rest.push_back(j);
-    return rest;
-  }
-
-  const Walker& walker_;
-  const Piece& preferred_;
-};
+  return false;
+}
 
 /// Keeps one direction of one piece if it leads into the piece.
 void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
-           const Surfaces& surfaces, Collector& collector) {
+           const Surfaces& surfaces, const Piece& preferred, Rays& rays) {
   std::vector<Index> grazed, resting;
   for (const Index j : surfaces.active) {
     const double rate = at.piece[static_cast<std::size_t>(j)] *
@@ -101,19 +78,18 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
     if (rate < -way.accuracy) return;
     if (rate <= way.accuracy) grazed.push_back(j);
   }
-  if (collector.known(at.piece, way.tangent, way.accuracy, !way.start)) return;
+  if (is_known(walker, preferred, at.piece, way, rays)) return;
   if (!grazed.empty()) {
     const std::vector<Side> sides = sides_of(walker, at, way, grazed);
     if (std::find(sides.begin(), sides.end(), Side::out) != sides.end()) return;
     for (std::size_t i = 0; i < grazed.size(); ++i) {
       if (sides[i] == Side::rests) resting.push_back(grazed[i]);
       if (sides[i] == Side::unclear)
-        return collector.doubt("the curve grazes a switching surface: " +
-                               walker.problem.switch_name(grazed[i]));
+        return add_doubt(
+            "the curve grazes a switching surface: " + walker.problem.switch_name(grazed[i]), rays);
     }
   }
-  collector.result.rays.push_back(
-      {at.piece, way.tangent, std::move(resting), way.start, way.beyond});
+  rays.rays.push_back({at.piece, way.tangent, std::move(resting), way.start, way.beyond});
 }
 
 Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {
@@ -140,10 +116,10 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
 }
 
-bool same_direction(const Vector& weights, const Direction& a, const Direction& b,
-                    double tolerance) {
-  const Direction d{a.dx - b.dx, a.dlambda - b.dlambda};
-  return metric_product(weights, d, d) <= tolerance * tolerance;
+bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (a[j] != b[j] && !contains(where, static_cast<Index>(j))) return false;
+  return true;
 }
 
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda) {
@@ -162,12 +138,12 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   if (!active.empty() &&
       !walker.problem.switch_gradients(at.x, at.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
     return {.complete = false, .why = "switching functions are not defined here"};
-  Collector collector(walker, at.piece);
+  Rays rays;
   std::vector<unsigned> singular;
   CurvePoint ray = at;
   const auto add = [&](const PieceWays& ways) {
-    if (!ways.why.empty()) collector.doubt(ways.why);
-    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, collector);
+    if (!ways.why.empty()) add_doubt(ways.why, rays);
+    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, at.piece, rays);
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
@@ -182,16 +158,16 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
     add(ways);
   }
   if (active.empty() && !singular.empty())
-    collector.doubt("more than one curve, or none, passes through this point");
+    add_doubt("more than one curve, or none, passes through this point", rays);
   if (!active.empty())
     for (const unsigned pattern : singular) {
       ray.piece = piece_of(at.piece, active, pattern);
       std::vector<Direction> known;
-      for (const Ray& other : collector.result.rays) known.push_back(other.tangent);
+      for (const Ray& other : rays.rays) known.push_back(other.tangent);
       add(singular_ways(walker, ray, surfaces, known));
     }
-  sort_by_piece(active, collector.result.rays);
-  return std::move(collector.result);
+  sort_by_piece(active, rays.rays);
+  return rays;
 }
 
 Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,

@@ -1,6 +1,9 @@
 // Where a piecewise-smooth curve meets its switching surfaces. Private to the engine.
 #pragma once
 
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "continuation/points/step.hpp"
@@ -29,6 +32,13 @@ inline constexpr std::size_t most_active = 12;
 /// @pre active.size() <= most_active
 Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& piece,
              const std::vector<Index>& active);
+
+inline bool contains(const std::vector<Index>& switches, Index j) {
+  return std::find(switches.begin(), switches.end(), j) != switches.end();
+}
+
+/// Are two pieces on the same sides of all surfaces but these?
+bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where);
 
 /// Switches that are zero at a point, within options.simultaneous.
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda);
@@ -61,5 +71,58 @@ struct KinkSearch {
 /// @param left  switches that are zero at `from` because the curve leaves them there
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);
+
+/// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
+/// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
+///               equations look singular; nullptr: not known
+Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
+                 double full_rank, const Direction* along = nullptr);
+
+/// Rate of g_j along a direction.
+double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
+
+/// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
+struct PieceWay {
+  Direction tangent{};
+  std::optional<CurvePoint>
+      start{};          ///< set where the piece is singular: the curve a little further
+  double accuracy = 0;  ///< of the tangent
+  std::optional<CurvePoint> beyond{};  ///< as a Ray has it
+};
+
+struct PieceWays {
+  std::vector<PieceWay> list{};
+  bool singular =
+      false;          ///< the extended Jacobian of the piece has no full rank here: list is empty
+  std::string why{};  ///< set: not all of them could be found
+  double conditioning = 0;  ///< of a regular piece: least ratio of pivots; 0: not known
+};
+
+/// A curve along its tangent, and back.
+PieceWays both_ways(const Direction& tangent);
+
+/// The two directions of the curve of a piece that is regular here.
+/// @param full_rank  smallest ratio of pivots that counts as full rank
+/// @param polished   the point solves the equations to rounding: then rows and columns of different sizes are brought to
+///                   one size before it is called singular. Located points are too inexact for that
+PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank, bool polished);
+
+/// What is known of the active surfaces at a point.
+struct Surfaces {
+  std::vector<Index> active{};
+  Matrix dg_dx{};
+  Vector dg_dlambda{};
+};
+
+/// All ways of a piece that is singular here, with starts before the next switching surface. Those of
+/// which the directions `known` are tangents already are not looked for if the piece's cone
+/// { piece_j dg_j . t >= 0 } holds nothing else of the kernel.
+PieceWays singular_ways(const Walker& walker, const CurvePoint& at, const Surfaces& surfaces,
+                        const std::vector<Direction>& known);
+
+/// Does the curve at `start`, which leaves `at` along `tangent`, lie within its piece and clear of the surfaces
+/// ahead: no switch has come more than half-way to zero, and those that were zero go away from it?
+bool before_next_surface(const Walker& walker, const CurvePoint& at, const Surfaces& surfaces,
+                         const CurvePoint& start, const Direction& tangent);
 
 }  // namespace springfold::continuation

@@ -1,11 +1,10 @@
-#include "continuation/kinks/kink_half_branches.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/locating/equilibrated.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -45,19 +44,9 @@ void add_place(Hit hit, const Piece& piece, bool own, std::vector<ZeroBeside>& p
 
 /// Those of the step's own piece are taken out of `found`.
 void take_own(StepEvents& found, std::vector<ZeroBeside>& places) {
-  StepEvents rest = found;
-  rest.hits.clear();
-  rest.stops.clear();
-  for (std::size_t i = 0; i < found.hits.size(); ++i) {
-    if (singular_kind(found.hits[i].kind)) {
-      const Piece own = found.hits[i].point.piece;
-      add_place(std::move(found.hits[i]), own, true, places);
-    } else {
-      rest.hits.push_back(std::move(found.hits[i]));
-      rest.stops.push_back(found.stops[i]);
-    }
-  }
-  found = std::move(rest);
+  for (const Hit& hit : found.hits)
+    if (singular_kind(hit.kind)) add_place(hit, hit.point.piece, true, places);
+  std::erase_if(found.hits, [](const Hit& hit) { return singular_kind(hit.kind); });
 }
 
 /// Directions of the resting switches, k x r, in the motions that the other equations admit; nothing where
@@ -141,9 +130,9 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   CurvePoint& first = points.front();
   Linearisation at;
   if (!linearise(walker.problem, first.x, first.lambda, first.piece, at)) return;
-  const ExtendedMatrix E = extended_matrix(at, walker.weights, first.tangent);
-  const double size = magnitudes(E, irregular_columns(first.x.size() + 1, 1)).norm();
-  if (!(least_singular_values(E, 1)[0] <= located_rank * size) || is_regular(walker, first)) return;
+  if (!is_singular(extended_matrix(at, walker.weights, first.tangent), located_rank) ||
+      is_regular(walker, first))
+    return;
   auto moved = point_at(walker, own, negligible_share * (points.back().s - first.s));
   if (!moved) return;
   moved->piece = first.piece;
@@ -169,7 +158,7 @@ bool find_places(const Walker& walker, Samples samples, const std::vector<Index>
     leave_zero_at_begin(walker, *samples.front(), moved);
     std::vector<const CurvePoint*> pointers;
     for (const CurvePoint& point : moved) pointers.push_back(&point);
-    SingularPoints singular = singular_points(WatchedStep(walker, pointers), pointers);
+    StepEvents singular = singular_points(WatchedStep(walker, pointers), pointers);
     if (!singular.doubt.empty()) {
       found.doubt = "beside " + names_of(walker.problem, resting) + ": " + singular.doubt;
       found.unexplained = singular.unexplained;
@@ -239,20 +228,6 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
   return true;
 }
 
-void sort_by_place(StepEvents& found) {
-  std::vector<std::size_t> places(found.hits.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return found.hits[a].point.s < found.hits[b].point.s;
-  });
-  StepEvents sorted = found;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    sorted.hits[i] = found.hits[places[i]];
-    sorted.stops[i] = found.stops[places[i]];
-  }
-  found = std::move(sorted);
-}
-
 /// Too many pieces: said once for the whole stretch.
 void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vector<Index>& resting,
                     StepEvents& found, Curve& curve) {
@@ -269,8 +244,7 @@ void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vec
           .s_before = from.s,
           .s_after = to.s};
   found.hits.push_back(std::move(hit));
-  found.stops.push_back(false);
-  sort_by_place(found);
+  sort_by_place(found.hits);
 }
 
 }  // namespace
@@ -286,16 +260,14 @@ void add_half_branches(const Walker& walker, Samples samples, const std::vector<
   found = std::move(others);
   for (ZeroBeside& place : places) {
     const double s = place.hit.point.s;
-    if (explain(walker, resting, places, place)) {
+    if (explain(walker, resting, places, place))
       found.hits.push_back(std::move(place.hit));
-      found.stops.push_back(false);
-    } else {
+    else
       curve.log.push_back({s, 0,
                            "an eigenvalue is zero beside " + names_of(walker.problem, resting) +
                                ", but its branch leads out of its piece"});
-    }
   }
-  sort_by_place(found);
+  sort_by_place(found.hits);
 }
 
 }  // namespace springfold::continuation

@@ -5,36 +5,29 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/kink.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Is this ray in the piece on which the curve arrived, or one that it shares with it?
-bool on_piece(const Ray& ray, const Piece& piece) {
-  for (std::size_t j = 0; j < ray.piece.size(); ++j)
-    if (ray.piece[j] != piece[j] && std::find(ray.resting.begin(), ray.resting.end(),
-                                              static_cast<Index>(j)) == ray.resting.end())
-      return false;
-  return true;
-}
-
 /// The ray along which the curve arrived. At a branch point of the arriving piece its tangent is known only
 /// roughly: then that of the ray is taken.
 void take_way_back(const Walker& walker, CurvePoint& arrived, std::vector<Ray>& rays) {
   const Direction back = opposite(arrived.tangent);
   const auto off = [&](const Ray& ray) {
-    return on_piece(ray, arrived.piece) ? 1 - metric_product(walker.weights, ray.tangent, back)
-                                        : infinity;
+    return differ_only(ray.piece, arrived.piece, ray.resting)
+               ? 1 - metric_product(walker.weights, ray.tangent, back)
+               : infinity;
   };
   const auto best = std::min_element(rays.begin(), rays.end(),
                                      [&](const Ray& a, const Ray& b) { return off(a) < off(b); });
   if (best == rays.end()) return;
   const bool singular = best->start.has_value();
   if (!(singular ? off(*best) <= nearly_same_line
-                 : same_direction(walker.weights, best->tangent, back, one_direction)))
+                 : length_of(walker, difference(best->tangent, back)) <= one_direction))
     return;
   if (singular) arrived.tangent = opposite(best->tangent);
   rays.erase(best);
@@ -52,13 +45,9 @@ std::vector<Index> crossed(const KinkSearch& kink, const std::vector<Index>& res
                            const std::vector<Ray>& ways) {
   std::vector<Index> switches;
   for (const Index j : kink.active) {
-    const auto rests = [j](const std::vector<Index>& list) {
-      return std::find(list.begin(), list.end(), j) != list.end();
-    };
-    const bool all = rests(rested) && std::all_of(ways.begin(), ways.end(), [&](const Ray& ray) {
-                       return rests(ray.resting);
-                     });
-    if (!all) switches.push_back(j);
+    const auto rests_on = [j](const Ray& ray) { return contains(ray.resting, j); };
+    if (!contains(rested, j) || !std::all_of(ways.begin(), ways.end(), rests_on))
+      switches.push_back(j);
   }
   return switches;
 }
@@ -157,6 +146,7 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
                             ? hit.name
                             : std::to_string(hit.leaving.size()) + " ways out at " + hit.name;
     if (*reason == StopReason::no_way_out && !rays.complete) curve.stop_detail += ": " + rays.why;
+    hit.stops = true;
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;
   }

@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
+#include "continuation/kinks/kink.hpp"
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
-#include "springfold/core/extended_matrix.hpp"
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
@@ -80,8 +80,7 @@ Crossing crossing_at_branch_point(const SwitchOnStep& f, double a, double b) {
   auto point = refine_branch_point(f.walker, near);
   const auto value = point ? f.value(*point) : std::nullopt;
   if (!value || std::abs(*value) > f.walker.options.simultaneous) return {.clear = false};
-  const Direction moved{point->x - f.from.x, point->lambda - f.from.lambda};
-  const double at = metric_product(f.walker.weights, moved, f.from.tangent);
+  const double at = way_to(f.walker.weights, f.from, *point);
   if (!(std::abs(at - place) <= 2 * reach)) return {.clear = false};
   point->tangent = near.tangent;
   point->piece = f.from.piece;
@@ -240,23 +239,17 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   CurvePoint& point = kink.point;
   Linearisation at;
   if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return;
-  const ExtendedMatrix E = extended_matrix(at, walker.weights, point.tangent);
-  const Vector least = least_singular_values(E, 1);
-  const double size = magnitudes(E, irregular_columns(point.x.size() + 1, 1)).norm();
-  if (!(least.size() > 0 && least[0] <= perhaps_singular * size)) return;
+  if (!is_singular(extended_matrix(at, walker.weights, point.tangent), perhaps_singular)) return;
   const auto place = refine_branch_point(walker, point);
   if (!place) return;
   Vector g;
   if (!walker.problem.switches(place->x, place->lambda, g)) return;
   for (const Index j : active_switches(walker, point.x, point.lambda))
     if (std::abs(g[j]) > walker.options.simultaneous) return;
-  const Direction moved{place->x - point.x, place->lambda - point.lambda};
-  const double off = length_of(walker, moved);
-  if (!(off <= perhaps_singular)) return;
+  if (!(length_of(walker, difference(*place, point)) <= perhaps_singular)) return;
   point.x = place->x;
   point.lambda = place->lambda;
-  const Direction way{place->x - from.x, place->lambda - from.lambda};
-  point.s = from.s + std::max(0.0, metric_product(walker.weights, way, from.tangent));
+  point.s = from.s + std::max(0.0, way_to(walker.weights, from, point));
   point.negative.reset();
   if (auto tangent = arriving_tangent(walker, from, point.s - from.s))
     point.tangent = std::move(*tangent);
@@ -352,18 +345,15 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
   const double along = metric_product(walker.weights, to.tangent, from.tangent);
   const double h = to.s - from.s;
-  const auto among = [](const std::vector<Index>& list, Index j) {
-    return std::find(list.begin(), list.end(), j) != list.end();
-  };
   for (Index j = 0; j < m; ++j) {
-    if (among(resting, j)) continue;
+    if (contains(resting, j)) continue;
     const double side = from.piece[static_cast<std::size_t>(j)];
     const double noise =
         residual_level * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
     const SwitchOnStep watched{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};
-    Crossing crossing = crossing_of(watched, ends, among(left, j));
+    Crossing crossing = crossing_of(watched, ends, contains(left, j));
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||

@@ -4,11 +4,9 @@
 #include <utility>
 
 #include "continuation/kinks/beside.hpp"
-#include "continuation/kinks/kink_half_branches.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/kinks/level.hpp"
 #include "continuation/locating/bordered_test.hpp"
-#include "continuation/locating/flat_turns.hpp"
+#include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -59,9 +57,8 @@ std::optional<Index> other_negatives(const Walker& walker, const CurvePoint& p) 
 
 /// Where the trace leaves off on this step: at its end, or at a stopping event.
 double last_s(const CurvePoint& to, const StepEvents& found) {
-  for (std::size_t i = 0; i < found.hits.size(); ++i)
-    if (found.stops[i]) return found.hits[i].point.s;
-  return to.s;
+  const auto stop = std::ranges::find(found.hits, true, &Hit::stops);
+  return stop == found.hits.end() ? to.s : stop->point.s;
 }
 
 /// Extends the family that ends at `from`, or begins one there.
@@ -78,13 +75,6 @@ void note_family(const CurvePoint& from, const CurvePoint& to, StepEvents& found
           .s_after = end};
   hit.point.negative.reset();
   found.hits.insert(found.hits.begin(), std::move(hit));
-  found.stops.insert(found.stops.begin(), false);
-}
-
-Walker without_special_points(const Walker& walker) {
-  Walker plain = walker;
-  plain.options.limit_points = plain.options.branch_points = false;
-  return plain;
 }
 
 Walker without_limit_points(const Walker& walker) {
@@ -128,7 +118,6 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
     }
     StepEvents part = events_on_step(walker, start, *next, nullptr, {});
     all.hits.insert(all.hits.end(), part.hits.begin(), part.hits.end());
-    all.stops.insert(all.stops.end(), part.stops.begin(), part.stops.end());
     if (all.doubt.empty() && !part.doubt.empty()) {
       all.doubt = part.doubt;
       all.unexplained = part.unexplained;
@@ -140,14 +129,9 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
 }
 
 /// Adds special points in their order.
-void add_special(StepEvents special, StepEvents& found) {
-  for (std::size_t i = 0; i < special.hits.size(); ++i) {
-    const auto after = std::find_if(found.hits.begin(), found.hits.end(), [&](const Hit& hit) {
-      return hit.point.s > special.hits[i].point.s;
-    });
-    found.stops.insert(found.stops.begin() + (after - found.hits.begin()), special.stops[i]);
-    found.hits.insert(after, std::move(special.hits[i]));
-  }
+void add_special(const StepEvents& special, StepEvents& found) {
+  found.hits.insert(found.hits.end(), special.hits.begin(), special.hits.end());
+  sort_by_place(found.hits);
   if (special.doubt.empty()) return;
   if (found.doubt.empty()) found.doubt = special.doubt;
   found.unexplained = special.unexplained;

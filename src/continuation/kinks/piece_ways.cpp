@@ -1,10 +1,9 @@
-#include "continuation/kinks/piece_ways.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/kinks/kink_rays.hpp"
-#include "continuation/locating/equilibrated.hpp"
+#include "continuation/kinks/kink.hpp"
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
@@ -55,9 +54,8 @@ std::optional<Direction> structured_tangent(const Walker& walker, const CurvePoi
   for (int step = 0; tangent && step < 3; ++step)
     tangent = tangent_at(linear, walker.weights, *tangent);
   if (!tangent) return std::nullopt;
-  const ExtendedMatrix E = extended_matrix(linear, walker.weights, *tangent);
-  const double size = magnitudes(E, irregular_columns(n + 1, 1)).norm();
-  if (!(least_singular_values(E, 1)[0] > full_rank * size)) return std::nullopt;
+  if (is_singular(extended_matrix(linear, walker.weights, *tangent), full_rank))
+    return std::nullopt;
   if (tangent->dlambda < 0) *tangent = opposite(*tangent);  // that in which lambda grows first
   return tangent;
 }
@@ -86,10 +84,8 @@ std::optional<Kernel> kernel_of(const Walker& walker, const CurvePoint& at) {
   if (!own) return std::nullopt;
   const Index n = own->J.rows();
   const Svd svd = jacobi_svd(own->J, SingularVectors::none, SingularVectors::full);
-  const Vector& values = svd.values;
-  const double size = std::max(values[0], 1.0);  // entries nearby are of size 1
-  Index rank = n;
-  while (rank > 0 && values[rank - 1] <= located_rank * size) --rank;
+  const double size = std::max(svd.values[0], 1.0);  // entries nearby are of size 1
+  const Index rank = (svd.values.array() > located_rank * size).count();
   const Vector root = metric_roots(walker.weights);
   const Matrix scaled =
       root.cwiseProduct(own->columns).asDiagonal() * svd.V.rightCols(n + 1 - rank);
@@ -118,10 +114,8 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
                  const std::vector<Direction>& known) {
   if (!is_subspace(rates)) return false;
   const Svd svd = jacobi_svd(rates, SingularVectors::none, SingularVectors::full);
-  const Vector& values = svd.values;
-  const double size = values.size() > 0 ? values[0] : 0;
-  Index rank = 0;
-  while (rank < values.size() && values[rank] > located_rank * std::max(size, located_rank)) ++rank;
+  const double size = svd.values.size() > 0 ? svd.values[0] : 0;
+  const Index rank = (svd.values.array() > located_rank * std::max(size, located_rank)).count();
   const Index left = rates.cols() - rank;
   if (left == 0) return true;
   if (left > 1) return false;
@@ -183,8 +177,7 @@ bool before_next_surface(const Walker& walker, const CurvePoint& at, const Surfa
     return false;
   for (Index j = 0; j < m; ++j) {
     const double side = start.piece[static_cast<std::size_t>(j)];
-    const bool active =
-        std::find(surfaces.active.begin(), surfaces.active.end(), j) != surfaces.active.end();
+    const bool active = contains(surfaces.active, j);
     // Clear of a surface that is left as its rate says; as clear as half of what there is of others.
     const double expected =
         !active ? side * here[j]

@@ -152,20 +152,23 @@ Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle) {
   return reach;
 }
 
+bool is_singular(const ExtendedMatrix& E, double share) {
+  const double size = magnitudes(E, irregular_columns(E.rows(), 1)).norm();
+  return !(least_singular_values(E, 1)[0] > share * size);
+}
+
 std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders) {
-  const Index n = E.rows(), m = borders.B.cols();
-  Matrix right = Matrix::Zero(n + m, m);
-  right.bottomRows(m).setIdentity();
-  const auto solution = solve_with(E, borders, right);
+  const Index m = borders.B.cols();
+  const auto solution = solve_with(E, borders, unit_rows_below(E.rows() + m, m));
   if (!solution) return std::nullopt;
   return solution->bottomRows(m);
 }
 
 double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
   const Index n = E.rows(), m = borders.B.cols();
-  Matrix right = Matrix::Zero(n + m, m);
-  right.bottomRows(m).setIdentity();
-  const auto Phi = solve_with(E, borders, right), Psi = solve_with(E, borders, right, true);
+  const Matrix right = unit_rows_below(n + m, m);
+  const BorderedMatrix M(E, borders);
+  const auto Phi = M.solve(right), Psi = M.solve(right, true);
   if (!Phi || !Psi) return infinity;
   const double noise =
       few_roundings *
@@ -176,7 +179,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders) {
 double rate_noise(const ExtendedMatrix& E) {
   const Index n = E.rows();
   const Matrix unit = Vector::Unit(n, n - 1);
-  const auto solution = solve_with(E, {}, unit), row = solve_with(E, {}, unit, true);
+  const BorderedMatrix matrix(E, {});
+  const auto solution = matrix.solve(unit), row = matrix.solve(unit, true);
   if (!solution || !row) return infinity;
   const Vector tangent = solution->col(0) / solution->col(0).norm();
   const double noise = few_roundings * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));

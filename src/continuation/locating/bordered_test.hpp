@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
 #include "springfold/core/extended_matrix.hpp"
 
@@ -24,6 +24,9 @@ struct Reach {
       0;  ///< of the largest change from E[middle]; structured: in the directions of those
 };
 Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle);
+
+/// Is the smallest singular value of E no larger than this share of the size of E?
+bool is_singular(const ExtendedMatrix& E, double share);
 
 /// @returns nothing when the bordered matrix is singular
 std::optional<Matrix> sigma_of(const ExtendedMatrix& E, const Borders& borders);

@@ -1,13 +1,12 @@
-#include "continuation/locating/branch_candidate.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "continuation/locating/branch_point.hpp"
+#include "continuation/locating/cluster.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/locating/sigma_touch.hpp"
+#include "continuation/locating/watched_step.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/interpolated.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
@@ -69,10 +68,8 @@ struct Offset {
 
 Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePoint& interpolated,
                  const CurvePoint& other) {
-  const Vector& weights = arc.walker().weights;
   const Index n = other.x.size();
-  const Direction from_start{other.x - arc.from().x, other.lambda - arc.from().lambda};
-  Offset offset{.at = metric_product(weights, from_start, arc.from().tangent)};
+  Offset offset{.at = way_to(arc.walker().weights, arc.from(), other)};
   offset.along = offset.at - place.at;
   const Direction aside{other.x - interpolated.x - offset.along * place.along.head(n),
                         other.lambda - interpolated.lambda - offset.along * place.along[n]};

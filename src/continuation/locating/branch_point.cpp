@@ -14,10 +14,10 @@ namespace springfold::continuation {
 namespace {
 
 /// What J has in the kernels, entry (q, j) at q (k + 1) + j.
-Vector in_kernels(const ReducedEquation& e, const ScaledJacobian& J) {
-  const Matrix G = J.structured ? Matrix((e.L.transpose() * product(J, e.N)).transpose())
-                                : Matrix((e.L.transpose() * J.dense * e.N).transpose());
-  return G.reshaped();
+Vector in_kernels(const ReducedEquation& e, const ExtendedMatrix& J) {
+  const Matrix G = J.at.structured ? Matrix(e.L.transpose() * product(J, e.N))
+                                   : Matrix(e.L.transpose() * J.dense * e.N);
+  return Matrix(G.transpose()).reshaped();
 }
 
 /// Its derivative along N: k (k + 1) x (k + 1).
@@ -32,7 +32,13 @@ Matrix rate_in_kernels(const ReducedEquation& e) {
 /// Second derivatives below this are rounding of J over the length of their differences.
 double least_rate(const ReducedEquation& e, double largest) {
   const auto J = jacobian_at(*e.walker, e.U0, e.root, e.piece);
-  return J ? promised_place * size_of(*J) + one_place * largest : infinity;
+  if (!J) return infinity;
+  const Index n = J->columns();
+  const double size =  // Frobenius norm; structured: estimated
+      J->at.structured
+          ? std::sqrt(static_cast<double>(n)) * product(*J, irregular_columns(n, 1)).norm()
+          : J->dense.norm();
+  return promised_place * size + one_place * largest;
 }
 
 /// One step from U with the kernels of e: first what F asks for across them, then along them from there.
@@ -41,8 +47,9 @@ std::optional<Vector> step_from(const ReducedEquation& e, const Svd& rate, const
   if (!residual_at(e, U, F)) return std::nullopt;
   Vector right = Vector::Zero(F.size() + e.k + 1);
   right.head(F.size()) = -F;
-  const Vector across = Vector(e.bordered.solve(right)).head(U.size());
-  if (!across.allFinite()) return std::nullopt;
+  const auto solved = e.bordered.solve(right);
+  if (!solved || !solved->allFinite()) return std::nullopt;
+  const Vector across = solved->col(0).head(U.size());
   const auto J = jacobian_at(*e.walker, U + across, e.root, e.piece);
   if (!J) return std::nullopt;
   Vector step = across + e.N * rate.solve(-in_kernels(e, *J));
@@ -83,9 +90,9 @@ Places places_around(const ReducedEquation& e, const Svd& rate, const Vector& U,
 
 /// Error of the place by rounding that is the same everywhere, so that no scatter shows it: a unit in the
 /// last place of every entry of J, independent of each other.
-double constant_error(const ReducedEquation& e, const ScaledJacobian& J, double least_rate) {
-  const Matrix rows = J.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
-                                   : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
+double constant_error(const ReducedEquation& e, const ExtendedMatrix& J, double least_rate) {
+  const Matrix rows = J.at.structured ? Matrix(magnitudes(J, e.N).cwiseAbs2())
+                                      : Matrix(J.dense.cwiseAbs2() * e.N.cwiseAbs2());
   const Matrix squares = e.L.cwiseAbs2().transpose() * rows;
   return rounding_unit * std::sqrt(squares.sum()) / least_rate;
 }
@@ -157,39 +164,37 @@ std::optional<BranchPlace> place_branch_point(const Walker& walker, const CurveP
   const Index n = near.x.size();
   const Vector root = metric_roots(walker.weights), U_near = scaled_point(near, root);
   Vector U = U_near;
-  double before = infinity;
-  for (int iteration = 0; iteration < 14; ++iteration) {
+  std::optional<ReducedEquation> e;
+  Svd rate;
+  const auto take = [&] {
     place.point.x = U.head(n).cwiseQuotient(root.head(n));
     place.point.lambda = U[n];
-    const auto e = reduce(walker, place.point, corank);
+  };
+  const bool found = settles(14, [&](double) -> std::optional<IterationStep> {
+    take();
+    e = reduce(walker, place.point, corank);
     if (!e) return std::nullopt;
-    const Svd rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
-    const Vector& values = rate.values;
-    if (!(values[corank] > least_rate(*e, values[0]))) return std::nullopt;
+    rate = jacobi_svd(rate_in_kernels(*e), SingularVectors::thin, SingularVectors::thin);
+    if (!(rate.values[corank] > least_rate(*e, rate.values[0]))) return std::nullopt;
     const auto step = step_from(*e, rate, U);
     if (!step) return std::nullopt;
-    const double moved = step->norm();
-    // What the kernels of a place nearby make of the step is of second order in the distance from it.
-    if (has_settled(moved, before, function_noise * e->scale, together * e->scale)) {
-      U += *step;
-      for (int polish = 0; polish < 2; ++polish)
-        if (const auto last = step_from(*e, rate, U)) U += *last;
-      place.off = settle(*e, rate, U);
-      if (!((U - U_near).norm() <= reach)) return std::nullopt;
-      place.point.x = U.head(n).cwiseQuotient(root.head(n));
-      place.point.lambda = U[n];
-      const auto J = jacobian_at(walker, U, root, near.piece);
-      if (!J) return std::nullopt;
-      place.misfit = in_kernels(*e, *J).norm() / values[corank];
-      place.off = std::max(place.off, constant_error(*e, *J, values[corank]));
-      place.left = left_at(*e, U);
-      return place;
-    }
     U += *step;
     if (!((U - U_near).norm() <= 2 * reach)) return std::nullopt;
-    before = moved;
-  }
-  return std::nullopt;
+    // What the kernels of a place nearby make of the step is of second order in the distance from it.
+    return IterationStep{step->norm(), function_noise * e->scale, together * e->scale};
+  });
+  if (!found) return std::nullopt;
+  for (int polish = 0; polish < 2; ++polish)
+    if (const auto last = step_from(*e, rate, U)) U += *last;
+  place.off = settle(*e, rate, U);
+  if (!((U - U_near).norm() <= reach)) return std::nullopt;
+  take();
+  const auto J = jacobian_at(walker, U, root, near.piece);
+  if (!J) return std::nullopt;
+  place.misfit = in_kernels(*e, *J).norm() / rate.values[corank];
+  place.off = std::max(place.off, constant_error(*e, *J, rate.values[corank]));
+  place.left = left_at(*e, U);
+  return place;
 }
 
 double left_of_residual(const Walker& walker, const CurvePoint& point, int corank) {

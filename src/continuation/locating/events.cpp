@@ -5,11 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/locating/flat_turns.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/locating/zeros.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/interpolated.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -17,11 +16,6 @@
 
 namespace springfold::continuation {
 namespace {
-
-struct Found {
-  Hit hit{};
-  bool stops = false;
-};
 
 /// The curve's point from its points around it, where none can be computed: at a branch point.
 std::optional<CurvePoint> interpolated_point(const WatchedStep& arc, const CurvePoint& to,
@@ -91,12 +85,25 @@ double scatter_of(const WatchedStep& arc, Samples samples, const Event& event,
   return scatter;
 }
 
+/// The event between the ends; at the ends the very values that the neighbouring steps see: a sign must not change in between.
+SampledFunction value_on(const WatchedStep& arc, const Event& event,
+                         std::span<const double> values) {
+  return [&arc, &event, values](double ds) -> std::optional<double> {
+    if (ds == 0) return values.front();
+    if (ds == arc.length()) return values.back();
+    if (const CurvePoint* straight = arc.straight_point(ds)) return event.value(*straight);
+    auto point = event.of_place ? arc.exact_place(ds) : arc.exact_point(ds);
+    if (!point) point = arc.point_once(ds);
+    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
+  };
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
 /// @param end    is filled with what is found at `to`
 bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
-                    const EventValue* known, EventValue& end, std::vector<Found>& found) {
+                    const EventValue* known, EventValue& end, std::vector<Hit>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
   std::array<double, 3> storage{};
@@ -114,15 +121,7 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
   for (double* outer : {&values.front(), &values.back()})
     if (std::abs(*outer) <= noise) *outer = 0;
   if (!within_reach(values)) return true;
-  // At the ends the very values that the neighbouring steps see: a sign must not change in between.
-  const auto value = [&](double ds) -> std::optional<double> {
-    if (ds == 0) return values.front();
-    if (ds == h) return values.back();
-    if (const CurvePoint* straight = arc.straight_point(ds)) return event.value(*straight);
-    auto point = event.of_place ? arc.exact_place(ds) : arc.exact_point(ds);
-    if (!point) point = arc.point_once(ds);
-    return point ? std::optional<double>(event.value(*point)) : std::nullopt;
-  };
+  const SampledFunction value = value_on(arc, event, values);
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
   const bool is_met = !search.zeros.empty() || !search.resolved;
   // Values that are no larger than they scatter are zero to rounding all along the step, and have no zeros.
@@ -130,11 +129,13 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
       scale <= clear_of_rounding * scatter_of(arc, samples, event, values))
     return true;
   const auto add = [&](CurvePoint point, double before, double after) {
-    Hit hit{.kind = HitKind::user, .name = event.name, .tag = event.tag};
-    hit.point = std::move(point);
-    hit.s_before = from.s + before;
-    hit.s_after = from.s + after;
-    found.push_back({std::move(hit), event.action == EventAction::stop});
+    found.push_back({.kind = HitKind::user,
+                     .name = event.name,
+                     .point = std::move(point),
+                     .s_before = from.s + before,
+                     .s_after = from.s + after,
+                     .stops = event.action == EventAction::stop,
+                     .tag = event.tag});
   };
   const double begin =
       from.s > 0 ? 0 : exact_model * h;  // a start that is on the event does not meet it
@@ -162,26 +163,30 @@ bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
 
 }  // namespace
 
+Walker without_special_points(const Walker& walker) {
+  Walker plain = walker;
+  plain.options.limit_points = plain.options.branch_points = false;
+  return plain;
+}
+
+void sort_by_place(std::vector<Hit>& hits) {
+  std::stable_sort(hits.begin(), hits.end(),
+                   [](const Hit& a, const Hit& b) { return a.point.s < b.point.s; });
+}
+
 StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                           const CurvePoint* middle, const std::vector<Event>& events) {
   const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
 
-  StepEvents result;
   const WatchedStep arc(walker, samples);
-  SingularPoints singular = singular_points(arc, samples);
-  result.doubt = singular.doubt;
-  result.unexplained = singular.unexplained;
-  result.passing = singular.passing;
-  result.flat = singular.flat;
-  std::vector<Found> found;
-  for (Hit& hit : singular.hits) found.push_back({std::move(hit), false});
+  StepEvents result = singular_points(arc, samples);
   auto& known = walker.memory->at_end;
   const bool is_known = known.events == events.data() && known.values.size() == events.size() &&
                         is_same(known.point, from);
   known.next.resize(events.size());
   for (std::size_t i = 0; i < events.size(); ++i)
     if (!add_user_event(arc, samples, events[i], is_known ? &known.values[i] : nullptr,
-                        known.next[i], found)) {
+                        known.next[i], result.hits)) {
       result.doubt = "event \"" + events[i].name + "\" could not be located";
       result.of_caller = true;
     }
@@ -190,13 +195,7 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
     known.point = to;
     known.values.swap(known.next);
   }
-
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.hit.point.s < b.hit.point.s; });
-  for (Found& f : found) {
-    result.hits.push_back(std::move(f.hit));
-    result.stops.push_back(f.stops);
-  }
+  sort_by_place(result.hits);
   return result;
 }
 

@@ -1,5 +1,3 @@
-#include "continuation/locating/exit_rays.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "continuation/locating/reduced_equation.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
@@ -140,23 +139,17 @@ void divide(Icosphere& sphere) {
 }
 
 Icosphere icosphere() {
-  const double t = std::numbers::phi;
-  Icosphere sphere{
-      .vertices = {{-1, t, 0},
-                   {1, t, 0},
-                   {-1, -t, 0},
-                   {1, -t, 0},
-                   {0, -1, t},
-                   {0, 1, t},
-                   {0, -1, -t},
-                   {0, 1, -t},
-                   {t, 0, -1},
-                   {t, 0, 1},
-                   {-t, 0, -1},
-                   {-t, 0, 1}},
-      .faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+  Icosphere sphere{.faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                             {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                             {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                             {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double t : {std::numbers::phi, -std::numbers::phi})
+      for (const double one : {-1.0, 1.0}) {
+        Eigen::Vector3d& v = sphere.vertices.emplace_back(Eigen::Vector3d::Zero());
+        v[axis] = one;
+        v[(axis + 1) % 3] = t;
+      }
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Eigen::Vector3d(3, 5, 8).normalized()).matrix();
   for (auto& v : sphere.vertices) v = turn * v.normalized();
   for (int i = 0; i < 3; ++i) divide(sphere);
@@ -208,21 +201,23 @@ Eigen::Vector2d slope_in_mu(const ReducedEquation& e, const Vector& c) {
 /// @returns the other component of g, zero on branches; nan where mu is not found
 double across(const ReducedEquation& e, double rho, double phi, double& mu, Vector& U) {
   Vector c{{rho * std::cos(phi), rho * std::sin(phi), 0.0}};
-  double change = rho;
-  for (int iteration = 0; iteration < 15; ++iteration) {
+  double other = not_a_number;
+  const bool found = settles(15, [&](double) -> std::optional<IterationStep> {
     c[2] = mu;
     const Eigen::Vector2d slope = slope_in_mu(e, c), p = slope.normalized();
     const auto value = reduced_value(e, c);
-    if (!value || !(slope.norm() > 0)) return not_a_number;
-    change = -p.dot(value->g) / slope.norm();
-    if (std::abs(change) < one_place * rho * rho + 2 * few_roundings * e.scale / slope.norm()) {
-      U = value->U;
-      return p[0] * value->g[1] - p[1] * value->g[0];
-    }
+    if (!value || !(slope.norm() > 0)) return std::nullopt;
+    const double change = -p.dot(value->g) / slope.norm();
+    const IterationStep step{std::abs(change),
+                             one_place * rho * rho + 2 * few_roundings * e.scale / slope.norm()};
+    U = value->U;
+    other = p[0] * value->g[1] - p[1] * value->g[0];
+    if (step.moved <= step.fine) return step;  // the value is for this mu
     mu += std::clamp(change, -near_share * rho, near_share * rho);
-    if (!(std::abs(mu) < 3 * rho)) return not_a_number;
-  }
-  return not_a_number;
+    if (!(std::abs(mu) < 3 * rho)) return std::nullopt;
+    return step;
+  });
+  return found ? other : not_a_number;
 }
 
 /// Have the quadratic terms in y so little to say that search_sphere cannot see all branches?

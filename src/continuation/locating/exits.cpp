@@ -5,8 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "continuation/locating/equilibrated.hpp"
-#include "continuation/locating/exit_rays.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -20,40 +19,30 @@ Direction direction_of(const ReducedEquation& e, const Vector& U) {
   return unit_direction(*e.walker, Vector(U.cwiseQuotient(e.root)));
 }
 
-/// Pairs the rays at two radii by direction: order[i] is the partner of a's ray i.
-/// @returns nothing unless each has exactly one
-std::optional<std::vector<std::size_t>> pairs(const RaySet& a, const RaySet& b) {
-  if (a.rays.size() != b.rays.size()) return std::nullopt;
-  std::vector<std::size_t> order;
-  std::vector<bool> taken(b.rays.size(), false);
-  for (const RayPoint& ray : a.rays) {
-    double least = infinity;
-    std::size_t nearest = 0;
-    for (std::size_t j = 0; j < b.rays.size(); ++j) {
-      const double distance = (ray.c / a.rho - b.rays[j].c / b.rho).norm();
-      if (distance < least) least = distance, nearest = j;
-    }
-    if (!(least < 0.15) || taken[nearest]) return std::nullopt;
-    taken[nearest] = true;
-    order.push_back(nearest);
-  }
-  return order;
+std::vector<Vector> directions_of(const RaySet& set) {
+  std::vector<Vector> directions;
+  for (const RayPoint& ray : set.rays) directions.push_back(ray.c / set.rho);
+  return directions;
 }
 
-/// Has each of these directions a ray of its own?
-bool covers(const RaySet& set, const std::vector<Vector>& directions) {
-  std::vector<bool> taken(set.rays.size(), false);
+/// Has each of these directions a ray of its own, nearer than `within`?
+bool covers(const RaySet& set, const std::vector<Vector>& directions, double within) {
+  std::vector<Vector> free = directions_of(set);
   for (const Vector& d : directions) {
-    double least = near_share;
-    std::size_t nearest = taken.size();
-    for (std::size_t j = 0; j < taken.size(); ++j) {
-      const double distance = (set.rays[j].c / set.rho - d).norm();
-      if (!taken[j] && distance < least) least = distance, nearest = j;
-    }
-    if (nearest == taken.size()) return false;
-    taken[nearest] = true;
+    const auto off = [&d](const Vector& ray) { return (ray - d).norm(); };
+    const auto nearest =
+        std::min_element(free.begin(), free.end(),
+                         [&](const Vector& a, const Vector& b) { return off(a) < off(b); });
+    if (nearest == free.end() || !(off(*nearest) < within)) return false;
+    free.erase(nearest);
   }
   return true;
+}
+
+/// Do two radii show the same branches?
+bool same_rays(const RaySet& a, const RaySet& b) {
+  constexpr double one_ray = 0.15;
+  return a.rays.size() == b.rays.size() && covers(b, directions_of(a), one_ray);
 }
 
 bool balanced(const RaySet& set) {
@@ -68,9 +57,8 @@ void complement(const ReducedEquation& e, const RaySet& from, RaySet& to) {
 }
 
 struct Limit {
-  Vector c{};
-  double accuracy = 0;
-  bool found = false;
+  Vector c{};  ///< empty: not found
+  double accuracy = infinity;
 };
 
 /// Points of the ray at 4 rho, 2 rho, rho, rho / 2, ... as far as the branch can be followed.
@@ -93,25 +81,25 @@ std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, doubl
 
 /// c / rho on the branch for rho -> 0 (Neville's scheme), where change and rounding are least.
 Limit limit_of(const ReducedEquation& e, const RayPoint& ray, double rho) {
-  Limit best{.c = {}, .accuracy = infinity};
+  Limit best;
   std::vector<Vector> row;
   for (const RayPoint& point : along(e, ray, rho)) {
     std::vector<Vector> fresh{point.c.normalized()};
     for (std::size_t j = 0; j < row.size(); ++j) {
       fresh.push_back(fresh[j] + (fresh[j] - row[j]) / (std::exp2(static_cast<double>(j + 1)) - 1));
       const double doubt = (fresh[j + 1] - fresh[j]).norm() + 3 * point.noise;
-      if (doubt < best.accuracy) best = {fresh[j + 1].normalized(), doubt, true};
+      if (doubt < best.accuracy) best = {fresh[j + 1].normalized(), doubt};
     }
     row = std::move(fresh);
   }
-  if (!best.found) return best;
+  if (best.c.size() == 0) return best;
   const auto exact = quadratic_direction(e, best.c, negligible_share);
   if (exact && (*exact - best.c).norm() < told_apart + 10 * best.accuracy)
-    best = {*exact, promised_place, true};
+    best = {*exact, promised_place};
   return best;
 }
 
-/// The point of a ray as a point of its branch, like point_on_curve, but without the corrector's
+/// The point of a ray as a point of its branch, like find_point, but without the corrector's
 /// judgement: close to other branches rounding moves the point along the sphere.
 std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoint& ray) {
   const Walker& walker = *e.walker;
@@ -141,12 +129,7 @@ std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, c
                                double rho) {
   if (auto ray = ray_point(e, e.U0 + 0.5 * (last.U - e.U0), rho)) return ray;
   const Vector c = rho * limit;
-  RayPoint ray{.U = e.U0 + e.N * c, .c = c};
-  const Index m = e.k + 1;
-  for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < m; ++j)
-      ray.U += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
-  return ray;
+  return RayPoint{.U = e.U0 + e.N * c + bend_along(e, c), .c = c};
 }
 
 /// Brings the start of a branch in until it is near enough.
@@ -176,7 +159,7 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   auto start = branch_point_of(e, ray);
   if (!start) return doubt("a branch near the point could not be corrected to the tolerance");
   const Limit limit = limit_of(e, ray, rho);
-  if (!limit.found) return doubt("a branch near the point could not be followed into it");
+  if (limit.c.size() == 0) return doubt("a branch near the point could not be followed into it");
   if (limit.accuracy > nearly_same_line)
     doubt("the tangent of a branch is known to " + rounded(limit.accuracy) + " only");
   const double away =
@@ -213,8 +196,8 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
       complement(e, last, set);
       complement(e, set, last);
     }
-    const bool same = agreeing > 0 && pairs(last, set).has_value();
-    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure);
+    const bool same = agreeing > 0 && same_rays(last, set);
+    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure, near_share);
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);
@@ -235,10 +218,6 @@ Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& d
 }
 
 }  // namespace
-
-Exits exits_at(const Walker& walker, const CurvePoint& at, int corank) {
-  return exits_at(walker, at, corank, {});
-}
 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough) {
@@ -265,15 +244,8 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
 int corank_of(const Walker& walker, const CurvePoint& at) {
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return -1;
-  const Index n = own->J.rows();
-  if (n == 0) return 0;
-  const Vector values = divided_svd(own->J).values;
-  constexpr double gap = 30;
-  for (Index i = 0; i < n; ++i) {
-    const double above = i > 0 ? values[i - 1] : 1;
-    if (values[i] <= vanishing_rank && values[i] * gap < above) return static_cast<int>(n - i);
-  }
-  return 0;
+  if (own->J.rows() == 0) return 0;
+  return static_cast<int>(vanishing_values(divided_svd(own->J).values));
 }
 
 }  // namespace springfold::continuation

@@ -25,6 +25,10 @@ struct Exits {
   std::string why{};
 };
 
+/// Is this point of a branch near enough to the singular point, of whose branch it has the limit
+/// direction `tangent`? Say, before the next switching surface.
+using NearEnough = std::function<bool(const CurvePoint& start, const Direction& tangent)>;
+
 /// All branches of one piece that leave a located singular point u0 = (x, lambda). With the right
 /// and left kernels N (n + 1 x k + 1) and L (n x k) of J0 = [dF/dx dF/dlambda] the equations are
 /// reduced to k in k + 1 unknowns (Lyapunov and Schmidt; Golubitsky and Schaeffer 1985, chapter VII),
@@ -41,18 +45,12 @@ struct Exits {
 /// The tangents are exact (about 1e-10) where the quadratic terms of g determine them, and
 /// extrapolated in rho elsewhere: to about 1e-6, or 1e-4 where only terms of high order tell the
 /// branches apart. Switches of at.piece are not considered.
+/// Starts are brought in by halves until `near_enough` holds for them, to 1e-9 of max(1, |u0|) at most; the search itself does
+/// not depend on it: F of one piece is smooth beyond its surfaces.
 /// @param at  the singular point (x, lambda, piece), located to about 1e-10
 /// @param corank  k = dim ker J0 - 1; 0 at a regular point, which has its two directions
-Exits exits_at(const Walker& walker, const CurvePoint& at, int corank);
-
-/// Is this point of a branch near enough to the singular point, of whose branch it has the limit
-/// direction `tangent`? Say, before the next switching surface.
-using NearEnough = std::function<bool(const CurvePoint& start, const Direction& tangent)>;
-
-/// The same with starts so near that `near_enough` holds; they are brought in by halves, to 1e-9 of max(1, |u0|)
-/// at most. The search itself does not depend on it: F of one piece is smooth beyond its surfaces.
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
-               const NearEnough& near_enough);
+               const NearEnough& near_enough = {});
 
 /// Corank of [dF/dx dF/dlambda] at a point that is located to about 1e-9: how many of its singular
 /// values are below 1e-6 and separated from the others by a gap, after rows and columns have been

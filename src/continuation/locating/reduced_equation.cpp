@@ -5,48 +5,33 @@
 
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/extended_matrix.hpp"
+#include "springfold/core/equilibration.hpp"
 
 namespace springfold::continuation {
 namespace {
 
 /// Kernels of J as singular vectors, or, without its entries, by inverse iteration with the matrix that
 /// they border.
-bool find_kernels(const ScaledJacobian& J, ReducedEquation& e) {
+bool find_kernels(const ExtendedMatrix& J, ReducedEquation& e) {
   const Index k = e.k;
-  if (!J.structured) {
-    const auto take = [&e, k](const Svd& svd) {
-      e.N = svd.V.rightCols(k + 1);
-      e.L = svd.U.rightCols(k);
-    };
-    take(divided_svd(J.dense, SingularVectors::full, SingularVectors::full));
-    // Divide and conquer may lose the vectors of values that agree to the last digits, as symmetric structures have them.
-    constexpr double lost = 1000 * promised_place;
-    const double largest = J.dense.norm();
-    if (!((J.dense * e.N).norm() < lost * largest) ||
-        !((e.L.transpose() * J.dense).norm() < lost * largest))
-      take(jacobi_svd(J.dense, SingularVectors::full, SingularVectors::full));
-    return true;
+  if (J.at.structured) {
+    Borders kernels;
+    const bool found = kernel_borders(J, k, kernels);
+    e.L = kernels.B;
+    e.N = kernels.C;
+    return found;
   }
-  const Index n = J.dF_dlambda.size();
-  constexpr int most = 16;
-  e.N = irregular_columns(n + 1, k + 1);
-  e.L = irregular_columns(n, k);
-  Matrix right = Matrix::Zero(n + k + 1, k + 1), left = Matrix::Zero(n + k + 1, k);
-  right.bottomRows(k + 1).setIdentity();
-  left.bottomRows(k).setIdentity();
-  KernelSystem bordered;
-  for (int step = 0; step < most; ++step) {
-    bordered.compute(J, e.N, e.L);
-    const Matrix V = bordered.solve(right), W = bordered.solve(left, true);
-    if (!V.allFinite() || !W.allFinite()) return false;
-    const Matrix N = orthonormal(V.topRows(n + 1)), L = orthonormal(W.topRows(n));
-    const double moved =
-        (N - e.N * (e.N.transpose() * N)).norm() + (L - e.L * (e.L.transpose() * L)).norm();
-    e.N = N;
-    e.L = L;
-    if (moved < residual_level) break;
-  }
+  const auto take = [&e, k](const Svd& svd) {
+    e.N = svd.V.rightCols(k + 1);
+    e.L = svd.U.rightCols(k);
+  };
+  take(divided_svd(J.dense, SingularVectors::full, SingularVectors::full));
+  // Divide and conquer may lose the vectors of values that agree to the last digits, as symmetric structures have them.
+  constexpr double lost = 1000 * promised_place;
+  const double largest = J.dense.norm();
+  if (!((J.dense * e.N).norm() < lost * largest) ||
+      !((e.L.transpose() * J.dense).norm() < lost * largest))
+    take(jacobi_svd(J.dense, SingularVectors::full, SingularVectors::full));
   return true;
 }
 
@@ -69,7 +54,7 @@ std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, doubl
     const auto plus = jacobian_at(*e.walker, e.U0 + j * h * e.N.col(i), e.root, e.piece);
     const auto minus = jacobian_at(*e.walker, e.U0 - j * h * e.N.col(i), e.root, e.piece);
     if (!plus || !minus) return std::nullopt;
-    if (plus->structured)
+    if (plus->at.structured)
       sum += weights[j - 1] / (60 * h) * (product(*plus, e.N) - product(*minus, e.N));
     else
       sum += weights[j - 1] / (60 * h) * ((plus->dense - minus->dense) * e.N);
@@ -89,8 +74,9 @@ bool expand(ReducedEquation& e, double h) {
       e.quadratic[static_cast<std::size_t>(q)].row(i) = e.L.col(q).transpose() * *D;
     Matrix right = Matrix::Zero(n + m, m);
     right.topRows(n) = -0.5 * *D;
-    const Matrix W = e.bordered.solve(right).topRows(n + 1);
-    if (!W.allFinite()) return false;
+    const auto solved = e.bordered.solve(right);
+    if (!solved || !solved->allFinite()) return false;
+    const Matrix W = solved->topRows(n + 1);
     for (Index j = 0; j < m; ++j) e.bend.emplace_back(W.col(j));
     e.curvature = std::max(e.curvature, W.colwise().norm().maxCoeff());
   }
@@ -114,78 +100,40 @@ Vector scaled_point(const CurvePoint& at, const Vector& root) {
   return U.cwiseProduct(root);
 }
 
-std::optional<ScaledJacobian> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
-                                          const Piece& piece) {
-  if (!walker.problem.structured()) {
-    auto dense = scaled_jacobian(walker, U, root, piece);
-    if (!dense) return std::nullopt;
-    return ScaledJacobian{.dense = std::move(*dense)};
-  }
+std::optional<ExtendedMatrix> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
+                                          const Piece& piece, bool densely) {
   const Index n = U.size() - 1;
-  Linearisation at;
-  if (!linearise(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
-    return std::nullopt;
-  return ScaledJacobian{.structured = std::make_shared<StructuredMatrix>(
-                            scaled(*at.structured, Vector::Ones(n), root.head(n).cwiseInverse())),
-                        .dF_dlambda = at.dF_dlambda};
-}
-
-Matrix product(const ScaledJacobian& J, const Matrix& X) {
-  if (!J.structured) return J.dense * X;
-  const Index n = J.dF_dlambda.size();
-  Matrix Y = J.dF_dlambda * X.bottomRows(1);
-  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += product(*J.structured, X.col(c).head(n));
-  return Y;
-}
-
-Matrix magnitudes(const ScaledJacobian& J, const Matrix& X) {
-  if (!J.structured) return J.dense.cwiseAbs() * X.cwiseAbs();
-  const Index n = J.dF_dlambda.size();
-  Matrix Y = J.dF_dlambda.cwiseAbs() * X.bottomRows(1).cwiseAbs();
-  for (Index c = 0; c < X.cols(); ++c) Y.col(c) += magnitudes(*J.structured, X.col(c).head(n));
-  return Y;
-}
-
-double size_of(const ScaledJacobian& J) {
-  if (!J.structured) return J.dense.norm();
-  const Index n = J.dF_dlambda.size();
-  return std::sqrt(static_cast<double>(n + 1)) * product(J, irregular_columns(n + 1, 1)).norm();
-}
-
-void KernelSystem::compute(const ScaledJacobian& J, const Matrix& N, const Matrix& L) {
-  const Index n = L.rows(), k = L.cols();
-  structured_ = J.structured;
-  if (!structured_) {
-    Matrix M = Matrix::Zero(n + k + 1, n + k + 1);
-    M.topLeftCorner(n, n + 1) = J.dense;
-    M.topRightCorner(n, k) = L;
-    M.bottomLeftCorner(k + 1, n + 1) = N.transpose();
-    lu_.compute(M);
-    return;
+  const Vector x = U.head(n).cwiseQuotient(root.head(n)), columns = root.head(n).cwiseInverse();
+  ExtendedMatrix J{.has_last = false};
+  if (walker.problem.structured() && !densely) {
+    if (!linearise(walker.problem, x, U[n], piece, J.at)) return std::nullopt;
+    J.at.structured =
+        std::make_shared<StructuredMatrix>(scaled(*J.at.structured, Vector::Ones(n), columns));
+    return J;
   }
-  //  | dF/dx  dF/dlambda  L |
-  //  | N_x^T  N_l^T       0 |
-  borders_ = {Matrix(n, k + 1), N.topRows(n), Matrix::Zero(k + 1, k + 1)};
-  borders_.B << J.dF_dlambda, L;
-  borders_.D.col(0) = N.bottomRows(1).transpose();
-}
-
-Matrix KernelSystem::solve(const Matrix& right, bool transposed) const {
-  if (!structured_) return transposed ? lu_.solve_transposed(right) : lu_.solve(right);
-  Matrix X = right;
-  if (!structured_->solve(borders_, X, transposed)) X.setConstant(not_a_number);
-  return X;
-}
-
-std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
-                                      const Piece& piece) {
-  const Index n = U.size() - 1;
   Linearisation at;
-  if (!linearise_densely(walker.problem, U.head(n).cwiseQuotient(root.head(n)), U[n], piece, at))
-    return std::nullopt;
-  Matrix J(n, n + 1);
-  J << at.dF_dx * root.head(n).cwiseInverse().asDiagonal(), at.dF_dlambda;
+  if (!linearise_densely(walker.problem, x, U[n], piece, at)) return std::nullopt;
+  J.dense.resize(n, n + 1);
+  J.dense << at.dF_dx * columns.asDiagonal(), at.dF_dlambda;
   return J;
+}
+
+std::optional<EquilibratedJacobian> equilibrated_jacobian(const Walker& walker,
+                                                          const CurvePoint& at) {
+  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
+  const auto here = jacobian_at(walker, U, root, at.piece, true);
+  if (!here) return std::nullopt;
+  const Matrix& J = here->dense;
+  // How far away, and how much of what changes there counts.
+  constexpr double aside = small_share, counts = negligible_share;
+  Matrix sizes = J.cwiseAbs();
+  const Vector direction = Vector::LinSpaced(U.size(), 1, 2).normalized();
+  for (const double h : {-aside, aside})
+    if (const auto other = jacobian_at(walker, U + h * direction, root, at.piece, true))
+      sizes = sizes.cwiseMax(counts * (other->dense - J).cwiseAbs());
+  const Equilibration scale = equilibrate(sizes);
+  return EquilibratedJacobian{scale.rows.asDiagonal() * J * scale.columns.asDiagonal(),
+                              scale.columns.cwiseQuotient(root)};
 }
 
 bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {
@@ -202,40 +150,47 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   const auto J = jacobian_at(walker, e.U0, e.root, e.piece);
   if (!J || !find_kernels(*J, e)) return std::nullopt;
   e.follows = turn_kernel(e.N);
-  e.bordered.compute(*J, e.N, e.L);
+  e.bordered = BorderedMatrix(*J, {e.L, e.N});
   for (double h = tiny_share * e.scale; h > poor; h /= 10)
     if (expand(e, h) && h * e.curvature < small_share) return e;
   return std::nullopt;
+}
+
+Vector bend_along(const ReducedEquation& e, const Vector& c) {
+  const Index m = e.k + 1;
+  Vector w = Vector::Zero(e.U0.size());
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
+  return w;
 }
 
 std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector& c) {
   const Index n = e.L.rows(), m = e.k + 1;
   const double rho = c.norm(), enough = std::max(one_place * rho * rho, rounding_unit * e.scale);
   const Vector U1 = e.U0 + e.N * c;
-  Vector w = Vector::Zero(n + 1), F, right = Vector::Zero(n + m);
-  for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < m; ++j) w += c[i] * c[j] * e.bend[static_cast<std::size_t>(i * m + j)];
-  KernelSystem own;
-  const KernelSystem* system = &e.bordered;
-  double before = infinity;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    if (!residual_at(e, U1 + w, F)) return std::nullopt;
-    right.head(n) = -F;
-    const Vector step = system->solve(right);
-    w += step.head(n + 1);
-    const double moved = step.head(n + 1).norm();
-    if (!(w.norm() < rho)) return std::nullopt;
-    if (has_settled(moved, before, enough, residual_level * e.scale))
-      return ReducedValue{U1 + w, -step.tail(e.k)};
-    if (moved > still_falls * before) {
+  Vector w = bend_along(e, c), g, F, right = Vector::Zero(n + m);
+  BorderedMatrix own;
+  const BorderedMatrix* system = &e.bordered;
+  bool slow = false;
+  const bool found = settles(12, [&](double before) -> std::optional<IterationStep> {
+    if (slow) {
       const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
       if (!J) return std::nullopt;
-      own.compute(*J, e.N, e.L);
+      own = BorderedMatrix(*J, {e.L, e.N});
       system = &own;
     }
-    before = moved;
-  }
-  return std::nullopt;
+    if (!residual_at(e, U1 + w, F)) return std::nullopt;
+    right.head(n) = -F;
+    const auto step = system->solve(right);
+    if (!step) return std::nullopt;
+    w += step->col(0).head(n + 1);
+    g = -step->col(0).tail(e.k);
+    if (!(w.norm() < rho)) return std::nullopt;
+    const double moved = step->col(0).head(n + 1).norm();
+    slow = moved > still_falls * before;
+    return IterationStep{moved, enough, residual_level * e.scale};
+  });
+  return found ? std::optional(ReducedValue{U1 + w, g}) : std::nullopt;
 }
 
 std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start, double rho) {
@@ -243,12 +198,11 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
   RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
   Matrix A(n + 1, n + 1);
   Vector F, right(n + 1);
-  double before = infinity;
-  for (int iteration = 0; iteration < 16; ++iteration) {
+  const bool found = settles(16, [&](double) -> std::optional<IterationStep> {
     const double length = ray.c.norm();
-    const auto J = scaled_jacobian(*e.walker, ray.U, e.root, e.piece);
+    const auto J = jacobian_at(*e.walker, ray.U, e.root, e.piece, true);
     if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
-    A << *J, (e.N * (ray.c / length)).transpose();
+    A << J->dense, (e.N * (ray.c / length)).transpose();
     right << -F, rho - length;
     const Lu lu(A);
     Vector step = lu.solve(right);
@@ -258,18 +212,14 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     ray.U += step;
     ray.c = e.N.transpose() * (ray.U - e.U0);
     if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
+    ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
+    ray.sign = lu.sign();
     const bool small =
         F.lpNorm<Eigen::Infinity>() <=
         residual_bound(e.walker->problem, e.piece, e.walker->options.newton, e.scale);
-    if (has_settled(moved, before, function_noise * rho,
-                    small ? near_share * told_apart * rho : 0)) {
-      ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
-      ray.sign = lu.sign();
-      return ray;
-    }
-    before = moved;
-  }
-  return std::nullopt;
+    return IterationStep{moved, function_noise * rho, small ? near_share * told_apart * rho : 0};
+  });
+  return found ? std::optional(ray) : std::nullopt;
 }
 
 std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start,
@@ -279,7 +229,7 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
   double size = 0;
   for (const Matrix& Q : e.quadratic) size = std::max(size, Q.norm());
   if (!(size > 0) && e.k > 0) return std::nullopt;
-  for (int iteration = 0; iteration < 10; ++iteration) {
+  const bool found = settles(10, [&](double) -> std::optional<IterationStep> {
     Matrix A(m, m);
     Vector right(m);
     for (Index q = 0; q < e.k; ++q) {
@@ -294,9 +244,9 @@ std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector
     const Vector step = svd.solve(right);
     c = (c + step).normalized();
     if (!((c - start.normalized()).norm() < reach)) return std::nullopt;
-    if (step.norm() < refined_step || (iteration > 5 && step.norm() < residual_level)) return c;
-  }
-  return std::nullopt;
+    return IterationStep{step.norm(), refined_step, residual_level};
+  });
+  return found ? std::optional(c) : std::nullopt;
 }
 
 }  // namespace springfold::continuation

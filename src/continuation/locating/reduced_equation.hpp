@@ -1,61 +1,45 @@
 // Lyapunov-Schmidt reduction at a singular point, see exits.hpp. Private to the engine.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "continuation/points/step.hpp"
-#include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 
-/// J = [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean.
-/// Unknowns without weight get a small one.
-struct ScaledJacobian {
-  Matrix dense{};                                        ///< n x n + 1; empty where structured
-  std::shared_ptr<const StructuredMatrix> structured{};  ///< then this is dF/dx / root
-  Vector dF_dlambda{};
-};
-
-/// @param root  n + 1 square roots of the weights, the last is 1
-std::optional<ScaledJacobian> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
-                                          const Piece& piece);
-/// The same with its entries in any case.
-std::optional<Matrix> scaled_jacobian(const Walker& walker, const Vector& U, const Vector& root,
-                                      const Piece& piece);
-
-Matrix product(const ScaledJacobian& J, const Matrix& X);     ///< J X
-Matrix magnitudes(const ScaledJacobian& J, const Matrix& X);  ///< |J| |X|
-double size_of(const ScaledJacobian& J);  ///< Frobenius norm; structured: estimated
-
-/// | J   L |
-/// | N^T 0 |, ready to be solved with.
-class KernelSystem {
- public:
-  void compute(const ScaledJacobian& J, const Matrix& N, const Matrix& L);
-  /// Not finite where the matrix is singular.
-  Matrix solve(const Matrix& right, bool transposed = false) const;
-
- private:
-  Lu lu_{};
-  std::shared_ptr<const StructuredMatrix> structured_{};
-  FrontalBorders borders_{};
-};
+/// [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean. Unknowns without weight get a
+/// small one.
+/// @param root     n + 1 square roots of the weights, the last is 1
+/// @param densely  with its entries in any case
+std::optional<ExtendedMatrix> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
+                                          const Piece& piece, bool densely = false);
 
 Vector metric_roots(const Vector& weights);
 Vector scaled_point(const CurvePoint& at, const Vector& root);
 
+/// What the rank of the extended Jacobian is must not depend on units: D_r [dF/dx dF/dlambda] D_c at a point, n x (n + 1); entries that vanish there only count as large as they are a little
+/// away.
+struct EquilibratedJacobian {
+  Matrix J{};
+  Vector columns{};  ///< D_c: J y = 0 for (dx, dlambda) = D_c y
+};
+
+/// @returns nothing where derivatives are not defined
+std::optional<EquilibratedJacobian> equilibrated_jacobian(const Walker& walker,
+                                                          const CurvePoint& at);
+
 struct ReducedEquation {
   const Walker* walker = nullptr;
   Piece piece{};
-  Vector root{};            ///< n + 1
-  Vector U0{};              ///< n + 1
-  Index k = 0;              ///< corank
-  Matrix N{}, L{};          ///< right and left kernels: n + 1 x k + 1, n x k
-  double scale = 1;         ///< max(1, |U0|)
-  bool follows = false;     ///< the last column of N is the only one along which lambda moves
-  KernelSystem bordered{};  ///< with J at U0
+  Vector root{};              ///< n + 1
+  Vector U0{};                ///< n + 1
+  Index k = 0;                ///< corank
+  Matrix N{}, L{};            ///< right and left kernels: n + 1 x k + 1, n x k
+  double scale = 1;           ///< max(1, |U0|)
+  bool follows = false;       ///< the last column of N is the only one along which lambda moves
+  BorderedMatrix bordered{};  ///< J at U0 with L and N
   std::vector<Matrix> quadratic{};  ///< k matrices (k + 1 x k + 1): g_m(c) = c^T Q_m c / 2 + ...
   std::vector<Vector> bend{};       ///< w(c) = sum_ij c_i c_j bend_(i (k + 1) + j) + ...
   double curvature = 0;  ///< largest |bend|: 1/length on which the kernel is a good chart
@@ -66,6 +50,9 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
 
 /// F at U; false where it is not defined.
 bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F);
+
+/// w(c) to second order.
+Vector bend_along(const ReducedEquation& e, const Vector& c);
 
 struct ReducedValue {
   Vector U{};  ///< u0 + N c + w(c)
@@ -90,5 +77,24 @@ std::optional<RayPoint> ray_point(const ReducedEquation& equation, const Vector&
 /// @returns nothing where they do not determine it
 std::optional<Vector> quadratic_direction(const ReducedEquation& equation, const Vector& c,
                                           double reach);
+
+/// The branches at one radius, in a fixed order, none twice.
+struct RaySet {
+  std::vector<RayPoint> rays{};
+  double rho = 0;
+  std::string doubt{};  ///< set: the search was not possible everywhere, or found a double zero
+};
+
+/// Adds what Newton's method reaches from U, unless it is known.
+/// @returns false where it does not converge
+bool add_ray(const ReducedEquation& equation, const Vector& U, RaySet& set);
+
+/// Searches the sphere |c| = rho; corank 0, 1 or 2.
+/// @param samples  on the circle of corank 1
+RaySet rays_on_sphere(const ReducedEquation& equation, double rho, int samples);
+
+/// Directions of the kernel that the quadratic terms alone determine: a branch leaves along each.
+/// Corank 1 and 2; empty for others.
+std::vector<Vector> quadratic_rays(const ReducedEquation& equation);
 
 }  // namespace springfold::continuation

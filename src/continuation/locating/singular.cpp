@@ -1,74 +1,97 @@
 #include "continuation/locating/singular.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
-#include "continuation/locating/determined.hpp"
-#include "continuation/locating/flat_turns.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
-#include "springfold/core/small_lu.hpp"
 
 namespace springfold::continuation {
 namespace {
 
-/// Are the rates at the samples, and on average between them, so much alike that the polynomial of may_turn() stays
-/// close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as much from
-/// a constant as they do (its Lebesgue constant).
-/// @param u      places of the samples, shares of the step
-/// @param rates  at the samples, then integrals up to all but the first
-bool is_even(const Eigen::Ref<const Vector>& u, const Eigen::Ref<const Vector>& rates) {
-  constexpr double alike = 0.04;
-  const Index m = u.size();
-  const double first = rates[0];
-  if (m > 2 && !(u[1] > near_share && u[1] < 1 - near_share)) return false;
-  for (Index i = 1; i < m; ++i) {
-    const double mean = rates[m + i - 1] / u[i];
-    if (!(std::abs(rates[i] - first) <= alike * std::abs(first)) ||
-        !(std::abs(mean - first) <= alike * std::abs(first)))
-      return false;
+bool is_clear(const CurvePoint& p, double level) { return std::abs(p.tangent.dlambda) > level; }
+
+/// Regular steps along the tangent until lambda's rate is above a level.
+std::optional<CurvePoint> until_clear(const Walker& walker, CurvePoint p, double step,
+                                      double level) {
+  constexpr double farthest = 0.5, shortest = poor, growth = 2;
+  for (double gone = 0; !is_clear(p, level);) {
+    StepResult next = try_step(walker, p, step);
+    if (next.point) {
+      gone += step;
+      if (gone > farthest) return std::nullopt;
+      p = std::move(*next.point);
+      step *= growth;
+    } else {
+      step *= 0.5;
+      if (step < shortest) return std::nullopt;
+    }
   }
-  return true;
+  return p;
 }
 
-/// Could lambda turn, or almost turn, between the samples? Its rate along the step is the polynomial
-/// that has the samples' rates and leads from one sample's lambda to the next.
+/// The widened step on which the rate rises above a level.
+std::optional<WideStep> widened_to(const Walker& walker, const CurvePoint& from,
+                                   const CurvePoint& to, double level) {
+  const double step = std::max(to.s - from.s, together);
+  CurvePoint back = from;
+  back.tangent = opposite(from.tangent);
+  auto left = until_clear(walker, back, step, level);
+  const auto right = left ? until_clear(walker, to, step, level) : std::nullopt;
+  if (!right) return std::nullopt;
+  left->tangent = opposite(left->tangent);
+  left->s = from.s - way_to(walker.weights, *left, from);
+  const double length = way_to(walker.weights, *left, *right);
+  if (!(length > 0)) return std::nullopt;
+  const StepResult whole = try_step(walker, *left, length);
+  if (!whole.point) return std::nullopt;
+  if (length_of(walker, difference(*whole.point, *right)) > same_point) return std::nullopt;
+  if (!examine(walker, *left, *whole.point).doubt.empty()) return std::nullopt;
+  return WideStep{*left, *whole.point};
+}
+
+/// Rounding scatters the places of touches over a share of the stretch on which they are lost in it: one that lies
+/// just before the step, as far as the step can tell, may have lain beyond the end of the one before. It is then the
+/// tracer's matter whether it has been reported.
+double settled_on_step(const ZeroOf& touch) {
+  constexpr double share = 0.25, just_inside = 10 * one_place;
+  const bool before = touch.at <= 0 && touch.at > -share * (touch.after - touch.before);
+  return before && touch.after > just_inside ? just_inside : touch.at;
+}
+
+/// Are the rates of lambda at the samples, and on average from the first one to them, so much alike that the polynomial of
+/// may_turn() stays close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as
+/// much from a constant as they do (its Lebesgue constant).
+bool is_even(const WatchedStep& arc, Samples samples) {
+  constexpr double alike = 0.04;
+  const CurvePoint &from = *samples.front(), &second = *samples[1];
+  const double first = from.tangent.dlambda, share = (second.s - from.s) / arc.length();
+  if (samples.size() > 2 && !(share > near_share && share < 1 - near_share)) return false;
+  return std::all_of(samples.begin() + 1, samples.end(), [&](const CurvePoint* p) {
+    const double rate =
+        p->tangent.dlambda / metric_product(arc.walker().weights, p->tangent, from.tangent);
+    const double mean = (p->lambda - from.lambda) / (p->s - from.s);
+    return std::abs(rate - first) <= alike * std::abs(first) &&
+           std::abs(mean - first) <= alike * std::abs(first);
+  });
+}
+
+/// Could lambda turn, or almost turn, between the samples? Its rate along the step is that of the polynomial through them.
 bool may_turn(const WatchedStep& arc, Samples samples) {
-  const CurvePoint& from = *samples.front();
-  const auto m = static_cast<Index>(samples.size()), n = 2 * m - 1;
-  constexpr int most = 5;
-  assert(n <= most);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> A(n, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> right(n);
-  for (Index i = 0; i < m; ++i) {
-    const CurvePoint& p = *samples[static_cast<std::size_t>(i)];
-    const double u = (p.s - from.s) / arc.length();
-    double power = 1;
-    for (Index k = 0; k < n; ++k) {
-      A(i, k) = power;
-      power *= u;
-      if (i > 0) A(m + i - 1, k) = power / static_cast<double>(k + 1);
-    }
-    right[i] = p.tangent.dlambda / metric_product(arc.walker().weights, p.tangent, from.tangent);
-    if (i > 0) right[m + i - 1] = (p.lambda - from.lambda) / arc.length();
-  }
-  if (is_even(A.col(1).head(m), right)) return false;
-  const SmallLu polynomial(A);
-  if (!(polynomial.smallest_pivot() > 0)) return true;  // samples that coincide: nothing is known
-  polynomial.solve(right.data());
-  const auto& c = right;
+  if (is_even(arc, samples)) return false;
   constexpr int parts = 24;
   constexpr double far = near_share;  // from zero, compared with the largest rate
   double low = infinity, high = -low;
   for (int i = 0; i <= parts; ++i) {
-    double rate = 0;
-    for (Index k = n; k-- > 0;) rate = rate * i / parts + c[k];
-    low = std::min(low, rate);
-    high = std::max(high, rate);
+    const auto rate = arc.rate_of_model(arc.length() * i / parts);
+    if (!rate) return true;  // samples that coincide: nothing is known
+    low = std::min(low, *rate);
+    high = std::max(high, *rate);
   }
   return !(low > far * high && high > 0) && !(high < far * low && low < 0);
 }
@@ -241,8 +264,7 @@ Hit hit_of(const WatchedStep& arc, Candidate candidate) {
 
 /// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
 std::optional<Hit> inexact_place(const Hit& hit, double off) {
-  const double scale =
-      std::max({1.0, hit.point.x.lpNorm<Eigen::Infinity>(), std::abs(hit.point.lambda)});
+  const double scale = std::max(1.0, size_of(hit.point));
   if (hit.kind != HitKind::branch_point || off <= promised_place * scale) return std::nullopt;
   Hit doubt = hit;
   doubt.kind = HitKind::inexact;
@@ -253,8 +275,39 @@ std::optional<Hit> inexact_place(const Hit& hit, double off) {
 
 }  // namespace
 
-SingularPoints singular_points(const WatchedStep& arc, Samples samples) {
-  SingularPoints result;
+std::optional<WideStep> widened(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                                double noise) {
+  for (const double times : {clear_of_rounding, near_share * clear_of_rounding})
+    if (auto wide = widened_to(walker, from, to, times * noise)) return wide;
+  return std::nullopt;
+}
+
+std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const CurvePoint& from,
+                                                    const CurvePoint& to, double high,
+                                                    double noise) {
+  const auto wide = widened(walker, from, to, noise);
+  if (!wide) return std::nullopt;
+  const double length = wide->to.s - wide->from.s;
+  const WatchedStep arc(walker, wide->from, length);
+  const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, length, noise,
+                                      same_point, NoiseIs::bound);
+  if (!found.resolved) return std::nullopt;
+  std::vector<ZeroOf> turns;
+  for (ZeroOf turn : found.zeros) {
+    const auto& point = arc.point(turn.at);
+    if (!point) return std::nullopt;
+    const double moved = way_to(walker.weights, from, *point) - turn.at;
+    turn.at += moved;
+    turn.before += moved;
+    turn.after += moved;
+    if (turn.touches) turn.at = settled_on_step(turn);
+    if (turn.at > 0 && turn.at <= high) turns.push_back(turn);
+  }
+  return turns;
+}
+
+StepEvents singular_points(const WatchedStep& arc, Samples samples) {
+  StepEvents result;
   const CurvePoint& to = *samples.back();
   const TraceOptions& options = arc.walker().options;
   WatchedZeros turns = turns_on(arc, samples);

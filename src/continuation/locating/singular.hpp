@@ -5,18 +5,20 @@
 #include <vector>
 
 #include "continuation/locating/watched_step.hpp"
-#include "continuation/points/samples.hpp"
+#include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
 
 namespace springfold::continuation {
 
-struct SingularPoints {
+/// All smooth special points on a step between two points of one piece, in order.
+struct StepEvents {
   std::vector<Hit> hits{};
-  std::string doubt{};  ///< set: the zeros of tangent and eigenvalues do not fit together
-  int unexplained = 0;
-  bool passing = false;  ///< with a doubt: branches pass each other closely and do not meet
-  bool flat =
-      false;  ///< with a doubt: lambda stands still to rounding, and shorter steps do not help
+  std::string doubt{};   ///< set: something happens here that these hits do not explain;
+                         ///< a shorter step may separate it
+  int unexplained = 0;   ///< with a doubt: how many eigenvalues change sign unexplained
+  bool passing = false;  ///< with a doubt: branches pass each other closely; the curve turns aside
+  bool flat = false;  ///< with a doubt: lambda stands still to rounding; shorter steps do not help
+  bool of_caller = false;  ///< with a doubt: it is about an event of the caller
 };
 
 /// Finds every zero of the tangent's lambda-component and of the eigenvalues of dF/dx between the
@@ -25,6 +27,28 @@ struct SingularPoints {
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
 /// @param arc      the step
 /// @param samples  its ends and points between them, in order; all on one piece
-SingularPoints singular_points(const WatchedStep& arc, Samples samples);
+StepEvents singular_points(const WatchedStep& arc, Samples samples);
+
+/// Rates of lambda this many times their rounding have a sign beyond doubt.
+inline constexpr double clear_of_rounding = 100;
+
+/// A regular step of the curve, as long as need be, on which lambda's rate rises clear of its rounding on
+/// both sides of a shorter one: it is given by the curve, not by the length of the shorter step.
+struct WideStep {
+  CurvePoint from{}, to{};
+};
+
+/// @param noise  rounding of lambda's rate
+/// @returns nothing where lambda stands still for longer than a regular step can be, or the evidence for a step
+/// is missing
+std::optional<WideStep> widened(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                                double noise);
+
+/// Zeros of lambda's rate on the widened step, those of them that lie between `from` and `high` beyond
+/// it; places as distances from `from` along its tangent.
+/// @returns nothing where there is no such step or its zeros are too close together
+std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const CurvePoint& from,
+                                                    const CurvePoint& to, double high,
+                                                    double noise);
 
 }  // namespace springfold::continuation

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/locating/branch_candidate.hpp"
-#include "continuation/locating/determined.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "continuation/locating/watched_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -13,20 +12,8 @@
 namespace springfold::continuation {
 namespace {
 
-Direction difference(const CurvePoint& a, const CurvePoint& b) {
-  return {a.x - b.x, a.lambda - b.lambda};
-}
-
-Direction difference(const Direction& a, const Direction& b) {
-  return {a.dx - b.dx, a.dlambda - b.dlambda};
-}
-
 /// Shares of a step at which a model of it is compared with the curve: between its nodes, and not evenly.
 constexpr std::array places_of_comparison{0.07, 0.4, 0.6, 0.93};
-
-double size_of(const CurvePoint& p) {
-  return std::max(p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda));
-}
 
 }  // namespace
 
@@ -39,9 +26,7 @@ WatchedStep::WatchedStep(const Walker& walker, Samples samples)
 std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  StepMeasures measures;
-  std::string refusal;
-  if (!find_point(walker_, from_.piece, from_.tangent, *point, measures, refusal)) return {};
+  if (!find_point(walker_, from_.piece, from_.tangent, *point)) return {};
   return point;
 }
 
@@ -50,15 +35,8 @@ bool WatchedStep::model_of_samples() const {
 }
 
 std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
-  if (model_.empty() && (settled_ || !model_of_samples()))
-    return point_between(walker_, from_, *samples_[sample_count_ - 1], ds);
-  auto point = corrected(ds);
-  if (!point) return {};
-  CurvePoint expected;
-  model_.point(walker_.weights, from_, ds, expected);
-  if (metric_product(walker_.weights, point->tangent, expected.tangent) < half_a_right_angle)
-    return {};
-  return point;
+  if (model_.empty() && (settled_ || !model_of_samples())) return point_at(walker_, from_, ds);
+  return point_near(walker_, model_, from_, ds);
 }
 
 /// The samples' polynomial is compared with corrected points between them; these become nodes as well, and others are
@@ -257,11 +235,10 @@ double residual_at(const Walker& walker, const CurvePoint& p) {
 /// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated from
 /// farther off satisfies F as well as it does, that one is nearer to the curve.
 CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
-  constexpr double window = 0.2;
   if (corrected.x.size() == 0)
     return corrected;  // a body that is driven in all its ways: lambda alone is left
   const double ds = corrected.s - step.from().s;
-  const auto curve = curve_near(step, ds, window * step.length());
+  const auto curve = curve_near(step, ds, aside_share * step.length());
   if (!curve) return corrected;
   CurvePoint point = corrected;
   const Vector u = (*curve)(ds);
@@ -290,7 +267,7 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
   const WatchedStep step(walker, samples);
   for (std::size_t i = 1; i < hits.size(); ++i) {
     const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
-    for (const double share : {0.5, 0.3, 0.7}) {
+    for (const double share : {0.5, near_share, 1 - near_share}) {
       const double s = left + share * (right - left);
       if (!(s > left && s < right)) break;
       const auto& point = step.point(s - from.s);

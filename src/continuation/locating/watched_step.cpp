@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/locating/branch_candidate.hpp"
-#include "continuation/locating/sigma_touch.hpp"
+#include "continuation/locating/cluster.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
@@ -53,13 +52,13 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
   for (const double start : {t, curve->a, curve->b}) {
     double place = start;
     // All entries are multiples of t - t* near the place.
-    for (int i = 0; i < 40; ++i) {
+    settles(40, [&](double) -> std::optional<IterationStep> {
       const Vector s = (*Sigma)(place), d = Sigma->slope(place);
       const double step = -d.dot(s) / d.squaredNorm();
-      if (!std::isfinite(step)) break;
+      if (!std::isfinite(step)) return std::nullopt;
       place = std::clamp(place + step, curve->a, curve->b);
-      if (std::abs(step) < few_roundings) break;
-    }
+      return IterationStep{std::abs(step), few_roundings};
+    });
     const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
                         error / Sigma->slope(place).norm();
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
@@ -135,7 +134,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
 
 /// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
 std::vector<double> singular_distances(const WatchedStep& arc, double t) {
-  const double d = 0.02 * arc.length();
+  const double d = 2 * negligible_share * arc.length();
   std::vector<ExtendedMatrix> E;
   for (const double ds : {t, t - d, t + d}) {
     const auto& p = arc.point(ds);

@@ -8,8 +8,8 @@
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/zeros.hpp"
 #include "continuation/points/arc.hpp"
+#include "continuation/points/chebyshev.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/samples.hpp"
 #include "continuation/points/working_memory.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -56,6 +56,11 @@ class WatchedStep {
     if (const auto exact = exact_point(ds)) return exact->tangent.dlambda;
     const auto& p = point(ds);
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
+  }
+  /// Of lambda, as the polynomial through the step's samples, or a better one, has it; nothing where there is none.
+  std::optional<double> rate_of_model(double ds) const {
+    if (model_.empty() && (settled_ || !model_of_samples())) return std::nullopt;
+    return model_.rate_of_lambda(ds);
   }
   std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
     const Place* place = place_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
@@ -138,5 +143,26 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
 /// @returns false when a branch point is too near to tell
 bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
                   std::vector<Candidate>& found);
+
+/// A branch point on the arc, from the curve's points around it: (x, lambda) and Sigma are
+/// interpolated on a window; neither is ever computed at the singular point itself.
+struct Singularity {
+  double at = 0;
+  Vector u{};        ///< (x, lambda)
+  Vector along{};    ///< its rate along the arc
+  double doubt = 0;  ///< how far the place may be off
+  double free = 0;   ///< distance to the next zero of the test function; 0: not known
+};
+
+/// The curve's points near t, interpolated.
+std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length);
+
+/// A branch point of corank m from its interpolated place: placed to rounding where second derivatives tell
+/// it, polished otherwise.
+/// @param zeros    of the test function that showed it
+/// @param touches  the test function does not change its sign: a degenerate point
+/// @returns nothing if branches do not meet there
+std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches);
 
 }  // namespace springfold::continuation

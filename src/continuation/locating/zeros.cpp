@@ -191,7 +191,7 @@ class ZeroFinder {
   Fit fit_on(double a, double b) const {
     // A sample that falls on a singular point cannot be computed; beside it, it can.
     for (int nudge = 0; nudge < 3; ++nudge) {
-      const double shift = 0.02 * nudge * (b - a);
+      const double shift = 2 * negligible_share * nudge * (b - a);
       Fit fit{interpolate_value(f_, std::max(low_, a - shift), std::min(high_, b + shift))};
       if (!fit.polynomial) continue;
       bool complete = true;

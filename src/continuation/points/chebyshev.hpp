@@ -33,6 +33,23 @@ struct Interpolant {
 std::optional<Interpolant> interpolate(const std::function<std::optional<Vector>(double)>& f,
                                        double a, double b);
 
+/// The curve as a polynomial of the step length, for places at which no point of it can be computed: the unknowns
+/// (x, lambda) between step lengths a and b.
+/// @param point_at  an optional point at a step length
+/// @returns nothing where one of the points cannot be computed
+template <class PointAt>
+std::optional<Interpolant> interpolated_curve(const PointAt& point_at, double a, double b) {
+  return interpolate(
+      [&](double t) -> std::optional<Vector> {
+        const auto& p = point_at(t);
+        if (!p) return std::nullopt;
+        Vector u(p->x.size() + 1);
+        u << p->x, p->lambda;
+        return u;
+      },
+      a, b);
+}
+
 /// The same of a function with one value.
 std::optional<Interpolant> interpolate_value(const std::function<std::optional<double>(double)>& f,
                                              double a, double b);

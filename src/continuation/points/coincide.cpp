@@ -66,6 +66,10 @@ double length_of(const Walker& walker, const Direction& d) {
   return std::sqrt(metric_product(walker.weights, d, d));
 }
 
+double scale_of(const CurvePoint& point) {
+  return std::max({1.0, point.x.norm(), std::abs(point.lambda)});
+}
+
 Direction unit_direction(const Walker& walker, const Vector& u) {
   return unit_direction(walker, Direction{u.head(u.size() - 1), u[u.size() - 1]});
 }
@@ -83,8 +87,8 @@ double cosine(const Walker& walker, const Direction& a, const Direction& b) {
 }
 
 bool coincide(const Walker& walker, const CurvePoint& a, const CurvePoint& b) {
-  const double scale = std::max({1.0, a.x.norm(), std::abs(a.lambda)});
-  return a.piece == b.piece && length_of(walker, between(walker, a, b)) <= same_point * scale &&
+  return a.piece == b.piece &&
+         length_of(walker, between(walker, a, b)) <= same_point * scale_of(a) &&
          std::abs(cosine(walker, a.tangent, direction_seen_from(walker, a.x, b))) >=
              1 - nearly_same_line;
 }

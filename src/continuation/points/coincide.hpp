@@ -13,7 +13,22 @@ Direction direction_seen_from(const Walker& walker, const Vector& near, const Cu
 /// b - a, with every periodic unknown taken the short way round and b as its copy nearest to a.
 Direction between(const Walker& walker, const CurvePoint& a, const CurvePoint& b);
 
+inline Direction difference(const CurvePoint& a, const CurvePoint& b) {
+  return {a.x - b.x, a.lambda - b.lambda};
+}
+inline Direction difference(const Direction& a, const Direction& b) {
+  return {a.dx - b.dx, a.dlambda - b.dlambda};
+}
+
 double length_of(const Walker& walker, const Direction& d);
+
+/// What lengths at a point are judged against.
+double scale_of(const CurvePoint& point);
+
+/// Largest magnitude of the unknowns and lambda.
+inline double size_of(const CurvePoint& p) {
+  return std::max(p.x.size() > 0 ? p.x.lpNorm<Eigen::Infinity>() : 0.0, std::abs(p.lambda));
+}
 
 /// The direction (dx, dlambda) with length one.
 Direction unit_direction(const Walker& walker, const Vector& u);

@@ -3,24 +3,19 @@
 #pragma once
 
 #include <functional>
-#include <numbers>
 #include <optional>
 
-#include "continuation/points/step.hpp"
+#include "continuation/points/arc.hpp"
 
 namespace springfold::continuation {
-
-/// Cosine of the angle between a point's tangent and the expected one up to which the point is on its own branch.
-inline constexpr double half_a_right_angle = 0.5 * std::numbers::sqrt2;
 
 /// A point of the curve at distance ds from `from` along its tangent, without judging the step.
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
 
-/// The same on a step whose end is known: predicted by the cubic through both ends and their tangents,
-/// so that beside a branch point the corrector stays on the curve.
-/// @returns nothing also where the tangent found is not that of the cubic: another branch's
-std::optional<CurvePoint> point_between(const Walker& walker, const CurvePoint& from,
-                                        const CurvePoint& to, double ds);
+/// A point of the curve near the model's point at the way t from its origin. Beside a branch point the corrector stays on
+/// the curve so. @returns nothing also where the tangent found is not that of the model: another branch's
+std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model,
+                                     const CurvePoint& origin, double t);
 
 /// A zero of `value` on the curve between step lengths a and b from `from`.
 struct Located {
@@ -29,8 +24,14 @@ struct Located {
 };
 
 /// Bracketed root finding (TOMS 748) over the step length; every trial is a corrected point.
-/// @pre value has opposite signs at the points of step length a and b
-/// @returns nothing when a trial point cannot be corrected
+/// @param point_at   the point at a step length, if it can be corrected
+/// @param tolerance  of the step length
+/// @returns nothing where the value has no opposite signs at a and b, or a trial point cannot be corrected
+std::optional<Located> locate(const std::function<std::optional<CurvePoint>(double)>& point_at,
+                              double a, double b, double tolerance,
+                              const std::function<double(const CurvePoint&)>& value);
+
+/// The same of the points that point_at() finds.
 std::optional<Located> locate(const Walker& walker, const CurvePoint& from, double a, double b,
                               const std::function<double(const CurvePoint&)>& value);
 

@@ -136,71 +136,96 @@ NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, doubl
   return std::move(memory->newton);
 }
 
+namespace {
+
+/// F at the iterate, together with its derivatives, which are needed there or, at the end, for the tangent.
+/// @param here  the place, where they were evaluated
+/// @returns false outside the domain
+bool evaluate(ProblemView problem, const Piece& piece, WorkingMemory& memory, Place*& here) {
+  NewtonResult& at = memory.newton;
+  Vector& F = memory.F;
+  here =
+      problem.structured() ? nullptr : place_with_residual(problem, memory, at.x, at.lambda, piece);
+  if (here)
+    F = here->F;
+  else if (!problem.residual(at.x, at.lambda, piece, F) || !F.allFinite())
+    return false;
+  at.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
+  return true;
+}
+
+/// What the residual of an iterate says.
+struct Judged {
+  bool small = false;    ///< it is at the tolerance
+  bool refined = false;  ///< nothing is left to correct but rounding
+  bool settled = false;  ///< it would do where nothing better can be had
+};
+
+/// @param place   of the last correction
+/// @param before  the residual there
+Judged judge(ProblemView problem, const Piece& piece, const NewtonOptions& options,
+             WorkingMemory& memory, const Place* place, double before) {
+  const NewtonResult& at = memory.newton;
+  const double scale = std::max({1.0, at.x.lpNorm<Eigen::Infinity>(), std::abs(at.lambda)});
+  const bool first = at.corrections.empty(), fine = !first && at.corrections.back() < noise_step;
+  // What is left to correct: the residual times the size of the inverse matrix that the last
+  // correction has shown.
+  const double left_over =
+      before > 0 ? at.residual_norm * (at.corrections.back() / before) : infinity;
+  // Where the matrix is nearly singular, a residual of rounding's size may leave much to correct. It is rounding only when
+  // it gets no smaller.
+  const auto at_its_least = [&] {
+    return !(before > 0) || left_over <= exact_model * scale ||
+           at.residual_norm > still_falls * before;
+  };
+  Judged judged;
+  judged.small = at.residual_norm <= options.residual_tolerance * scale ||
+                 (fine && at.residual_norm <= residual_bound(problem, piece, options, scale));
+  judged.refined =
+      !first &&
+      (at.residual_norm == 0 || left_over <= refined_step * scale ||
+       (is_rounding(at.residual_norm, place->at, at.x, at.lambda, memory.sizes) && at_its_least()));
+  judged.settled = judged.small && (first || fine);
+  return judged;
+}
+
+}  // namespace
+
 void correct(ProblemView problem, const Vector& weights, const Piece& piece,
              const Direction& border, const NewtonOptions& options, WorkingMemory& memory) {
   NewtonResult& result = memory.newton;
-  Vector &F = memory.F, &step = memory.step;
+  Vector& step = memory.step;
   const Index n = result.x.size();
-  const Place* place = nullptr;  // of the last correction
-  const bool structured = problem.structured();
+  Place* here = nullptr;
   double before = 0;
   result.iterations = 0;
   result.residual_norm = result.contraction = 0;
   result.corrections.clear();
   const auto ends = [&result](NewtonStatus status) { result.status = status; };
   for (;; ++result.iterations) {
-    // Together with its derivatives, which are needed here or, at the end, for the tangent.
-    Place* here =
-        structured ? nullptr : place_with_residual(problem, memory, result.x, result.lambda, piece);
-    if (here)
-      F = here->F;
-    else if (!problem.residual(result.x, result.lambda, piece, F) || !F.allFinite())
-      return ends(NewtonStatus::outside_domain);
-    result.residual_norm = F.size() > 0 ? F.lpNorm<Eigen::Infinity>() : 0;
-    const double scale =
-        std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(result.lambda)});
-    const bool fine = !result.corrections.empty() && result.corrections.back() < noise_step;
-    const bool small =
-        result.residual_norm <= options.residual_tolerance * scale ||
-        (fine && result.residual_norm <= residual_bound(problem, piece, options, scale));
-    // What is left to correct: the residual times the size of the inverse matrix that the last
-    // correction has shown.
-    const auto left_over = [&] {
-      return result.residual_norm * (result.corrections.back() / before);
-    };
-    const auto rounded = [&] {
-      return is_rounding(result.residual_norm, place->at, result.x, result.lambda, memory.sizes);
-    };
-    // Where the matrix is nearly singular, a residual of rounding's size may leave much to correct. It is rounding only when
-    // it gets no smaller.
-    const auto at_its_least = [&] {
-      return !(before > 0) || left_over() <= exact_model * scale ||
-             result.residual_norm > still_falls * before;
-    };
-    const bool refined =
-        !result.corrections.empty() &&
-        (result.residual_norm == 0 || (before > 0 && left_over() <= refined_step * scale) ||
-         (rounded() && at_its_least()));
+    const Place* const last = here;  // of the last correction
+    if (!evaluate(problem, piece, memory, here)) return ends(NewtonStatus::outside_domain);
+    const Judged judged = judge(problem, piece, options, memory, last, before);
     before = result.residual_norm;
-    if (small && refined) return ends(NewtonStatus::converged);
-    const bool settled = small && (result.corrections.empty() || fine);
+    if (judged.small && judged.refined) return ends(NewtonStatus::converged);
     if (result.iterations == options.maximum_iterations)
-      return ends(settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
+      return ends(judged.settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
     if (!here) here = place_at(problem, memory, result.x, result.lambda, piece);
     if (!here) return ends(NewtonStatus::outside_domain);
-    place = here;
     step.resize(n + 1);
-    step.head(n) = -F;
+    step.head(n) = -memory.F;
     step[n] = 0;
     if (!here->factors.set_border(weights, border) || !here->factors.solve(step.data()))
-      return ends(settled ? NewtonStatus::converged : NewtonStatus::singular);
+      return ends(judged.settled ? NewtonStatus::converged : NewtonStatus::singular);
     const double length =
         std::sqrt((weights.array() * step.head(n).array().square()).sum() + step[n] * step[n]);
     if (!result.corrections.empty() && result.corrections.back() > one_place) {
       const double ratio = length / result.corrections.back();
       // Beside a singular point rounding of F alone makes corrections that do not contract.
-      if (small && ratio > still_falls &&
-          (length < noise_step || (length < blurred_step && rounded())))
+      if (judged.small && ratio > still_falls &&
+          (length < noise_step ||
+           (length < blurred_step &&
+            is_rounding(result.residual_norm, here->at, result.x, result.lambda, memory.sizes))))
         return ends(NewtonStatus::converged);
       result.contraction = std::max(result.contraction, ratio);
       if (ratio > 1) return ends(NewtonStatus::diverges);

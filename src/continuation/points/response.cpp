@@ -143,7 +143,6 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
 /// Is dF/dx singular, to what special points are located to? Its entries count beside what they are a little aside: a row or
 /// column that vanishes at the point would otherwise look like one in a small unit.
 bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
-  constexpr double gap = 30;  // to the next singular value
   if (problem.structured()) return false;
   Linearisation here;
   if (!linearise(problem, x, lambda, piece, here) || x.size() == 0) return false;
@@ -158,12 +157,8 @@ bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piec
       sizes = sizes.cwiseMax(negligible_share * (aside.dF_dx - here.dF_dx).cwiseAbs());
   }
   const Equilibration scale = equilibrate(sizes);
-  const Vector values =
-      divided_svd(scale.rows.asDiagonal() * here.dF_dx * scale.columns.asDiagonal()).values;
-  const Index last = values.size() - 1;
-  for (Index i = 0; i <= last; ++i)
-    if (values[i] <= vanishing_rank && values[i] * gap < (i > 0 ? values[i - 1] : 1)) return true;
-  return false;
+  const Matrix equilibrated = scale.rows.asDiagonal() * here.dF_dx * scale.columns.asDiagonal();
+  return vanishing_values(divided_svd(equilibrated).values) > 0;
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ std::string judge(const StepMeasures& m, const StepOptions& options) {
 }  // namespace
 
 bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
-                CurvePoint& point, StepMeasures& measures, std::string& refusal) {
+                CurvePoint& point, StepReport* report) {
+  StepReport unasked;
+  auto& [measures, refusal] = report ? *report : unasked;
   WorkingMemory& memory = *walker.memory;
   NewtonResult& newton = memory.newton;
   newton.x.swap(point.x);
@@ -65,15 +67,6 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
   return true;
 }
 
-StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
-                          const Direction& reference) {
-  StepResult result;
-  CurvePoint point{.x = std::move(x), .lambda = lambda};
-  if (find_point(walker, piece, reference, point, result.measures, result.refusal))
-    result.point = std::move(point);
-  return result;
-}
-
 namespace {
 
 /// Puts point - from - ahead tangent into storage. @returns its length
@@ -97,14 +90,15 @@ bool expect(const Walker& walker, const ArcModel* model, const CurvePoint& origi
 }
 
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,
-              CurvePoint& to, StepMeasures& measures, std::string& refusal) {
+              CurvePoint& to, StepReport& report) {
+  auto& [measures, refusal] = report;
   const bool expected = expect(walker, model, from, ds, to);
   if (!expected) {
     to.x = from.x + ds * from.tangent.dx;
     to.lambda = from.lambda + ds * from.tangent.dlambda;
   }
   to.s = from.s + ds;
-  const bool found = find_point(walker, from.piece, from.tangent, to, measures, refusal);
+  const bool found = find_point(walker, from.piece, from.tangent, to, &report);
   if (found && expected) measures.deviation = off_straight(walker, from, ds, to);
   measures.deviation /= ds;
   if (!found) return false;
@@ -115,8 +109,7 @@ bool try_step(const Walker& walker, const CurvePoint& from, double ds, const Arc
 StepResult try_step(const Walker& walker, const CurvePoint& from, double ds) {
   StepResult result;
   CurvePoint to;
-  if (try_step(walker, from, ds, nullptr, to, result.measures, result.refusal))
-    result.point = std::move(to);
+  if (try_step(walker, from, ds, nullptr, to, result)) result.point = std::move(to);
   return result;
 }
 

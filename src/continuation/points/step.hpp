@@ -30,16 +30,19 @@ struct StepMeasures {
   double deviation = 0;    ///< from the tangent to the corrected point, over step length [-]
 };
 
-struct StepResult {
-  std::optional<CurvePoint> point{};  ///< empty: refused
+struct StepReport {
   StepMeasures measures{};
-  std::string refusal{};  ///< in words
+  std::string refusal{};  ///< in words, where it was refused
 };
 
-/// A point of the curve near the given one: residual at tolerance, tangent along `reference`,
-/// inertia counted. Corrects within the hyperplane through (x, lambda) across `reference`.
-StepResult point_on_curve(const Walker& walker, Vector x, double lambda, const Piece& piece,
-                          const Direction& reference);
+struct StepResult : StepReport {
+  std::optional<CurvePoint> point{};  ///< empty: refused
+};
+
+/// A point of the curve near point.x and point.lambda, in their place: residual at tolerance, tangent along `reference`,
+/// inertia counted. Corrects within the hyperplane across `reference`. @param report  for who asks how, or why not
+bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
+                CurvePoint& point, StepReport* report = nullptr);
 
 /// Predicts along the tangent by ds, corrects, and judges the step by StepOptions. The piece stays
 /// that of `from`, also beyond its switching surfaces.

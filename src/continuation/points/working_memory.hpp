@@ -87,14 +87,10 @@ void correct(ProblemView problem, const Vector& weights, const Piece& piece,
 bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
                 const Direction& reference, Direction& tangent);
 
-/// point_on_curve(), from the guess point.x and point.lambda on. @param refusal  why not, if false is returned
-bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
-                CurvePoint& point, StepMeasures& measures, std::string& refusal);
-
 /// try_step(), point_at() and examine() with their results in storage of the caller's.
 /// @param model  the curve behind `from`, its origin, which is continued where it promises an even way; or nullptr
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,
-              CurvePoint& to, StepMeasures& measures, std::string& refusal);
+              CurvePoint& to, StepReport& report);
 bool find_point_at(const Walker& walker, const CurvePoint& from, double ds, CurvePoint& point);
 /// @param doubt   why the step is not to be trusted; empty: it is
 /// @returns whether the middle was found
