@@ -119,6 +119,8 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
   }
   if (study.kind != StudyKind::sensitivity) {
     names.push_back(study.critical.parameter);
+    if (study.kind == StudyKind::threshold)
+      for (const ThresholdQuantity& one : threshold_quantities) names.emplace_back(one.name);
     return names;
   }
   if (!study.critical.cases) return names;

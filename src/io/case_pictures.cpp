@@ -97,7 +97,7 @@ std::vector<std::string> draw_files(const PictureSpec& spec, const std::string& 
     else if (fs::file_size(work / file, error) == 0 || error)
       fail(format, "rsvg-convert wrote nothing");
     else {
-      remove_date(work / file);
+      finish_picture(work / file);
       files.push_back(file);
     }
   }

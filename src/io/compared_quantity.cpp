@@ -303,6 +303,9 @@ double found_value(const ExpectedValue& expected, const StudyResult& result) {
     return result.start.found ? count_of(result, quantity.substr(count_prefix.size())) : nothing;
   if (result.design)
     if (const auto value = analysis::design_value(*result.design, quantity)) return *value;
+  if (result.threshold)
+    for (const analysis::ThresholdQuantity& one : analysis::threshold_quantities)
+      if (quantity == one.name) return one.value(*result.threshold);
   const auto found = point_of(expected, result);
   if (!found) return nothing;
   const std::optional<Point> point = on_side(*found, expected.side, quantity);

@@ -51,7 +51,7 @@ std::string write_picture(const drawing::Picture& picture, const fs::path& file)
   if (is_svg) return {};
   const auto converter = find_executable("rsvg-convert");
   if (converter && convert(*converter, svg, path)) {
-    remove_date(path);
+    finish_picture(path);
     return {};
   }
   return std::string{path.extension() == ".pdf" ? "no PDF file" : "no PNG file"} +

@@ -128,7 +128,7 @@ std::optional<std::string> draw(const fs::path& folder, const Drawing& figure,
     const fs::path picture = work.path() / files.back();
     if (!fs::is_regular_file(picture, error) || fs::file_size(picture, error) == 0)
       return "gnuplot wrote no " + picture.filename().string() + kept;
-    remove_date(picture);
+    finish_picture(picture);
   }
   publish(folder, work.path(), files, outcome);
   return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "counts_beside.hpp"
 #include "fitted_table.hpp"
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
@@ -17,17 +18,7 @@ using analysis::StudyResult;
 /// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
 std::string index_text(const StudyResult& result, const Branch& branch,
                        const analysis::Event& event, std::string_view name) {
-  using analysis::EventKind;
-  const bool is_ordinary =
-      event.kind == EventKind::user_value || event.kind == EventKind::end_of_range;
-  const bool has_neighbours = event.row > 0 && event.row + 1 < branch.samples.size();
-  std::size_t first = event.row, second = event.row;
-  if (has_two_rows(branch, event))
-    second = event.row + 1;
-  else if (!is_ordinary && has_neighbours)
-    first = event.row - 1, second = event.row + 1;
-  const double before = value_at(result, branch, first, name);
-  const double after = value_at(result, branch, second, name);
+  const auto [before, after] = counts_beside(result, branch, event, name);
   if (before == after || std::isnan(after)) return point_number(before);
   return (std::isnan(before) ? "?" : rounded(before, summary_digits)) + " > " +
          rounded(after, summary_digits);

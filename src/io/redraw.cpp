@@ -51,7 +51,7 @@ std::string redraw(const fs::path& folder, const std::string& script, const fs::
   const std::vector<std::string> pictures = pictures_in(work.path());
   std::vector<ListedFile> list;
   for (const std::string& name : pictures) {
-    remove_date(work.path() / name);
+    finish_picture(work.path() / name);
     const std::string bytes = read_file(work.path() / name);
     list.push_back({"plots/" + name, sha256(bytes), bytes.size()});
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "counts_beside.hpp"
 #include "result_access.hpp"
 #include "text.hpp"
 
@@ -58,6 +59,13 @@ class CsvNumbers {
 std::string row_start(const StudyResult& result, std::size_t branch) {
   return csv_text(result.study) + "," + std::to_string(result.run) + "," + csv_text(result.label) +
          "," + std::to_string(branch + 1) + ",";
+}
+
+std::vector<std::string> counts_among(const std::vector<std::string>& names) {
+  std::vector<std::string> counts;
+  for (const std::string_view name : count_columns)
+    if (std::find(names.begin(), names.end(), name) != names.end()) counts.emplace_back(name);
+  return counts;
 }
 
 }  // namespace
@@ -117,6 +125,8 @@ std::string events_csv(const Case& the_case, const std::vector<StudyResult>& res
   std::string csv = "study,run,label,branch,event,code,detail,row";
   for (const auto& name : parameters) csv += "," + csv_text(parameter_prefix + name);
   for (const auto& name : names) csv += "," + csv_text(name);
+  const auto counts = counts_among(names);
+  for (const auto& name : counts) csv += "," + name + "_before," + name + "_after";
   csv += "\n";
   for (const auto& result : results) {
     std::string values;
@@ -129,6 +139,10 @@ std::string events_csv(const Case& the_case, const std::vector<StudyResult>& res
                "," + csv_text(event.detail) + "," + std::to_string(event.row) + values;
         for (const auto& name : names)
           csv += "," + csv_number(value_at(result, branch, event.row, name));
+        for (const auto& name : counts) {
+          const auto [before, after] = counts_beside(result, branch, event, name);
+          csv += "," + csv_number(before) + "," + csv_number(after);
+        }
         csv += "\n";
       }
     }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison_text.hpp"
+#include "counts_beside.hpp"
 #include "design_summary.hpp"
 #include "json_text.hpp"
 #include "jump_access.hpp"
@@ -51,6 +52,15 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
                {"row", event.row}};
   const bool exists = event.row < branch.samples.size();
   json["values"] = exists ? by_quantity(result, branch.samples[event.row].values) : Json{};
+  Json before = Json::object(), after = Json::object();
+  for (const std::string_view name : count_columns) {
+    if (!column_of(result, name)) continue;
+    const CountsBeside counts = counts_beside(result, branch, event, name);
+    before[std::string(name)] = counts.before;
+    after[std::string(name)] = counts.after;
+  }
+  json["counts_before"] = std::move(before);
+  json["counts_after"] = std::move(after);
   json["rates_before"] = by_quantity(result, event.rates_before);
   json["rates_after"] = by_quantity(result, event.rates_after);
   for (const auto& mode : event.modes) json["modes"].push_back(by_quantity(result, mode));

@@ -25,12 +25,32 @@ std::string undated_tex(std::string text) {
   return text;
 }
 
-void remove_date(const std::filesystem::path& picture) {
+std::string valid_svg(std::string text) {
+  constexpr std::string_view opens = "<![CDATA[", closes = "]]>", escaped = "]]&gt;";
+  std::size_t at = 0;
+  while ((at = text.find(closes, at)) != std::string::npos) {
+    const std::size_t before = at == 0 ? std::string::npos : text.rfind(opens, at - 1);
+    const std::size_t last = at == 0 ? std::string::npos : text.rfind(closes, at - 1);
+    const bool is_inside =
+        before != std::string::npos && (last == std::string::npos || last < before || last == at);
+    if (is_inside) {
+      at += closes.size();
+    } else {
+      text.replace(at, closes.size(), escaped);
+      at += escaped.size();
+    }
+  }
+  return text;
+}
+
+void finish_picture(const std::filesystem::path& picture) {
   const std::string ending = picture.extension().string();
-  if (ending != ".pdf" && ending != ".tex") return;
+  if (ending != ".pdf" && ending != ".tex" && ending != ".svg") return;
   const std::string bytes = read_file(picture);
-  const std::string undated = ending == ".pdf" ? undated_pdf(bytes) : undated_tex(bytes);
-  if (undated != bytes) write_file(picture, undated);
+  const std::string finished = ending == ".pdf"   ? undated_pdf(bytes)
+                               : ending == ".tex" ? undated_tex(bytes)
+                                                  : valid_svg(bytes);
+  if (finished != bytes) write_file(picture, finished);
 }
 
 }  // namespace springfold::io

@@ -1,4 +1,5 @@
-// Pictures without the date at which they were made: the same case gives the same bytes.
+// Pictures of other programs without the date at which they were made, so that the same case gives the same bytes, and
+// valid.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,12 @@ std::string undated_pdf(std::string bytes);
 /// gnuplot's LaTeX file without the line that says when it was made.
 std::string undated_tex(std::string text);
 
-/// Takes the date out of a picture that another program has written, as its ending says; files of other endings stay.
+/// gnuplot's SVG file with "]]>" in texts as XML wants it; where it closes a CDATA section it stays.
+std::string valid_svg(std::string text);
+
+/// Takes the date out of a picture that another program has written, and makes it valid XML, as its ending says; files of
+/// other endings stay.
 /// @throws std::runtime_error if it cannot be read or written
-void remove_date(const std::filesystem::path& picture);
+void finish_picture(const std::filesystem::path& picture);
 
 }  // namespace springfold::io

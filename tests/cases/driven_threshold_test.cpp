@@ -44,6 +44,8 @@ TEST(DrivenThreshold, ExtremaOfTheForceAreNoLimitPointsUnlessADeadLoadIsAsked) {
   const auto driven = run(driven_truss + keys + " }\n").of("s");
   ASSERT_TRUE(driven.threshold && driven.threshold->found);
   EXPECT_EQ(driven.threshold->value, 0);
+  EXPECT_EQ(analysis::threshold_quantities[0].value(*driven.threshold), 0);
+  EXPECT_EQ(analysis::threshold_quantities[1].value(*driven.threshold), 1);
   const auto dead = run(driven_truss + keys + ", index = \"dead_load\" }\n").of("s");
   ASSERT_TRUE(dead.threshold && dead.threshold->found);
   // F' = k (1 - L0/L + L0 y^2/L^3) + kv is least at y = 0, where L = 1.

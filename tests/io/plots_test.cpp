@@ -117,6 +117,15 @@ TEST(UndatedTex, LacksTheLineWithTheDateAlone) {
   EXPECT_EQ(undated_tex(before + behind), before + behind);
 }
 
+TEST(ValidSvg, EscapesTheEndOfACdataSectionInTextsAlone) {
+  EXPECT_EQ(valid_svg("<text>a ]]> b]]></text>"), "<text>a ]]&gt; b]]&gt;</text>");
+  EXPECT_EQ(valid_svg("<style><![CDATA[ a ]]></style>"), "<style><![CDATA[ a ]]></style>");
+  EXPECT_EQ(
+      valid_svg("<style><![CDATA[ a ]]></style><text>]]></text><style><![CDATA[ b ]]></style>"),
+      "<style><![CDATA[ a ]]></style><text>]]&gt;</text><style><![CDATA[ b ]]></style>");
+  EXPECT_EQ(valid_svg("]]>"), "]]&gt;");
+}
+
 TEST_F(RealGnuplot, WritesNoDateIntoPdfAndLatexFiles) {
   Case the_case = sample::two_runs();
   the_case.plots = {{.name = "a", .curves = {{.study = "push from Q2"}}}};

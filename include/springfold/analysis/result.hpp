@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -285,6 +286,17 @@ struct ThresholdReport {
   bool verified = false;  ///< traced again on both sides, at value (1 -+ 1e-6)
   std::string message{};  ///< the answer as a sentence
 };
+
+/// Names of the answer's numbers for expected values; `found` and `verified` are 1 or 0.
+struct ThresholdQuantity {
+  std::string_view name{};
+  double (*value)(const ThresholdReport&) = nullptr;
+};
+inline constexpr ThresholdQuantity threshold_quantities[] = {
+    {"threshold.value", [](const ThresholdReport& report) { return report.value; }},
+    {"threshold.found", [](const ThresholdReport& report) { return report.found ? 1.0 : 0.0; }},
+    {"threshold.verified",
+     [](const ThresholdReport& report) { return report.verified ? 1.0 : 0.0; }}};
 
 /// What is kept of a run of many whose curves are not kept.
 struct SweepRow {

@@ -10,6 +10,7 @@
 
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/rounding.hpp"
+#include "springfold/core/types.hpp"
 
 namespace springfold::continuation {
 
