@@ -22,7 +22,7 @@ struct SearchTask {
 };
 
 /// x - y, taken the short way round where there is a period, with the copy of y nearest to x.
-Vector difference(const SearchTask& task, const Vector& x, const Vector& y) {
+Vector between_solutions(const SearchTask& task, const Vector& x, const Vector& y) {
   Vector d = x - y;
   if (!task.double_covers.empty()) d = x - y.cwiseProduct(nearest_signs(task.double_covers, y, x));
   for (Index i = 0; i < d.size(); ++i)
@@ -73,7 +73,7 @@ std::optional<Deflation> deflation_at(const SearchTask& task, const Vector& x,
   Deflation result{0, Vector::Zero(x.size())};
   const double p = task.options.power, shift = task.options.shift;
   for (const Vector& solution : away_from) {
-    const Vector d = difference(task, x, solution);
+    const Vector d = between_solutions(task, x, solution);
     const double r = length(task, d);
     if (!(r > negligible_share * task.options.same)) return std::nullopt;  // on a known solution
     const double r_p = std::pow(r, p);
@@ -217,7 +217,7 @@ std::optional<Solution> solution_near(const SearchTask& task, const Vector& near
     const Sides sides = compare_sides(task, x, piece);
     if (sides.match) {
       const Vector here = x.cwiseProduct(nearest_signs(task.double_covers, x, task.middle));
-      Solution solution{task.middle + difference(task, here, task.middle), piece, "",
+      Solution solution{task.middle + between_solutions(task, here, task.middle), piece, "",
                         polished.uncertain};
       if (!sides.zero.empty()) solution.note = "at a switching surface: " + sides.zero;
       if (polished.uncertain > one_place)
@@ -235,7 +235,7 @@ std::optional<Solution> solution_near(const SearchTask& task, const Vector& near
 bool is_new(const SearchTask& task, const Solution& solution, const std::vector<Vector>& others) {
   const double same = std::max(task.options.same, 10 * solution.uncertain);
   return std::none_of(others.begin(), others.end(), [&](const Vector& other) {
-    return largest(task, difference(task, solution.x, other)) <= same;
+    return largest(task, between_solutions(task, solution.x, other)) <= same;
   });
 }
 

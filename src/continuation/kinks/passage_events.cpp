@@ -93,10 +93,10 @@ StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoin
   int explained = 0;
   for (const Hit& hit : found.hits)
     if (hit.kind == HitKind::branch_point) explained += hit.multiplicity;
-  const int changed = before && after ? static_cast<int>(std::abs(*after - *before)) : 0;
-  if (changed > explained) {
+  const int sign_changes = before && after ? static_cast<int>(std::abs(*after - *before)) : 0;
+  if (sign_changes > explained) {
     found.doubt = "an eigenvalue changes its sign within a family";
-    found.unexplained = changed - explained;
+    found.unexplained = sign_changes - explained;
   }
   note_family(from, to, found, curve);
   return found;
