@@ -21,7 +21,7 @@ constexpr Index most_steps = 16;
 constexpr double few_digits = 1e-6;
 
 /// Singular vectors that move by less have settled.
-constexpr double settled = 1e-12;
+constexpr double vectors_settled = 1e-12;
 
 /// Steps up to there cost less than a decomposition.
 constexpr Index most_cheap_steps = 64;
@@ -181,7 +181,7 @@ bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders) {
     const double moved = (C - borders.C * (borders.C.transpose() * C)).norm() +
                          (B - borders.B * (borders.B.transpose() * B)).norm();
     borders = {B, C};
-    if (moved < settled) break;
+    if (moved < vectors_settled) break;
   }
   return true;
 }

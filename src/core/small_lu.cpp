@@ -28,7 +28,7 @@ inline void subtract(double factor, const double* x, double* y, Index first, Ind
 
 /// Subtracts multiples of a column of L from the columns of U behind it.
 template <Index N>
-void eliminate(const double* L, double* U, Index k, Index n) {
+void eliminate_column(const double* L, double* U, Index k, Index n) {
   if constexpr (N < long_column) {
     const Column<N> l = Given<N>(L + k * N);
     for (Index j = k + 1; j < n; ++j) InPlace<N>(U + j * N) -= U[j * N + k] * l;
@@ -38,7 +38,7 @@ void eliminate(const double* L, double* U, Index k, Index n) {
 }
 
 template <Index N>
-void substitute(const double* L, const double* U, Index n, double* x) {
+void substitute_columns(const double* L, const double* U, Index n, double* x) {
   Column<N> y = Column<N>::Zero();
   std::copy_n(x, n, y.data());
   for (Index k = 0; k < n; ++k) {
@@ -66,7 +66,7 @@ struct SmallLu::Ways {
 
   template <Index N>
   static constexpr Ways of() {
-    return {N, &springfold::eliminate<N>, &springfold::substitute<N>};
+    return {N, &eliminate_column<N>, &substitute_columns<N>};
   }
 };
 

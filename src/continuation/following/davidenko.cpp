@@ -18,7 +18,7 @@ namespace springfold::continuation {
 namespace {
 
 constexpr double integration_error = function_noise;  ///< of one step, relative to max(1, |u_i|)
-constexpr int order = 5;                              ///< of Dormand's and Prince's pair
+constexpr int order_of_pair = 5;                      ///< of Dormand's and Prince's pair
 constexpr double no_rate = exact_model;               ///< |dlambda/ds| below this has no sign
 constexpr double largest_return =
     root_of_rounding;  ///< farther from the curve the flow is not trusted
@@ -297,9 +297,9 @@ std::optional<std::vector<CurvePoint>> step(Walk& walk, FlowArc& arc, std::strin
     next = 0.5 * h;
     return std::nullopt;
   }
-  const double factor = *error > 0
-                            ? (1 - small_share) * std::pow(integration_error / *error, 1.0 / order)
-                            : options.growth;
+  const double factor =
+      *error > 0 ? (1 - small_share) * std::pow(integration_error / *error, 1.0 / order_of_pair)
+                 : options.growth;
   next = std::clamp(h * std::clamp(factor, aside_share, options.growth), 0.0, options.maximum);
   if (!(*error <= integration_error)) {
     refusal = "error of the integration " + rounded(*error);
