@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
+#include "springfold/core/rounding.hpp"
 #include "springfold/io/start_text.hpp"
 #include "summary_line.hpp"
 #include "text.hpp"
@@ -114,9 +114,8 @@ std::string eigenvalue_line(const StudyResult& result) {
     if (*column < along.size()) size = std::max(size, along[*column]);
   }
   // Against each other: along the curve they may grow by orders of magnitude. All of them may be rounding of what they are there.
-  constexpr double few_roundings = 16 * std::numeric_limits<double>::epsilon();
   const std::vector<double> sizes(eigenvalues.size(),
-                                  largest > few_roundings * size ? largest : size);
+                                  largest > 4 * few_roundings * size ? largest : size);
   std::string values;
   for (std::size_t i = 0; i < eigenvalues.size(); ++i) {
     const double value = shown_in(sizes, i, eigenvalues[i]);
