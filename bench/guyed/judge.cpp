@@ -59,19 +59,16 @@ std::vector<std::string> reasons(const StudyResult& result) {
   return list;
 }
 
-/// All that leaves at one load.
-struct Group {
-  double load = 0;
-  std::vector<Vector> directions{};
-};
+/// All that leaves at one load, or so near to it that it may be told as one.
+using Group = std::vector<HalfBranch>;
 
 std::vector<Group> groups(const Truth& truth, const Draw& draw) {
   std::vector<Group> list;
   for (const HalfBranch& branch : truth.leaving) {
     if (branch.load < draw.from || branch.load > draw.to) continue;
-    if (list.empty() || branch.load - list.back().load > one_load * branch.load)
-      list.push_back({branch.load, {}});
-    list.back().directions.push_back(branch.direction);
+    if (list.empty() || branch.load - list.back().front().load > one_load * branch.load)
+      list.emplace_back();
+    list.back().push_back(branch);
   }
   return list;
 }
@@ -123,19 +120,30 @@ struct Judge {
     return list;
   }
 
-  void compare(const Group& group, const std::string& label) {
+  bool is_at(const HalfBranch& branch, double P) const {
+    return std::abs(branch.load - P) <= place * draw.to;
+  }
+
+  /// Takes what an event tells from its group: all of it, or what leaves at just this load.
+  void compare(Group& group, double P, const std::string& label) {
     std::vector<Vector> found = directions(label);
-    if (found.size() != group.directions.size())
+    Group told = group;
+    if (found.size() != group.size())
+      std::erase_if(told, [&](const HalfBranch& branch) { return !is_at(branch, P); });
+    if (found.size() != told.size())
       faults.push_back(said("%g ways out at %.12g instead of %g", static_cast<double>(found.size()),
-                            group.load, static_cast<double>(group.directions.size())));
-    for (const Vector& expected : group.directions) {
-      const auto best = std::max_element(
-          found.begin(), found.end(),
-          [&](const Vector& a, const Vector& b) { return a.dot(expected) < b.dot(expected); });
+                            P, static_cast<double>(told.size())));
+    const bool all = told.size() == group.size();
+    std::erase_if(group, [&](const HalfBranch& branch) { return all || is_at(branch, P); });
+    for (const HalfBranch& expected : told) {
+      const auto best =
+          std::max_element(found.begin(), found.end(), [&](const Vector& a, const Vector& b) {
+            return a.dot(expected.direction) < b.dot(expected.direction);
+          });
       if (best == found.end()) return;
-      if (best->dot(expected) < along)
+      if (best->dot(expected.direction) < along)
         faults.push_back(
-            said("direction at %.12g is off, cosine %.6g", group.load, best->dot(expected)));
+            said("direction at %.12g is off, cosine %.6g", P, best->dot(expected.direction)));
       found.erase(best);
     }
   }
@@ -148,18 +156,18 @@ struct Judge {
       const bool leaves =
           event.kind == EventKind::branch_point || event.kind == EventKind::branching_kink;
       const auto same = std::find_if(expected.begin(), expected.end(), [&](const Group& group) {
-        return std::abs(group.load - P) <= place * draw.to;
+        return std::any_of(group.begin(), group.end(),
+                           [&](const HalfBranch& branch) { return is_at(branch, P); });
       });
-      if (!leaves || same == expected.end()) {
+      if (!leaves || same == expected.end())
         faults.push_back(event.label + said(" at %.12g is none: ", P) + event.detail);
-        continue;
-      }
-      compare(*same, event.label);
-      expected.erase(same);
+      else
+        compare(*same, P, event.label);
     }
     for (const Group& missed : expected)
-      faults.push_back(said("missed at %.12g: %g ways", missed.load,
-                            static_cast<double>(missed.directions.size())));
+      if (!missed.empty())
+        faults.push_back(said("missed at %.12g: %g ways", missed.front().load,
+                              static_cast<double>(missed.size())));
   }
 };
 

@@ -11,7 +11,7 @@
 
 namespace springfold::analysis {
 
-/// Numbers of the switches that do not leave zero along the point's tangent (without a tangent: are zero).
+/// Numbers of the switches that do not leave zero along the curve, seen from this point (without a tangent: are zero).
 std::vector<std::size_t> resting_switches(const PathProblem& problem,
                                           const continuation::CurvePoint& point);
 
