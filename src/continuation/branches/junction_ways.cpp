@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/branches/without_surfaces.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/exits.hpp"
@@ -179,6 +180,24 @@ void prepend(std::vector<CurvePoint> points, const std::vector<Hit>& hits, doubl
   curve.hits.insert(curve.hits.begin(), hits.begin(), hits.end());
 }
 
+/// Surfaces on which the junction lies, and to which the way is tangential there: what the switches are at its start is not
+/// what their rates make of the way to it. On which side it lies was seen when it was found.
+std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& junction,
+                                       const Way& way, double gap) {
+  std::vector<Index> list = active_switches(walker, junction.x, junction.lambda);
+  Matrix dg_dx;
+  Vector dg_dlambda, g;
+  if (list.empty() ||
+      !walker.problem.switch_gradients(junction.x, junction.lambda, dg_dx, dg_dlambda) ||
+      !walker.problem.switches(way.start.x, way.start.lambda, g))
+    return {};
+  std::erase_if(list, [&](Index j) {
+    const double rate = switch_rate(dg_dx, dg_dlambda, j, way.point.tangent);
+    return std::abs(rate) * gap > small_share * std::abs(g[j]);
+  });
+  return list;
+}
+
 /// The trace from the start of a way back to its junction.
 struct WayBack {
   Curve curve{};
@@ -217,13 +236,29 @@ WayBack trace_back(const Walker& walker, const DiagramOptions& options, const Cu
   near.step.maximum = gap;
   near.step.minimum = std::min(near.step.minimum, tiny_share * gap);
   const Direction inwards = opposite(way.start.tangent);
+  const WithoutSurfaces problem(walker.problem, tangential_surfaces(walker, junction, way, gap),
+                                way.start.piece);
   back.curve =
-      trace_in_own_units(walker.problem, way.start.x, way.start.lambda,
-                         {way.start.piece, inwards, {}, {}}, {}, near, not_too_far, at_hit);
+      trace_in_own_units(problem, way.start.x, way.start.lambda, {way.start.piece, inwards, {}, {}},
+                         {}, near, not_too_far, at_hit);
   // A kink ends the trace by itself.
   if (!back.reached && !back.curve.hits.empty())
     back.reached = is_junction_itself(back.curve.hits.back());
   return back;
+}
+
+/// Nearer to the junction than can be told apart, what the trace meets on the junction's surfaces is the junction itself.
+void leave_to_junction(const Walker& walker, const CurvePoint& junction, WayBack& back) {
+  const auto is_near = [&](const CurvePoint& p) {
+    return length_of(walker, between(walker, junction, p)) <= told_apart * scale_of(junction);
+  };
+  const auto is_its_own = [&](const Hit& hit) {
+    return is_near(hit.point) && lies_on(walker, junction, hit.switches);
+  };
+  std::erase_if(back.met, is_its_own);
+  std::erase_if(back.curve.hits, is_its_own);
+  std::vector<CurvePoint>& points = back.curve.points;
+  while (points.size() > 1 && is_near(points.back())) points.pop_back();
 }
 
 /// Length of the way to the junction; takes out of `back` what belongs to the junction.
@@ -236,6 +271,7 @@ std::optional<double> length_back(const Walker& walker, const CurvePoint& juncti
     });
     return passed;
   }
+  leave_to_junction(walker, junction, back);
   const auto rest = rest_of_way_back(walker, way, back.curve, gap);
   if (!rest) return std::nullopt;
   std::erase_if(back.met, [](const Hit& hit) { return hit.kind == HitKind::unresolved; });

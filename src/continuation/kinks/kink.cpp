@@ -14,9 +14,10 @@ namespace {
 
 enum class Side { in, out, rests, unclear };
 
-/// On which side of a surface that is tangential here is a value of the switch?
-Side side_of(const Walker& walker, double value) {
-  const double zero = walker.options.simultaneous, clear = 10 * zero;
+/// On which side of a surface that is tangential here is a value of the switch at this distance? Corrected points are off
+/// by their rounding over the distance to a singular point, which this one may be.
+Side side_of(double value, double distance) {
+  const double zero = exact_model / distance, clear = 10 * zero;
   if (std::abs(value) > clear) return value > 0 ? Side::in : Side::out;
   return std::abs(value) <= zero ? Side::rests : Side::unclear;
 }
@@ -29,16 +30,16 @@ std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const Pie
   const auto look = [&](const CurvePoint& point) {
     Vector g;
     if (!walker.problem.switches(point.x, point.lambda, g)) return;
+    const double distance = length_of(walker, between(walker, at, point));
     for (std::size_t i = 0; i < grazed.size(); ++i)
       if (sides[i] != Side::in && sides[i] != Side::out)
-        sides[i] = side_of(walker, at.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]]);
+        sides[i] = side_of(at.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]], distance);
   };
-  if (way.start) {
-    look(*way.start);
-    return sides;
-  }
-  CurvePoint start = at;
-  start.tangent = way.tangent;
+  CurvePoint start = way.start.value_or(at);
+  if (way.start)
+    look(start);
+  else
+    start.tangent = way.tangent;
   for (const double ds : decades<-4, -2>())
     if (const auto point = point_at(walker, start, ds)) look(*point);
   return sides;
