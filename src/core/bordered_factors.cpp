@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/equilibration.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/rounding.hpp"
+#include "springfold/core/scaling.hpp"
 
 namespace springfold {
 
@@ -26,6 +28,11 @@ constexpr double zero_eigenvalue = 500 * rounding_unit;
 
 using BorderedRest =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, SmallLu::largest, SmallLu::largest>;
+
+/// The inverse of a power of two next to a size; 1 where that is no number above zero.
+double brought_to_one(double size) {
+  return size > 0 && std::isfinite(size) ? 1 / power_of_two_near(size) : 1;
+}
 
 }  // namespace
 
@@ -54,6 +61,9 @@ bool BorderedFactors::factorise_symmetric() {
 ///
 ///     | R      y_2                      |
 ///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
+///
+/// The rows of S K S are of one size; y and z are brought to one size as wholes: stiff members beside soft ones make nothing
+/// singular by that alone, and what rounding leaves of R stays small.
 bool BorderedFactors::border_symmetric() {
   SideBySide<2> borders, carried;
   for (Index i = 0; i < n_; ++i) {
@@ -65,6 +75,13 @@ bool BorderedFactors::border_symmetric() {
     b_[static_cast<std::size_t>(i)] = carried.data()[2 * i];
     z_[static_cast<std::size_t>(i)] = carried.data()[2 * i + 1];
   }
+  const auto largest = [this](const auto& all) {
+    double size = 0;
+    for (Index i = 0; i < n_; ++i)
+      size = std::max(size, std::abs(all[static_cast<std::size_t>(i)]));
+    return size;
+  };
+  const double y_size = largest(b_), z_size = largest(z_);
   K_.divide<1>(b_.data());
   const Index rest = K_.put_off(), done = n_ - rest;
   double corner = corner_, size = std::abs(corner_);
@@ -77,24 +94,30 @@ bool BorderedFactors::border_symmetric() {
     last_ = corner;
     return std::abs(corner) > least_pivot * size;
   }
+  // The corner's own size counts in its row: it may be what is left of far larger parts.
+  const double y_factor = brought_to_one(y_size);
+  const double z_factor = brought_to_one(std::max(z_size, y_factor * size));
   BorderedRest front(rest + 1, rest + 1);
   for (Index j = 0; j < rest; ++j) {
     for (Index i = 0; i < rest; ++i) front(i, j) = K_.rest(i, j);
-    front(rest, j) = z_[static_cast<std::size_t>(done + j)];
-    front(j, rest) = b_[static_cast<std::size_t>(done + j)];
+    front(rest, j) = z_factor * z_[static_cast<std::size_t>(done + j)];
+    front(j, rest) = y_factor * b_[static_cast<std::size_t>(done + j)];
   }
-  front(rest, rest) = corner;
+  front(rest, rest) = z_factor * y_factor * corner;
+  front_factors_ = {z_factor, y_factor};
   front_.emplace(front);
-  return front_->smallest_pivot() > least_pivot * std::max(front_->largest_pivot(), size);
+  return front_->smallest_pivot() > least_pivot * front_->largest_pivot();
 }
 
 bool BorderedFactors::border_general() {
-  if (way_ == Way::small) {
-    front_.emplace(at_->dF_dx, at_->dF_dlambda, row_, corner_);
-    return front_->smallest_pivot() > least_pivot * front_->largest_pivot();
-  }
   storage_.resize(n_ + 1, n_ + 1);
   storage_ << at_->dF_dx, at_->dF_dlambda, row_.transpose(), corner_;
+  row_factors_ = row_sizes_of(storage_).unaryExpr(&brought_to_one);
+  storage_.array().colwise() *= row_factors_.array();
+  if (way_ == Way::small) {
+    front_.emplace(storage_);
+    return front_->smallest_pivot() > least_pivot * front_->largest_pivot();
+  }
   large_.compute(storage_);
   return large_.smallest_pivot() > least_pivot * large_.largest_pivot();
 }
@@ -138,10 +161,10 @@ void BorderedFactors::solve_symmetric(double* x, bool only_last) const {
     std::array<double, static_cast<std::size_t>(SmallLu::largest)> right;
     for (Index c = 0; c < width; ++c) {
       for (Index i = 0; i < rest; ++i) right[static_cast<std::size_t>(i)] = row(done + i)[c];
-      right[static_cast<std::size_t>(rest)] = last[c];
+      right[static_cast<std::size_t>(rest)] = front_factors_[0] * last[c];
       front_->solve(right.data());
       for (Index i = 0; i < rest; ++i) row(done + i)[c] = right[static_cast<std::size_t>(i)];
-      last[c] = right[static_cast<std::size_t>(rest)];
+      last[c] = front_factors_[1] * right[static_cast<std::size_t>(rest)];
     }
   }
   for (Index i = 0; i < done; ++i) row(i) -= b_[static_cast<std::size_t>(i)] * last;
@@ -163,11 +186,12 @@ bool BorderedFactors::solve(double* x) {
       solve_symmetric<1>(x, false);
       return true;
     case Way::small:
+      for (Index i = 0; i <= n_; ++i) x[i] *= row_factors_[i];
       front_->solve(x);
       return true;
     case Way::large: {
       Eigen::Map<Vector> solution(x, n_ + 1);
-      right_ = solution;
+      right_ = solution.cwiseProduct(row_factors_);
       large_.solve(right_, solution);
       return true;
     }
@@ -184,7 +208,10 @@ void BorderedFactors::invert(std::span<const Index> rows, Matrix& columns) {
   const Index size = n_ + 1, count = static_cast<Index>(rows.size());
   columns.setZero(size, count);
   if (way_ != Way::symmetric) {
-    for (Index j = 0; j < count; ++j) columns(rows[static_cast<std::size_t>(j)], j) = 1;
+    for (Index j = 0; j < count; ++j) {
+      const Index row = rows[static_cast<std::size_t>(j)];
+      columns(row, j) = row_factors_[row];
+    }
     if (way_ == Way::small)
       front_->solve(columns);
     else

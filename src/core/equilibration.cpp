@@ -50,6 +50,11 @@ Equilibration equilibrate(const Matrix& A) {
   return scale;
 }
 
+Vector row_sizes_of(const Matrix& A) {
+  if (A.size() == 0) return Vector::Zero(A.rows());
+  return sizes_of(A.cwiseAbs().rowwise().maxCoeff());
+}
+
 Matrix null_directions(const Matrix& A) {
   assert(A.rows() == A.cols());
   if (A.size() == 0 || !A.allFinite()) return Matrix(A.rows(), 0);

@@ -75,6 +75,52 @@ TEST(StiffMembers, DoNotHideAMotionWithoutStiffness) {
   }
 }
 
+/// A bar of length 1 on a hinge with a spring, stretched by an axial spring: it buckles at c/l.
+TEST(StiffMembers, HideNoBranchesOverThirtyOrders) {
+  for (const double hinge : {1e-9, 1.0, 1e5})
+    for (const double axial : {1e13, 1e16, 1e20}) {
+      SCOPED_TRACE(std::to_string(hinge) + " and " + std::to_string(axial));
+      std::ostringstream text;
+      text.precision(17);
+      text << R"([[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "z", role = "preloaded", initial = "90*deg", spring = { law = "linear", stiffness = )"
+           << hinge << R"(, free = "90*deg" } },
+  { joint = "prismatic", axis = "x", role = "virtual", stiffness = )"
+           << axial << R"( },
+  { rigid = [1, 0] },
+]
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+branches = { depth = 1 }
+until = { lambda = [)"
+           << -hinge << ", " << 2 * hinge << "] }\n";
+      const StudyResult result = run(text.str()).of("press");
+      EXPECT_TRUE(complete(result));
+      ASSERT_EQ(result.branches.size(), 3u);
+      const auto loads = lambdas(result, analysis::EventKind::branch_point);
+      ASSERT_EQ(loads.size(), 1u);
+      EXPECT_NEAR(loads[0] / hinge, 1, 1e-7);  // softer by hinge / axial, at most 1e-8
+      for (std::size_t b : {1u, 2u}) {
+        const auto& branch = result.branches[b];
+        const std::size_t last = branch.samples.size() - 1;
+        // An inextensible bar carries P sin(q)/q = c there.
+        const double q =
+            std::atan2(value(result, branch, last, "tip.x"), value(result, branch, last, "tip.y"));
+        EXPECT_NEAR(
+            value(result, branch, last, "lambda") * std::sin(std::abs(q)) / std::abs(q) / hinge, 1,
+            1e-7);
+      }
+    }
+}
+
 TEST(RigidDirections, HaveAComplianceWhereThereIsNoStiffness) {
   const StudyResult result = run(R"(
 [[body]]

@@ -16,6 +16,9 @@ struct Equilibration {
 /// beside 1e-13 of the median row is rounding: such rows and columns keep their size relative to the others.
 Equilibration equilibrate(const Matrix& A);
 
+/// Largest entries of the rows; 0 where a row holds nothing but rounding beside the others, as above.
+Vector row_sizes_of(const Matrix& A);
+
 /// How many singular values of the square matrix A are zero: after equilibration below 1e-13, and a thousand
 /// times smaller than the next larger one.
 /// @returns rows() if A holds a value that is not finite

@@ -257,8 +257,6 @@ void leave_to_junction(const Walker& walker, const CurvePoint& junction, WayBack
   };
   std::erase_if(back.met, is_its_own);
   std::erase_if(back.curve.hits, is_its_own);
-  std::vector<CurvePoint>& points = back.curve.points;
-  while (points.size() > 1 && is_near(points.back())) points.pop_back();
 }
 
 /// Length of the way to the junction; takes out of `back` what belongs to the junction.
