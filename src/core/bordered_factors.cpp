@@ -49,10 +49,10 @@ void BorderedFactors::begin(const Linearisation& at, bool symmetric) {
 bool BorderedFactors::factorise_symmetric() {
   if (factorised_) return finite_;
   factorised_ = true;
-  const SmallSymmetric::PutOff put_off{.border = at_->dF_dlambda.data()};
-  finite_ = K_.factorise(at_->dF_dx, &put_off);
+  const SmallSymmetric::DelayedPivots delayed{.border = at_->dF_dlambda.data()};
+  finite_ = K_.factorise(at_->dF_dx, &delayed);
   if (!finite_) return false;
-  if (K_.put_off() >= SmallLu::largest)  // hardly any of its pivots can be used
+  if (K_.delayed() >= SmallLu::largest)  // hardly any of its pivots can be used
     way_ = Way::large;
   return true;
 }
@@ -83,7 +83,7 @@ bool BorderedFactors::border_symmetric() {
   };
   const double y_size = largest(b_), z_size = largest(z_);
   K_.divide<1>(b_.data());
-  const Index rest = K_.put_off(), done = n_ - rest;
+  const Index rest = K_.delayed(), done = n_ - rest;
   double corner = corner_, size = std::abs(corner_);
   for (Index i = 0; i < done; ++i) {
     const double part = z_[static_cast<std::size_t>(i)] * b_[static_cast<std::size_t>(i)];
@@ -145,7 +145,7 @@ template <int width>
 void BorderedFactors::solve_symmetric(double* x, bool only_last) const {
   using Row = Eigen::Map<Eigen::Array<double, 1, width>>;
   SideBySide<width> y;
-  const Index rest = K_.put_off(), done = n_ - rest;
+  const Index rest = K_.delayed(), done = n_ - rest;
   const auto row = [&](Index i) { return Row(y.data() + i * width); };
   Row last(x + n_ * width);
   if (only_last) {

@@ -150,22 +150,22 @@ void SmallSymmetric::eliminate_two(Index k) {
   }
 }
 
-void SmallSymmetric::set_least(const PutOff& put_off) {
+void SmallSymmetric::set_least(const DelayedPivots& delayed) {
   for (Index i = 0; i < n_; ++i) {
-    const double border = put_off.border ? std::abs(put_off.border[i]) : 0;
-    least_[to(i)] = std::max({put_off.share * sizes_[to(i)],
-                              put_off.share_of_border * (scaled_ ? scale_[to(i)] : 1) * border,
+    const double border = delayed.border ? std::abs(delayed.border[i]) : 0;
+    least_[to(i)] = std::max({delayed.share * sizes_[to(i)],
+                              delayed.share_of_border * (scaled_ ? scale_[to(i)] : 1) * border,
                               std::numeric_limits<double>::min()});
   }
 }
 
 /// A pivot that is too small goes to the end, where those are that were too small before.
-void SmallSymmetric::eliminate(bool may_put_off) {
+void SmallSymmetric::eliminate(bool may_delay) {
   Index end = n_;
   for (done_ = 0; done_ < end;) {
     const Index k = done_;
     const Pivot pivot = pivot_at(k);
-    if (may_put_off && !is_large(k, pivot)) {
+    if (may_delay && !is_large(k, pivot)) {
       exchange(k, k, --end);
       continue;
     }
@@ -212,7 +212,7 @@ void SmallSymmetric::begin(Index n) {
   for (Index i = 0; i < n; ++i) order_[to(i)] = i;
 }
 
-bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A, const PutOff* put_off) {
+bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A, const DelayedPivots* delayed) {
   assert(A.rows() == A.cols() && A.rows() <= largest);
   begin(A.rows());
   Four zero = Four::Zero();  // NaN where an entry is not finite
@@ -233,8 +233,8 @@ bool SmallSymmetric::factorise(const Eigen::Ref<const Matrix>& A, const PutOff* 
   }
   if (zero.sum() != 0) return false;
   if (n_ > 0) equilibrate();
-  if (put_off) set_least(*put_off);
-  eliminate(put_off != nullptr);
+  if (delayed) set_least(*delayed);
+  eliminate(delayed != nullptr);
   return true;
 }
 

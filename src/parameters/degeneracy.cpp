@@ -62,8 +62,7 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
       s.n() < lost)
     return Degeneracy::corank_two;
   const Vector values = jacobi_svd(base.J).values;
-  return values[s.n() - lost] > vanishing_rank * values[0] ? Degeneracy::hilltop
-                                                           : Degeneracy::corank_two;
+  return values[s.n() - lost] > poor * values[0] ? Degeneracy::hilltop : Degeneracy::corank_two;
 }
 
 /// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side, their

@@ -100,14 +100,14 @@ TEST(BorderedFactors, SolveChainsWithSpringsOfVeryDifferentStiffness) {
 }
 
 /// Against such a border no pivot of the matrix counts.
-TEST(BorderedFactors, SolveAndCountWhereNearlyAllPivotsArePutOff) {
+TEST(BorderedFactors, SolveAndCountWhereNearlyAllPivotsAreDelayed) {
   std::mt19937 random(35);
   Bordered of = bordered(random, 1e-5 * symmetric_with(random, 60, 0.5));
   BorderedFactors factors;
   for (int place = 0; place < 2; ++place) {  // the second one with the same last row
     of.at.dF_dx *= -1;
     factors.begin(of.at, true);
-    expect_solutions(random, of, factors, "put off");
+    expect_solutions(random, of, factors, "delayed");
     const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(of.at.dF_dx).eigenvalues();
     EXPECT_EQ(factors.negative(), (values.array() < 0).count());
   }

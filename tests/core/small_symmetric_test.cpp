@@ -17,17 +17,17 @@ std::pair<Index, Index> signs(const Vector& values) {
   return {(values.array() < 0).count(), (values.array() > 0).count()};
 }
 
-TEST(SmallSymmetric, PivotsHaveTheSignsOfTheEigenvaluesWhetherSomeArePutOffOrNot) {
+TEST(SmallSymmetric, PivotsHaveTheSignsOfTheEigenvaluesWhetherSomeAreDelayedOrNot) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 300; ++trial) {
     const Index n = 1 + trial % 30;
     Matrix A = random_symmetric(random, n);
     if (trial % 2 == 0) A.bottomRightCorner(n / 2, n / 2) *= 1e-5;  // small pivots
     const Vector border = Vector::Constant(n, trial % 4 < 2 ? 1 : 300);
-    const SmallSymmetric::PutOff put_off{.border = border.data()};
+    const SmallSymmetric::DelayedPivots delayed{.border = border.data()};
     SmallSymmetric all, some;
-    ASSERT_TRUE(all.factorise(A) && some.factorise(A, &put_off));
-    EXPECT_EQ(all.put_off(), 0);
+    ASSERT_TRUE(all.factorise(A) && some.factorise(A, &delayed));
+    EXPECT_EQ(all.delayed(), 0);
     const auto expected = signs(Eigen::SelfAdjointEigenSolver<Matrix>(A).eigenvalues());
     Vector values(n);
     all.pivot_values(values.data());
@@ -39,15 +39,15 @@ TEST(SmallSymmetric, PivotsHaveTheSignsOfTheEigenvaluesWhetherSomeArePutOffOrNot
 
 TEST(SmallSymmetric, PutsOffNoPivotOfAWellConditionedMatrixAndAllOfAZeroOne) {
   SmallSymmetric factors;
-  const SmallSymmetric::PutOff put_off{};
-  ASSERT_TRUE(factors.factorise(Matrix{{2, 1, 0}, {1, -2, 1}, {0, 1, 3}}, &put_off));
-  EXPECT_EQ(factors.put_off(), 0);
-  ASSERT_TRUE(factors.factorise(Matrix::Zero(5, 5), &put_off));
-  EXPECT_EQ(factors.put_off(), 5);
+  const SmallSymmetric::DelayedPivots delayed{};
+  ASSERT_TRUE(factors.factorise(Matrix{{2, 1, 0}, {1, -2, 1}, {0, 1, 3}}, &delayed));
+  EXPECT_EQ(factors.delayed(), 0);
+  ASSERT_TRUE(factors.factorise(Matrix::Zero(5, 5), &delayed));
+  EXPECT_EQ(factors.delayed(), 5);
 }
 
-/// Through all of L and D, by hand where pivots were put off; every row of A x = b holds to its own size.
-TEST(SmallSymmetric, SolvesAlsoWherePivotsWerePutOff) {
+/// Through all of L and D, by hand where pivots were delayed; every row of A x = b holds to its own size.
+TEST(SmallSymmetric, SolvesAlsoWherePivotsWereDelayed) {
   std::mt19937 random(6);
   constexpr Index padded = SmallSymmetric::padded;
   for (int trial = 0; trial < 200; ++trial) {
@@ -55,10 +55,10 @@ TEST(SmallSymmetric, SolvesAlsoWherePivotsWerePutOff) {
     Matrix A = random_symmetric(random, n);
     if (trial % 3 == 0) A.row(n / 2) *= 1e-7, A.col(n / 2) *= 1e-7;
     if (trial % 3 == 1 && n > 1) A.diagonal().setZero();
-    const SmallSymmetric::PutOff put_off{};
+    const SmallSymmetric::DelayedPivots delayed{};
     SmallSymmetric factors;
-    ASSERT_TRUE(factors.factorise(A, &put_off));
-    const Index rest = factors.put_off(), done = n - rest;
+    ASSERT_TRUE(factors.factorise(A, &delayed));
+    const Index rest = factors.delayed(), done = n - rest;
     const Vector b = A * random_symmetric(random, n).col(0);
     alignas(16) std::array<double, static_cast<std::size_t>(padded)> y{};
     factors.forward<1>(b.data(), y.data());
@@ -74,7 +74,7 @@ TEST(SmallSymmetric, SolvesAlsoWherePivotsWerePutOff) {
     factors.backward<1>(y.data(), solution.data());
     const Vector left = A * solution - b, sizes = A.cwiseAbs() * solution.cwiseAbs() + b.cwiseAbs();
     EXPECT_LT((left.array().abs() / sizes.array()).maxCoeff(), 1e-13 * static_cast<double>(n))
-        << "trial " << trial << ", " << rest << " put off";
+        << "trial " << trial << ", " << rest << " delayed";
   }
 }
 

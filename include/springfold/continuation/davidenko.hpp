@@ -27,7 +27,7 @@ namespace springfold::continuation {
 ///    maximum_points, limit_points, location_tolerance and simultaneous.
 ///
 /// Something that changes sign twice within a quarter of a step is missed, but for switches, which
-/// are watched by their slopes as well.
+/// are tested by their slopes as well.
 /// @pre (x, lambda) satisfies F = 0 to the residual tolerance
 /// @throws std::invalid_argument where sizes do not fit together, or problems_in(options) is not empty
 Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& start,

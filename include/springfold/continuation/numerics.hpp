@@ -82,8 +82,12 @@ inline constexpr double blurred = 2 * told_apart;
 // Is it the same direction?
 /// Directions with a larger cosine are ways of one curve; the ways out of one point are further apart.
 inline constexpr double same_way = 0.98;
-/// Unit directions that differ by less are one; 1 - cosine of directions that are one line.
-inline constexpr double one_direction = 1e-6, same_line = one_direction * one_direction;
+/// Unit directions that differ by less are one.
+inline constexpr double one_direction = 1e-6;
+/// Is this the cosine of two unit directions of one line?
+inline bool is_one_line(double cosine) {
+  return std::abs(cosine) > 1 - one_direction * one_direction;
+}
 /// The same of a way and the direction in which a curve arrives at a singular point, where its tangent is known only roughly.
 inline constexpr double nearly_same_line = 1e-3;
 
@@ -91,43 +95,28 @@ inline constexpr double nearly_same_line = 1e-3;
 /// Rates along a unit tangent below this, of lambda or of a switch, are zero: tangents are as exact as points near double
 /// zeros are.
 inline constexpr double flat_rate = root_of_rounding;
-/// The rate of lambda that is zero at a kink or a branch point: tangents there are a digit worse.
-inline constexpr double turns_here = 10 * flat_rate;
 /// Arc length over which lambda must stand still to be a family beyond a kink: an inflection that is flat to 1e-12 on it
 /// would need a third derivative of lambda below 1e-5.
 inline constexpr double level_reach = 1e-2;
 
 // Which rank?
-/// Singular values below this share vanish at points that are located as promised, with two orders to spare.
+/// Singular values below this share vanish at points that are located as promised, with two orders to spare. At points that
+/// may be placed poorly the share is `poor`, and a piece whose tangent is wanted to `one_place` is regular from there.
 inline constexpr double located_rank = 100 * promised_place;
-/// The same at points that may be placed poorly.
-inline constexpr double vanishing_rank = poor;
 /// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the others.
 inline Index vanishing_values(const Vector& values) {
   constexpr double gap = 30;
   for (Index i = 0; i < values.size(); ++i)
-    if (values[i] <= vanishing_rank && values[i] * gap < (i > 0 ? values[i - 1] : 1))
+    if (values[i] <= poor && values[i] * gap < (i > 0 ? values[i - 1] : 1))
       return values.size() - i;
   return 0;
 }
-/// Ratio of singular values from which a piece is regular at a kink on a curve, which is corrected to rounding; then its
-/// tangent has this error.
-inline constexpr double regular_at_kinks = one_place;
-/// So near to a singular point corrected points may be off by the root of their rounding.
-inline constexpr double perhaps_singular = told_apart;
 
 // How far may a model be believed?
 /// Shares of a whole: one that does not decide, one that hardly counts, one that does not count even where much is unknown.
 inline constexpr double small_share = 0.1, negligible_share = 0.01, tiny_share = 0.001;
 /// Shares of a step or of a radius: so far something may be off and still be near; so far away is aside.
 inline constexpr double near_share = 0.3, aside_share = 0.2;
-/// The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times larger.
-inline constexpr double displaced_safety = 2;
-/// A matrix that changes by less than this share of itself stays regular; one half leaves a factor of two for motion
-/// that is not straight.
-inline constexpr double stays_regular = 0.5;
-/// Where a prediction is farther than this share of the step from the straight one, the model is not continued.
-inline constexpr double most_bend = small_share;
 
 /// All of the above by name, for records of what a result was judged by.
 struct NamedNumber {
@@ -151,23 +140,15 @@ inline constexpr NamedNumber numbers_judged_by[] = {
     {"blurred", blurred},
     {"same_way", same_way},
     {"one_direction", one_direction},
-    {"same_line", same_line},
     {"nearly_same_line", nearly_same_line},
     {"flat_rate", flat_rate},
-    {"turns_here", turns_here},
     {"level_reach", level_reach},
     {"located_rank", located_rank},
-    {"vanishing_rank", vanishing_rank},
-    {"regular_at_kinks", regular_at_kinks},
-    {"perhaps_singular", perhaps_singular},
     {"small_share", small_share},
     {"negligible_share", negligible_share},
     {"tiny_share", tiny_share},
     {"near_share", near_share},
     {"aside_share", aside_share},
-    {"displaced_safety", displaced_safety},
-    {"stays_regular", stays_regular},
-    {"most_bend", most_bend},
 };
 
 }  // namespace springfold::continuation

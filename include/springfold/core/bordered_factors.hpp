@@ -17,7 +17,7 @@ namespace springfold {
 ///     | dF/dx    dF/dlambda |
 ///     | row^T    corner     |,     (n + 1) x (n + 1).
 ///
-/// A symmetric dF/dx is factorised as L D L^T without its borders, pivots that are nearly zero put off: the same factors
+/// A symmetric dF/dx is factorised as L D L^T without its borders, pivots that are nearly zero delayed: the same factors
 /// give the number of negative eigenvalues, and with every last row that is asked for (of the corrector, of the
 /// tangent, of the test functions) solutions, also where dF/dx is singular. A structured dF/dx does the same its own way.
 /// Other matrices are factorised as L U with their last row, again only where that is another one.
@@ -70,7 +70,7 @@ class BorderedFactors {
   alignas(
       16) std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
   alignas(16) std::array<double, capacity> z_;  ///< L^-1 of the row
-  double last_ = 0;                 ///< what is left of the corner where no pivot was put off
+  double last_ = 0;                 ///< what is left of the corner where no pivot was delayed
   std::optional<SmallLu> front_{};  ///< R with its borders; or all of it
   std::array<double, 2> front_factors_{1, 1};  ///< of the last row and the last column beside R
   Vector row_factors_{};                       ///< of the rows of all of it

@@ -1,5 +1,5 @@
 // L D L^T of small symmetric matrices on the stack: those of mechanisms have ten to a hundred rows, and a library made
-// for large ones is slower and cannot put off pivots.
+// for large ones is slower and cannot delay pivots.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace springfold {
 
 /// P S A S P^T = L D L^T with 1x1 and 2x2 blocks in D and S of powers of two, by the same decisions as LAPACK's
-/// dsytf2 (Bunch, Kaufman 1977). Pivots that are small may be put off: then
+/// dsytf2 (Bunch, Kaufman 1977). Pivots that are small may be delayed: then
 ///
 ///                 | L_11      | | D_1    | | L_11^T  L_21^T |
 ///     P S A S P^T = |           | |        | |                |
@@ -21,28 +21,28 @@ class SmallSymmetric {
  public:
   static constexpr Index largest = 128;
 
-  /// Which pivots are put off: those below a share of the largest entry that their row of S A S had, or of that of
+  /// Which pivots are delayed: those below a share of the largest entry that their row of S A S had, or of that of
   /// S border.
-  struct PutOff {
+  struct DelayedPivots {
     double share = 0.1, share_of_border = 1e-3;
     const double* border = nullptr;  ///< as many numbers as A has rows
   };
 
   /// @param A  square, at most `largest` rows; its lower triangle is read
-  /// @param put_off  nullptr: no pivots
+  /// @param delayed  nullptr: no pivots
   /// @returns false where a number of it is not finite
-  bool factorise(const Eigen::Ref<const Matrix>& A, const PutOff* put_off = nullptr);
+  bool factorise(const Eigen::Ref<const Matrix>& A, const DelayedPivots* delayed = nullptr);
 
   Index size() const { return n_; }
   /// The size() eigenvalues of the diagonal blocks of D, with L D L^T of R in place of R, into `values`.
   void pivot_values(double* values) const;
   /// Rows of R, and its entries.
-  Index put_off() const { return n_ - done_; }
+  Index delayed() const { return n_ - done_; }
   double rest(Index i, Index j) const {
     return i >= j ? at(done_ + i, done_ + j) : at(done_ + j, done_ + i);
   }
 
-  /// Replaces the columns of X (size() rows) by A^-1 X. @pre nothing is put off, no value is zero
+  /// Replaces the columns of X (size() rows) by A^-1 X. @pre nothing is delayed, no value is zero
   void solve(Matrix& X) const;
 
   // Solutions with borders, for `width` columns side by side: row i of them are the width numbers from
@@ -53,7 +53,7 @@ class SmallSymmetric {
   template <int width>
   void forward(const double* x, double* y) const;  ///< y = L^-1 P S x; the last rows go with R
   template <int width>
-  void divide(double* y) const;  ///< y = D_1^-1 y; the last put_off() rows are left as they are
+  void divide(double* y) const;  ///< y = D_1^-1 y; the last delayed() rows are left as they are
   template <int width>
   void backward(double* y, double* x) const;  ///< x = S P^T L^-T y; y is used up
 
@@ -74,8 +74,8 @@ class SmallSymmetric {
   void rest_values(double* values) const;
   void measure();
   void equilibrate();
-  void set_least(const PutOff& put_off);
-  void eliminate(bool may_put_off);
+  void set_least(const DelayedPivots& delayed);
+  void eliminate(bool may_delay);
   Pivot pivot_at(Index k) const;
   bool is_large(Index k, const Pivot& pivot) const;
   void exchange(Index k, Index next, Index p);
@@ -87,7 +87,7 @@ class SmallSymmetric {
   bool scaled_ = false;
   alignas(64) std::array<double, capacity * capacity> entries_;
   alignas(64) Column sizes_,
-      least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not put off
+      least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not delayed
   Column scale_;
   std::array<Index, capacity> order_;  ///< row i of the factors belongs to this one of A
   std::array<bool, capacity> is_two_;

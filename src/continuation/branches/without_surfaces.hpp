@@ -1,4 +1,4 @@
-// A piecewise-smooth problem of which some surfaces are not watched. Private to the engine.
+// A piecewise-smooth problem of which some surfaces are ignored. Private to the engine.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace springfold::continuation {
 
-/// The same equations, but the switches `unwatched` keep the sides that they have in `piece`. Where a curve comes to a known
+/// The same equations, but the switches `ignored` keep the sides that they have in `piece`. Where a curve comes to a known
 /// point at which it touches a surface, the switch is rounding before it is zero: nothing can be told of it there.
 class WithoutSurfaces {
  public:
-  WithoutSurfaces(ProblemView problem, std::vector<Index> unwatched, const Piece& piece)
-      : problem_{problem}, unwatched_{std::move(unwatched)}, piece_{piece} {}
+  WithoutSurfaces(ProblemView problem, std::vector<Index> ignored, const Piece& piece)
+      : problem_{problem}, ignored_{std::move(ignored)}, piece_{piece} {}
 
   Index size() const { return problem_.size(); }
   bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
@@ -36,12 +36,12 @@ class WithoutSurfaces {
   Index switch_count() const { return problem_.switch_count(); }
   bool switches(const Vector& x, double lambda, Vector& g) const {
     if (!problem_.switches(x, lambda, g)) return false;
-    for (const Index j : unwatched_) g[j] = piece_[static_cast<std::size_t>(j)];
+    for (const Index j : ignored_) g[j] = piece_[static_cast<std::size_t>(j)];
     return true;
   }
   bool switch_gradients(const Vector& x, double lambda, Matrix& dg_dx, Vector& dg_dlambda) const {
     if (!problem_.switch_gradients(x, lambda, dg_dx, dg_dlambda)) return false;
-    for (const Index j : unwatched_) {
+    for (const Index j : ignored_) {
       dg_dx.row(j).setZero();
       dg_dlambda[j] = 0;
     }
@@ -56,7 +56,7 @@ class WithoutSurfaces {
 
  private:
   ProblemView problem_;
-  std::vector<Index> unwatched_{};
+  std::vector<Index> ignored_{};
   Piece piece_{};
 };
 

@@ -185,7 +185,7 @@ int sign_of(double value, double nothing = 0) {
 }
 
 /// A function whose changes of sign are special points, with the last sign that it had.
-struct Watched {
+struct TestFunction {
   std::function<double(const CurvePoint&)> value{};
   Hit hit{};           ///< what they are
   double nothing = 0;  ///< smaller values have no sign
@@ -197,8 +197,8 @@ struct Watched {
   }
 };
 
-std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool limit_points) {
-  std::vector<Watched> all;
+std::vector<TestFunction> everything_to_watch(const std::vector<Event>& events, bool limit_points) {
+  std::vector<TestFunction> all;
   if (limit_points) {
     const auto rate = [](const CurvePoint& point) { return point.tangent.dlambda; };
     all.push_back({.value = rate,
@@ -217,7 +217,7 @@ std::vector<Watched> everything_to_watch(const std::vector<Event>& events, bool 
 /// Everything between two steps.
 struct Walk {
   const Walker& walker;
-  std::vector<Watched> watched{};
+  std::vector<TestFunction> tests{};
   Progress progress{};
   Curve curve{};
 };
@@ -230,22 +230,22 @@ Outcome stop(Walk& walk, StopReason reason, std::string detail) {
 
 /// Changes of sign of one function between the samples.
 /// @returns false where one could not be located
-bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
+bool find_zeros_of(TestFunction& test, const Walker& walker, const FlowArc& arc,
                    const std::vector<CurvePoint>& samples, std::vector<Hit>& found) {
   double last = 0;
   for (const CurvePoint& sample : samples) {
-    const int sign = sign_of(watched.value(sample), watched.nothing);
+    const int sign = sign_of(test.value(sample), test.nothing);
     if (sign == 0) continue;
     const double here = sample.s - arc.from.s;
-    if (watched.sign * sign < 0) {
-      const auto zero = zero_on_arc(walker, arc, last, here, watched.value);
+    if (test.sign * sign < 0) {
+      const auto zero = zero_on_arc(walker, arc, last, here, test.value);
       if (!zero) return false;
-      found.push_back(watched.hit);
+      found.push_back(test.hit);
       found.back().point = zero->point;
       found.back().s_before = arc.from.s + zero->before;
       found.back().s_after = arc.from.s + zero->after;
     }
-    watched.sign = sign;
+    test.sign = sign;
     last = here;
   }
   return true;
@@ -254,14 +254,14 @@ bool find_zeros_of(Watched& watched, const Walker& walker, const FlowArc& arc,
 /// Records what lies between the samples, in order.
 Outcome record(Walk& walk, const FlowArc& arc, const std::vector<CurvePoint>& samples,
                std::string& refusal) {
-  std::vector<Watched> watched = walk.watched;  // a refused step leaves no trace
+  std::vector<TestFunction> tests = walk.tests;  // a refused step leaves no trace
   std::vector<Hit> found;
-  for (Watched& w : watched)
+  for (TestFunction& w : tests)
     if (!find_zeros_of(w, walk.walker, arc, samples, found)) {
       refusal = "\"" + w.hit.name + "\" could not be located";
       return Outcome::shorten;
     }
-  walk.watched = std::move(watched);
+  walk.tests = std::move(tests);
   sort_by_place(found);
   for (const Hit& hit : found) {
     walk.curve.hits.push_back(hit);
@@ -281,7 +281,7 @@ Outcome leave_surface(Walk& walk, const Located& met) {
   const Outcome outcome = pass_kink(walk.walker, kink, walk.progress, walk.curve);
   if (outcome != Outcome::go_on) return outcome;
   walk.progress.ds = std::min(walk.progress.ds, h);
-  for (Watched& watched : walk.watched) watched.begin_at(walk.progress.here);
+  for (TestFunction& test : walk.tests) test.begin_at(walk.progress.here);
   return outcome;
 }
 
@@ -360,7 +360,7 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
   progress.here = point_on_ray(walker, {.x = x, .lambda = lambda}, start);
   progress.left = active_switches(walker, x, lambda);
   progress.ds = options.step.initial;
-  for (Watched& watched : walk.watched) watched.begin_at(progress.here);
+  for (TestFunction& test : walk.tests) test.begin_at(progress.here);
   walk.curve.points = {progress.here};
   walk.curve.stop = StopReason::max_points;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -38,7 +38,7 @@ struct PointRange {
 
 std::optional<Separation> separation(const Walker& walker, const Curve& curve, std::size_t i) {
   const CurvePoint &p = curve.points[i], &other = curve.points[i > 0 ? i - 1 : i + 1];
-  const WatchedStep arc(walker, p, std::abs(p.s - other.s));
+  const TestedStep arc(walker, p, std::abs(p.s - other.s));
   return separation_at(arc, p);
 }
 

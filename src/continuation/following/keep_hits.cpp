@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {

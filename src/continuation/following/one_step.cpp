@@ -5,9 +5,9 @@
 
 #include "continuation/following/keep_hits.hpp"
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -15,7 +15,7 @@ namespace {
 
 /// Newton's method is drawn to the branch that is nearest. Where the matrix hardly changes within the length of its first
 /// correction, that is where it came from; elsewhere nothing says which branch a step along the tangent has found.
-/// To be asked right after the correction, whose lengths the working memory holds.
+/// To be asked right after the correction, whose lengths the workspace holds.
 /// @param ds       length of the step
 /// @param refusal  why, if so
 bool may_be_another(const Walker& walker, const CurvePoint& to, double ds, std::string& refusal) {
@@ -23,7 +23,7 @@ bool may_be_another(const Walker& walker, const CurvePoint& to, double ds, std::
   const double moved = newton.corrections.empty() ? 0 : newton.corrections.front();
   // Branches that are nearer than such points are to each other are looked for at narrow places.
   if (moved <= same_point * (1 + to.x.norm())) return false;
-  if (stays_within(WatchedStep(walker, to, ds), to, moved, small_share)) return false;
+  if (stays_within(TestedStep(walker, to, ds), to, moved, small_share)) return false;
   refusal = "another branch may be as near as the corrected point is to the predicted one";
   return true;
 }
@@ -43,7 +43,7 @@ bool leads_on(const Walker& walker, const ArcModel& behind, const CurvePoint& be
     return true;
   // In a cluster, where rounding moves points by more than one place is wide, nothing is told apart anyway.
   return std::ranges::any_of(std::array{&middle, &to}, [&](const CurvePoint* p) {
-    const auto other = separation_at(WatchedStep(walker, *p, to.s - here.s), *p);
+    const auto other = separation_at(TestedStep(walker, *p, to.s - here.s), *p);
     return other && other->blur > one_place && off <= between_samples * other->blur;
   });
 }
@@ -103,7 +103,7 @@ bool closes_behind_kink(const Walker& walker, const CurvePoint& leaving, Curve& 
 }
 
 /// Predicts, corrects and looks inside: does the step stay on its curve? Its end and, if there is evidence, its middle stand in
-/// the working memory.
+/// the workspace.
 bool take_step(const Walker& walker, const Progress& progress, const Curve& curve,
                StepReport& report, Refusal& refused) {
   CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
@@ -140,7 +140,7 @@ bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progre
 /// Takes the end of the step, or the start of the curve that it passes, as the place where the curve is.
 void move_on(const Following& following, const CurvePoint* start, Progress& progress,
              Curve& curve) {
-  WorkingMemory& memory = *following.walker.memory;
+  Workspace& memory = *following.walker.memory;
   std::swap(progress.before, progress.here);
   if (start)
     progress.here = *start;

@@ -74,7 +74,8 @@ double TubeTest::change(const Vector& u, const Matrix& J) {
 
 std::optional<double> TubeTest::radius(double longest) {
   constexpr int tries = 8;
-  const double most = 0.5 / displaced_safety;
+  // The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times larger.
+  constexpr double displaced_safety = 2, most = 0.5 / displaced_safety;
   double error = 0, along = 0;
   for (std::size_t i = 0; i < at_.size(); ++i) {
     if (!residual(at_[i], F_)) return std::nullopt;

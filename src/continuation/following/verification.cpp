@@ -5,7 +5,7 @@
 
 #include "continuation/following/tube_test.hpp"
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
@@ -99,7 +99,7 @@ class Verifier {
     const CurvePoint& to = points_[side < 0 ? from + 1 : from - 1];
     ArcModel model;
     if (!model.go_through(walker_.weights, points_[from], nodes)) return false;
-    const WatchedStep step(walker_, to, length(arc_));
+    const TestedStep step(walker_, to, length(arc_));
     const auto other = separation_at(step, to);
     const double off = distance_of(walker_, model, points_[from], to);
     return other && std::isfinite(other->blur) && off <= own_branch * other->distance;

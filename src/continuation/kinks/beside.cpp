@@ -11,7 +11,7 @@
 #include "continuation/points/arc.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
@@ -103,7 +103,8 @@ bool fold_is_apart(const Walker& walker, const CurvePoint& at, int direction, do
   if (!there) return false;
   const double change = std::abs((there->tangent.dlambda - rate) / way);
   if (!(std::abs(rate) > same_point * change)) return false;
-  const Place* place = place_at(walker.problem, *walker.memory, at.x, at.lambda, at.piece);
+  const LinearisedPoint* place =
+      linearised_at(walker.problem, *walker.memory, at.x, at.lambda, at.piece);
   return place && std::abs(rate) > clear_of_rounding * rate_noise(extended_matrix(
                                                            place->at, walker.weights, at.tangent));
 }
@@ -150,7 +151,7 @@ bool same_level(const Walker& walker, const std::vector<const CurvePoint*>& poin
 }
 
 bool is_level(const Walker& walker, const CurvePoint& at, int direction, double room) {
-  if (std::abs(at.tangent.dlambda) > perhaps_singular) return false;
+  if (std::abs(at.tangent.dlambda) > told_apart) return false;
   const double reach = direction * std::min(level_reach, 0.5 * room);
   const auto end = point_at(walker, at, reach),
              half = point_at(walker, at, uneven_share(4) * reach);
@@ -166,7 +167,7 @@ bool told_from_zero(const CurvePoint& p) { return std::abs(p.tangent.dlambda) > 
 
 Beside beside(const Walker& walker, const CurvePoint& at, int direction, double room) {
   if (is_level(walker, at, direction, room)) return {at, 0};
-  if (std::abs(at.tangent.dlambda) > turns_here || fold_is_apart(walker, at, direction, room))
+  if (std::abs(at.tangent.dlambda) > 10 * flat_rate || fold_is_apart(walker, at, direction, room))
     return {at, sense_of(at)};
   for (const double distance : decades<-6, -2>()) {
     const auto point = point_at(walker, at, direction * std::min(distance, 0.5 * room));
@@ -176,7 +177,7 @@ Beside beside(const Walker& walker, const CurvePoint& at, int direction, double 
 }
 
 Beside before_singular(const Walker& walker, const CurvePoint& at, double room) {
-  const bool flat = std::abs(at.tangent.dlambda) <= perhaps_singular;  // a fold lies there too
+  const bool flat = std::abs(at.tangent.dlambda) <= told_apart;  // a fold lies there too
   for (const double distance : decades<-6, -4>()) {
     if (flat && distance < told_apart) continue;
     const auto point = point_at(walker, at, -std::min(distance, 0.5 * room));

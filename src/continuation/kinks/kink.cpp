@@ -177,7 +177,7 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, active.empty() ? residual_level : regular_at_kinks);
+  return rays_around(walker, at, active, active.empty() ? residual_level : one_place);
 }
 
 }  // namespace springfold::continuation

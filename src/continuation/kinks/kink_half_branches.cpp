@@ -16,7 +16,8 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr std::size_t most_pieces = 256;  // beside the curve, that are watched on every step
+constexpr std::size_t most_pieces =
+    256;  // beside the curve, whose test functions are looked at on every step
 constexpr double one_point =
     10 * one_place;  // arc length within which zeros of different pieces are one
 constexpr double located = 10 * located_rank;  // ratio of singular values at a located branch point
@@ -158,7 +159,7 @@ bool find_places(const Walker& walker, Samples samples, const std::vector<Index>
     leave_zero_at_begin(walker, *samples.front(), moved);
     std::vector<const CurvePoint*> pointers;
     for (const CurvePoint& point : moved) pointers.push_back(&point);
-    StepEvents singular = singular_points(WatchedStep(walker, pointers), pointers);
+    StepEvents singular = singular_points(TestedStep(walker, pointers), pointers);
     if (!singular.doubt.empty()) {
       found.doubt = "beside " + names_of(walker.problem, resting) + ": " + singular.doubt;
       found.unexplained = singular.unexplained;
@@ -229,8 +230,8 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
 }
 
 /// Too many pieces: said once for the whole stretch.
-void note_unwatched(const CurvePoint& from, const CurvePoint& to, const std::vector<Index>& resting,
-                    StepEvents& found, Curve& curve) {
+void note_untested(const CurvePoint& from, const CurvePoint& to, const std::vector<Index>& resting,
+                   StepEvents& found, Curve& curve) {
   for (Hit& hit : curve.hits)
     if (hit.kind == HitKind::unresolved && hit.switches == resting && hit.s_after >= from.s) {
       hit.s_after = to.s;
@@ -256,7 +257,7 @@ void add_half_branches(const Walker& walker, Samples samples, const std::vector<
   StepEvents others = found;
   take_own(others, places);
   if (!find_places(walker, samples, resting, others, places))
-    return note_unwatched(*samples.front(), *samples.back(), resting, found, curve);
+    return note_untested(*samples.front(), *samples.back(), resting, found, curve);
   found = std::move(others);
   for (ZeroBeside& place : places) {
     const double s = place.hit.point.s;

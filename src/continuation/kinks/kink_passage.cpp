@@ -58,7 +58,7 @@ Rays ways_out(const Walker& walker, const KinkSearch& kink, CurvePoint& arrived)
     return {.complete = false, .why = "too many switches act at one point"};
   const Direction along = arrived.tangent;
   Rays rays =
-      rays_around(walker, arrived, kink.active, regular_at_kinks, kink.singular ? nullptr : &along);
+      rays_around(walker, arrived, kink.active, one_place, kink.singular ? nullptr : &along);
   take_way_back(walker, arrived, rays.rays);
   return rays;
 }

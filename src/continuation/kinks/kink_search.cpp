@@ -9,7 +9,7 @@
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
@@ -239,14 +239,14 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   CurvePoint& point = kink.point;
   Linearisation at;
   if (!linearise(walker.problem, point.x, point.lambda, point.piece, at)) return;
-  if (!is_singular(extended_matrix(at, walker.weights, point.tangent), perhaps_singular)) return;
+  if (!is_singular(extended_matrix(at, walker.weights, point.tangent), told_apart)) return;
   const auto place = refine_branch_point(walker, point);
   if (!place) return;
   Vector g;
   if (!walker.problem.switches(place->x, place->lambda, g)) return;
   for (const Index j : active_switches(walker, point.x, point.lambda))
     if (std::abs(g[j]) > walker.options.simultaneous) return;
-  if (!(length_of(walker, difference(*place, point)) <= perhaps_singular)) return;
+  if (!(length_of(walker, difference(*place, point)) <= told_apart)) return;
   point.x = place->x;
   point.lambda = place->lambda;
   point.s = from.s + std::max(0.0, way_to(walker.weights, from, point));
@@ -258,17 +258,17 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   kink.after = std::max(kink.after, point.s - from.s);
 }
 
-bool read_switches(const Walker& walker, const CurvePoint& p, WorkingMemory::Switches& at) {
+bool read_switches(const Walker& walker, const CurvePoint& p, Workspace::Switches& at) {
   return walker.problem.switches(p.x, p.lambda, at.g) &&
          walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
 }
 
 /// Size of what a switching function is made of: multipliers beside it do not count.
-double size_of(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+double size_of(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return at.dg_dx.row(j).cwiseAbs().dot(p.x.cwiseAbs()) + std::abs(at.dg_dlambda[j] * p.lambda);
 }
 
-double rate_along(const WorkingMemory::Switches& at, Index j, const CurvePoint& p) {
+double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
 }
 
@@ -276,7 +276,7 @@ double rate_along(const WorkingMemory::Switches& at, Index j, const CurvePoint& 
 /// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
 /// zero. What runs along its surface, or is led by rounding, acts here.
 bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
-                       const WorkingMemory::Switches& before, const WorkingMemory::Switches& here,
+                       const Workspace::Switches& before, const Workspace::Switches& here,
                        Index j) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
   const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
@@ -292,7 +292,7 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
 /// Switches that are zero at the kink, and not just near to zero there.
 std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink) {
   std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
-  WorkingMemory::Switches before, here;
+  Workspace::Switches before, here;
   if (active.size() < 2 || !read_switches(walker, from, before) ||
       !read_switches(walker, kink, here))
     return active;
@@ -306,7 +306,7 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
 std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
                                     const CurvePoint& to) {
   std::vector<Index> resting;
-  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
+  Workspace::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
   if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
       !walker.problem.switches(from.x, from.lambda, first.g) ||
       !walker.problem.switches(to.x, to.lambda, last.g))
@@ -339,7 +339,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   const Index m = walker.problem.switch_count();
   if (m == 0) return result;
   const std::vector<Index> resting = resting_switches(walker, from, to);
-  WorkingMemory::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
+  Workspace::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
   if (!read_switches(walker, from, first) || !read_switches(walker, to, last))
     return {.status = KinkSearch::Status::suspicious};
   // Step lengths are measured along from.tangent: rates by the arc at `to` are smaller by this.
@@ -350,10 +350,10 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     const double side = from.piece[static_cast<std::size_t>(j)];
     const double noise =
         residual_level * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
-    const SwitchOnStep watched{walker, from, h, j, side, noise};
+    const SwitchOnStep on_step{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};
-    Crossing crossing = crossing_of(watched, ends, contains(left, j));
+    Crossing crossing = crossing_of(on_step, ends, contains(left, j));
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||

@@ -8,7 +8,7 @@
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/inertia.hpp"
 #include "springfold/core/sampling.hpp"
@@ -38,7 +38,8 @@ bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
   if (rate > (to.s - from.s >= level_reach ? residual_level : small_share * residual_level))
     return false;
-  const Place* at = place_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
+  const LinearisedPoint* at =
+      linearised_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
   if (!at) return true;
   const double noise = rate_noise(extended_matrix(at->at, walker.weights, from.tangent));
   return rate <= clear_of_rounding * noise && !widened(walker, from, to, noise);

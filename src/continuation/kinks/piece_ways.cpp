@@ -121,7 +121,7 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
   if (left > 1) return false;
   const auto line = unit(N * svd.V.rightCols(1), walker.weights);
   return line && std::any_of(known.begin(), known.end(), [&](const Direction& d) {
-           return std::abs(metric_product(walker.weights, d, *line)) > 1 - same_line;
+           return is_one_line(metric_product(walker.weights, d, *line));
          });
 }
 
@@ -130,13 +130,13 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
 bool is_own_curve(const Walker& walker, const CurvePoint& at, const Kernel& kernel) {
   if (kernel.corank > 0 || at.tangent.dx.size() != at.x.size()) return false;
   const auto line = unit(kernel.N, walker.weights);
-  return line && std::abs(metric_product(walker.weights, at.tangent, *line)) > 1 - same_line;
+  return line && is_one_line(metric_product(walker.weights, at.tangent, *line));
 }
 
 }  // namespace
 
 PieceWays both_ways(const Direction& tangent) {
-  return {.list = {{tangent, {}, regular_at_kinks}, {opposite(tangent), {}, regular_at_kinks}}};
+  return {.list = {{tangent, {}, one_place}, {opposite(tangent), {}, one_place}}};
 }
 
 /// The kernel of A is what the rows of A leave over: the last columns of Q in A^T P = Q R.
@@ -157,7 +157,7 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   const PivotedQr qr = pivoted_qr(A.transpose());
   const double size = std::max(qr.pivots[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
   if (!(qr.pivots[n - 1] > full_rank * size)) {
-    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : perhaps_singular);
+    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : told_apart);
     return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
   }
   const auto d = unit(qr.last_column, walker.weights);
@@ -201,7 +201,7 @@ PieceWays singular_ways(const Walker& walker, const CurvePoint& at, const Surfac
   PieceWays ways{.singular = true, .why = exits.why};
   for (const Exit& exit : exits.exits)
     ways.list.push_back(
-        {exit.tangent, exit.start, std::max(exit.accuracy, regular_at_kinks), exit.beyond});
+        {exit.tangent, exit.start, std::max(exit.accuracy, one_place), exit.beyond});
   return ways;
 }
 

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/finite.hpp"
 
@@ -27,12 +27,12 @@ bool is_small(Vector& d, Vector& Xd, const Times& times) {
 }
 
 /// Sizes of the largest changes from one place to others, and the rows in which there are any.
-void measure_motion(WorkingMemory& memory, const Place& middle,
-                    std::span<const Place* const> others) {
+void measure_motion(Workspace& memory, const LinearisedPoint& middle,
+                    std::span<const LinearisedPoint* const> others) {
   const Index n = middle.x.size();
   Matrix& motion = memory.motion;
   motion.setZero(n, n + 1);
-  for (const Place* other : others) {
+  for (const LinearisedPoint* other : others) {
     for (Index j = 0; j < n; ++j)
       motion.col(j) =
           motion.col(j).cwiseMax((other->at.dF_dx.col(j) - middle.at.dF_dx.col(j)).cwiseAbs());
@@ -49,7 +49,8 @@ void measure_motion(WorkingMemory& memory, const Place& middle,
 
 /// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
 /// is enough. Rows that do not move, the last one among them, count for nothing.
-bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place* const> others) {
+bool surely_regular(Workspace& memory, LinearisedPoint& middle,
+                    std::span<const LinearisedPoint* const> others) {
   const Index n = middle.x.size();
   Matrix &inverse = memory.inverse, &motion = memory.motion;
   measure_motion(memory, middle, others);
@@ -69,7 +70,7 @@ bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place*
   };
   if (is_small(d, Xd, bound)) return true;
   Matrix difference(count, n + 1), X(n + 1, n + 1);
-  for (const Place* other : others) {
+  for (const LinearisedPoint* other : others) {
     for (Index k = 0; k < count; ++k) {
       const Index row = rows[static_cast<std::size_t>(k)];
       difference.row(k) << other->at.dF_dx.row(row) - middle.at.dF_dx.row(row),
@@ -83,7 +84,7 @@ bool surely_regular(WorkingMemory& memory, Place& middle, std::span<const Place*
 
 /// Largest magnitude of an eigenvalue of E0^-1 (E1 - E0), of structured matrices with the same last row.
 /// @pre the row is set in middle.factors
-double largest_motion(WorkingMemory& memory, Place& middle, const Place& other) {
+double largest_motion(Workspace& memory, LinearisedPoint& middle, const LinearisedPoint& other) {
   const Index n = middle.x.size();
   Vector &v = memory.x, &there = memory.F, &here = memory.sizes;
   const auto put_image = [&](const auto& direction, Vector& image) {
@@ -106,10 +107,10 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
   constexpr std::size_t most = 3;
   assert(samples.size() <= most);
   const std::size_t count = samples.size(), middle = count / 2;
-  std::array<Place*, most> places{};
+  std::array<LinearisedPoint*, most> places{};
   for (std::size_t i = 0; i < count; ++i) {
     const CurvePoint& p = *samples[i];
-    places[i] = place_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
+    places[i] = linearised_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
     if (!places[i]) return false;
   }
   if (!places[middle]->factors.set_border(walker.weights, tau)) return false;
@@ -120,7 +121,7 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
         return false;
     return true;
   }
-  std::array<const Place*, most> others{};
+  std::array<const LinearisedPoint*, most> others{};
   std::size_t number = 0;
   for (std::size_t i = 0; i < count; ++i)
     if (i != middle) others[number++] = places[i];

@@ -4,7 +4,7 @@
 #include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/reduced_equation.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -16,7 +16,7 @@ namespace {
 /// Is lambda's rate zero at this very place? Interpolants know better than points beside it, wide ones
 /// because rounding matters less, narrow ones where the curve is not smooth enough. How far they
 /// differ shows what can be told.
-bool turns_at(const WatchedStep& arc, double t) {
+bool turns_at(const TestedStep& arc, double t) {
   std::vector<double> distances;  // from t to the turn
   for (const double share : half_decades<3>()) {
     const auto curve = curve_near(arc, t, share * (arc.high() - arc.low()));
@@ -35,7 +35,7 @@ bool turns_at(const WatchedStep& arc, double t) {
 }
 
 /// Removes what is left of the residual within the directions that dF sees well.
-void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
+void polish(const TestedStep& arc, CurvePoint& point, Index corank) {
   const auto& walker = arc.walker();
   Vector F;
   for (int i = 0; i < 2; ++i) {
@@ -53,7 +53,7 @@ void polish(const WatchedStep& arc, CurvePoint& point, Index corank) {
 }
 
 /// Are exactly m singular values of E small here, with a gap to the others?
-bool has_corank(const WatchedStep& arc, const CurvePoint& point, Index m) {
+bool has_corank(const TestedStep& arc, const CurvePoint& point, Index m) {
   const auto E = arc.matrix(point);
   if (!E) return false;
   const Vector values = least_singular_values(*E, m + 1);
@@ -66,7 +66,7 @@ struct Offset {
   double along = 0, aside = 0;
 };
 
-Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePoint& interpolated,
+Offset offset_of(const TestedStep& arc, const Singularity& place, const CurvePoint& interpolated,
                  const CurvePoint& other) {
   const Index n = other.x.size();
   Offset offset{.at = way_to(arc.walker().weights, arc.from(), other)};
@@ -80,7 +80,7 @@ Offset offset_of(const WatchedStep& arc, const Singularity& place, const CurvePo
 /// Takes over the exact place of a branch point, if it is this one: near the interpolated place, and on
 /// the interpolated curve. Otherwise the interpolated one stays, with what is known of its error.
 /// @returns false when the curves pass each other there, or the place is not known
-bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Candidate& found) {
+bool settle_place(const TestedStep& arc, const Singularity& place, Index m, Candidate& found) {
   const int corank = static_cast<int>(m);
   const double reach = std::clamp(near_share * place.free, together, branch_point_reach);
   const auto exact = place_branch_point(arc.walker(), found.point, corank, 2 * reach);
@@ -116,7 +116,7 @@ bool settle_place(const WatchedStep& arc, const Singularity& place, Index m, Can
 
 /// Does Sigma leave a multiple branch point in a bend, because it vanishes once more nearby? At a point that
 /// stands alone it grows with the distance; where lambda turns, at least one of its modes does.
-bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
+bool has_company(const TestedStep& arc, const Candidate& found, Index m) {
   constexpr double nearer = 1.0 / 8, bent = 3;
   const auto E = arc.matrix(found.point);
   if (!E) return false;
@@ -138,7 +138,7 @@ bool has_company(const WatchedStep& arc, const Candidate& found, Index m) {
 /// Gives a branch point the exact direction of its branch, where second derivatives tell it; otherwise what of its direction
 /// lies in the kernel.
 /// @returns lambda's rate there, if the direction is exact
-std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint& point) {
+std::optional<double> settle_tangent(const TestedStep& arc, Index m, CurvePoint& point) {
   const auto e = reduce(arc.walker(), point, static_cast<int>(m));
   if (!e) return std::nullopt;
   const Index n = point.x.size();
@@ -154,23 +154,23 @@ std::optional<double> settle_tangent(const WatchedStep& arc, Index m, CurvePoint
 }
 
 /// Does lambda turn at this branch point?
-bool branch_turns(const WatchedStep& arc, Index m, Candidate& found) {
+bool branch_turns(const TestedStep& arc, Index m, Candidate& found) {
   const auto rate = settle_tangent(arc, m, found.point);
   if (!rate) return turns_at(arc, found.at);
-  if (std::abs(*rate) > turns_here) return false;
+  if (std::abs(*rate) > 10 * flat_rate) return false;
   const auto before = arc.rate(found.at - blurred), after = arc.rate(found.at + blurred);
   return before && after ? (*before < 0) != (*after < 0) : turns_at(arc, found.at);
 }
 
 }  // namespace
 
-std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length) {
+std::optional<Interpolant> curve_near(const TestedStep& arc, double t, double length) {
   const auto [a, b] = window_around(t, length, arc.low(), arc.high());
   return interpolated_curve(
       [&](double ds) -> const std::optional<CurvePoint>& { return arc.point(ds); }, a, b);
 }
 
-std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
+std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& place,
                                       const std::vector<ZeroOf>& zeros, Index m, bool touches) {
   const Index n = arc.from().x.size();
   if (m > n)

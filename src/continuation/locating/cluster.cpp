@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -25,7 +25,7 @@ Eigen::RowVectorXd powers(double u) {
 }
 
 /// Is Sigma regular on the stretch within `half` of t, beyond its scatter around polynomials?
-bool surely_regular_near(const WatchedStep& arc, const Borders& borders, double t, double half) {
+bool surely_regular_near(const TestedStep& arc, const Borders& borders, double t, double half) {
   constexpr double beyond_doubt = 30;
   constexpr int grid = 32;
   const Index m = borders.B.cols();
@@ -97,7 +97,7 @@ std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b
 }
 
 /// Zeros of lambda's rate and of det Sigma; nothing if one of them is not smooth on the step.
-std::optional<Roots> all_roots(const WatchedStep& arc, Samples samples) {
+std::optional<Roots> all_roots(const TestedStep& arc, Samples samples) {
   std::vector<ExtendedMatrix> E;
   for (const CurvePoint* p : samples) {
     auto matrix = arc.matrix(*p);
@@ -135,7 +135,7 @@ Vector shrunk(const Matrix& from, const Matrix& to) {
   return sizes;
 }
 
-Index vanishing_modes(const WatchedStep& arc, Index m, const ZeroOf& zero) {
+Index vanishing_modes(const TestedStep& arc, Index m, const ZeroOf& zero) {
   const auto& middle = arc.point(0.5 * arc.length());
   const auto E = middle ? arc.matrix(*middle) : std::nullopt;
   if (!E) return m;
@@ -154,7 +154,7 @@ Index vanishing_modes(const WatchedStep& arc, Index m, const ZeroOf& zero) {
   return most;
 }
 
-bool sigma_may_vanish(const WatchedStep& arc, const Borders& borders, const ZeroOf& touch) {
+bool sigma_may_vanish(const TestedStep& arc, const Borders& borders, const ZeroOf& touch) {
   for (const double share : half_decades<4>()) {
     const double half = small_share * share * arc.length();
     const double t = std::clamp(touch.at, arc.low() + half, arc.high() - half);
@@ -170,7 +170,7 @@ std::optional<Hit> cluster_on_step(const Walker& walker, Samples samples) {
   // Shares of half the step: how wide a cluster may be, and how far from the step's ends.
   constexpr double wide = 0.35, clear = wide;
   const CurvePoint &from = *samples.front(), &to = *samples.back();
-  const WatchedStep arc(walker, samples);
+  const TestedStep arc(walker, samples);
   const auto roots = all_roots(arc, samples);
   if (!roots) return std::nullopt;
   Roots near;

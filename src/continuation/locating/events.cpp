@@ -10,7 +10,7 @@
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
@@ -18,7 +18,7 @@ namespace springfold::continuation {
 namespace {
 
 /// The curve's point from its points around it, where none can be computed: at a branch point.
-std::optional<CurvePoint> interpolated_point(const WatchedStep& arc, const CurvePoint& to,
+std::optional<CurvePoint> interpolated_point(const TestedStep& arc, const CurvePoint& to,
                                              double ds) {
   const CurvePoint& from = arc.from();
   const auto [a, b] = window_around(ds, 0.5 * (to.s - from.s), 0, to.s - from.s);
@@ -45,7 +45,7 @@ double clear_value_beyond(const Function& value, double h, double noise) {
   return 0;
 }
 
-using EventValue = WorkingMemory::EventValues::Value;
+using EventValue = Workspace::EventValues::Value;
 
 EventValue value_of(const Event& event, const CurvePoint& point) {
   return {event.value(point), event.noise ? event.noise(point) : 0};
@@ -53,7 +53,7 @@ EventValue value_of(const Event& event, const CurvePoint& point) {
 
 /// How far values scatter at points of the curve that are corrected again, from a little aside of it: where the curve is nearly
 /// singular, its places and tangents are as rough as that, whatever the terms of the value are.
-double scatter_of(const WatchedStep& arc, Samples samples, const Event& event,
+double scatter_of(const TestedStep& arc, Samples samples, const Event& event,
                   std::span<const double> values) {
   const Walker& walker = arc.walker();
   double scatter = 0;
@@ -86,7 +86,7 @@ double scatter_of(const WatchedStep& arc, Samples samples, const Event& event,
 }
 
 /// The event between the ends; at the ends the very values that the neighbouring steps see: a sign must not change in between.
-SampledFunction value_on(const WatchedStep& arc, const Event& event,
+SampledFunction value_on(const TestedStep& arc, const Event& event,
                          std::span<const double> values) {
   return [&arc, &event, values](double ds) -> std::optional<double> {
     if (ds == 0) return values.front();
@@ -102,7 +102,7 @@ SampledFunction value_on(const WatchedStep& arc, const Event& event,
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
 /// @param end    is filled with what is found at `to`
-bool add_user_event(const WatchedStep& arc, Samples samples, const Event& event,
+bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
                     const EventValue* known, EventValue& end, std::vector<Hit>& found) {
   const CurvePoint &from = *samples.front(), &to = *samples.back();
   const double h = to.s - from.s;
@@ -178,7 +178,7 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
                           const CurvePoint* middle, const std::vector<Event>& events) {
   const StepSamples samples(from, middle && middle->s < to.s ? middle : nullptr, to);
 
-  const WatchedStep arc(walker, samples);
+  const TestedStep arc(walker, samples);
   StepEvents result = singular_points(arc, samples);
   auto& known = walker.memory->at_end;
   const bool is_known = known.events == events.data() && known.values.size() == events.size() &&

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "continuation/locating/branch_point.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/words.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -22,7 +22,7 @@ double sign(Index pattern, Index row) {
 
 /// Rounding of F, row by row: of the products with E; and what F shows when the point is moved by some units of rounding,
 /// as terms of F may be much larger than what they leave of it.
-std::optional<Vector> rounding_of(const WatchedStep& arc, const ExtendedMatrix& E,
+std::optional<Vector> rounding_of(const TestedStep& arc, const ExtendedMatrix& E,
                                   const CurvePoint& point, const Vector& F) {
   const ProblemView problem = arc.walker().problem;
   const Index n = point.x.size();
@@ -43,7 +43,7 @@ std::optional<Vector> rounding_of(const WatchedStep& arc, const ExtendedMatrix& 
 }
 
 /// How far what is left of F, or its rounding with a few patterns of signs, may have moved a corrected point.
-double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point) {
+double blur_of_point(const TestedStep& arc, const ExtendedMatrix& E, const CurvePoint& point) {
   const Index n = point.x.size();
   Vector F;
   if (!arc.walker().problem.residual(point.x, point.lambda, point.piece, F)) return infinity;
@@ -66,7 +66,7 @@ double blur_of_point(const WatchedStep& arc, const ExtendedMatrix& E, const Curv
 /// E in its weakest direction at a point, and how that changes when the point is moved in it.
 class WeakestDirection {
  public:
-  WeakestDirection(const WatchedStep& arc, const ExtendedMatrix& E, const CurvePoint& point)
+  WeakestDirection(const TestedStep& arc, const ExtendedMatrix& E, const CurvePoint& point)
       : arc_{arc}, point_{point}, weakest_{weakest_borders(E)}, here_{seen(E)} {
     const Index n = point.x.size();
     v_ = {weakest_.C.col(0).head(n), weakest_.C(n, 0)};
@@ -94,7 +94,7 @@ class WeakestDirection {
     return (weakest_.B.transpose() * product(M, weakest_.C))(0, 0);
   }
 
-  const WatchedStep& arc_;
+  const TestedStep& arc_;
   const CurvePoint& point_;
   Borders weakest_;
   Direction v_{};
@@ -127,8 +127,8 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
     if (const Vector* known = known_residual(*walker.memory, p.x, p.lambda, from.piece))
       return known->norm();
     if (t == 0.5 && expected && !walker.problem.structured()) {
-      const Place* place =
-          place_with_residual(walker.problem, *walker.memory, p.x, p.lambda, from.piece);
+      const LinearisedPoint* place =
+          linearised_with_residual(walker.problem, *walker.memory, p.x, p.lambda, from.piece);
       return place ? place->F.norm() : 0.0;
     }
     const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
@@ -193,7 +193,7 @@ double corrector_noise(const Walker& walker, const CurvePoint& point) {
 
 }  // namespace
 
-std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point) {
+std::optional<Separation> separation_at(const TestedStep& arc, const CurvePoint& point) {
   const auto E = arc.matrix(point);
   if (!E) return std::nullopt;
   const WeakestDirection weakest(arc, *E, point);
@@ -201,7 +201,7 @@ std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint
   return Separation{blur_of_point(arc, *E, point), told_apart * weakest.here() / change};
 }
 
-bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius, double share) {
+bool stays_within(const TestedStep& arc, const CurvePoint& point, double radius, double share) {
   const auto E = arc.matrix(point);
   if (!E) return false;
   const WeakestDirection weakest(arc, *E, point);
@@ -213,14 +213,15 @@ bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius
   return true;
 }
 
-bool is_determined(const WatchedStep& arc, const CurvePoint& point, double most_blur) {
+bool is_determined(const TestedStep& arc, const CurvePoint& point, double most_blur) {
   const auto E = arc.matrix(point);
   if (!E) return false;
   const double blur = blur_of_point(arc, *E, point);
   if (!(blur <= most_blur)) return false;
   const WeakestDirection weakest(arc, *E, point);
   const auto change = weakest.change(between_samples * blur);
-  return change && *change <= stays_regular * weakest.here();
+  // A matrix that changes by less than one of itself stays regular; half leaves a factor of two for motion that is not straight.
+  return change && *change <= 0.5 * weakest.here();
 }
 
 bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from,

@@ -9,7 +9,7 @@
 
 namespace springfold::continuation {
 
-class WatchedStep;
+class TestedStep;
 
 /// What was learnt about the inside of an accepted step.
 struct Evidence {
@@ -32,7 +32,7 @@ Evidence examine(const Walker& walker, const CurvePoint& from, const CurvePoint&
 /// is as far away as that singular value over the second derivative in the weakest direction. The first must be much
 /// smaller than the second: E may not change by more than a share of itself when the point is moved by it, both ways.
 /// @param most_blur  by which the point may be off
-bool is_determined(const WatchedStep& arc, const CurvePoint& point,
+bool is_determined(const TestedStep& arc, const CurvePoint& point,
                    double most_blur = near_share * told_apart);
 
 struct Separation {
@@ -42,10 +42,10 @@ struct Separation {
 };
 
 /// @returns nothing where E is not defined
-std::optional<Separation> separation_at(const WatchedStep& arc, const CurvePoint& point);
+std::optional<Separation> separation_at(const TestedStep& arc, const CurvePoint& point);
 
 /// Does E, in its weakest direction, change by no more than a share of itself within so far of the point?
 /// @returns false where E is not defined
-bool stays_within(const WatchedStep& arc, const CurvePoint& point, double radius, double share);
+bool stays_within(const TestedStep& arc, const CurvePoint& point, double radius, double share);
 
 }  // namespace springfold::continuation

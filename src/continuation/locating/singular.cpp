@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -67,7 +67,7 @@ double settled_on_step(const ZeroOf& touch) {
 /// Are the rates of lambda at the samples, and on average from the first one to them, so much alike that the polynomial of
 /// may_turn() stays close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as
 /// much from a constant as they do (its Lebesgue constant).
-bool is_even(const WatchedStep& arc, Samples samples) {
+bool is_even(const TestedStep& arc, Samples samples) {
   constexpr double alike = 0.04;
   const CurvePoint &from = *samples.front(), &second = *samples[1];
   const double first = from.tangent.dlambda, share = (second.s - from.s) / arc.length();
@@ -82,7 +82,7 @@ bool is_even(const WatchedStep& arc, Samples samples) {
 }
 
 /// Could lambda turn, or almost turn, between the samples? Its rate along the step is that of the polynomial through them.
-bool may_turn(const WatchedStep& arc, Samples samples) {
+bool may_turn(const TestedStep& arc, Samples samples) {
   if (is_even(arc, samples)) return false;
   constexpr int parts = 24;
   constexpr double far = near_share;  // from zero, compared with the largest rate
@@ -102,7 +102,7 @@ bool too_close(const ZeroOf& one, const ZeroOf& next) {
 }
 
 /// Rounding of lambda's rate on the step.
-double noise_of_rate(const WatchedStep& arc, Samples samples) {
+double noise_of_rate(const TestedStep& arc, Samples samples) {
   double scale = 0;
   for (const CurvePoint* p : samples) scale = std::max(scale, std::abs(p->tangent.dlambda));
   const auto E = arc.matrix(*samples[samples.size() / 2]);
@@ -120,7 +120,7 @@ bool stand_alone(const std::vector<ZeroOf>& turns) {
 
 /// Zeros of lambda's rate. What they are must depend on the curve, not on the step: where the rate is lost in its
 /// rounding at an end of the step, they are looked for on a wider one.
-WatchedZeros turns_on(const WatchedStep& arc, Samples samples) {
+TestedZeros turns_on(const TestedStep& arc, Samples samples) {
   const double first = std::abs(samples.front()->tangent.dlambda),
                last = std::abs(samples.back()->tangent.dlambda);
   if (!arc.walker().options.limit_points) return {};
@@ -156,7 +156,7 @@ Candidate cluster_of(const std::vector<ZeroOf>& turns, const CurvePoint& point) 
 }
 
 /// A turn of lambda that stands alone.
-bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& point,
+bool add_turn(const TestedStep& arc, const ZeroOf& turn, const CurvePoint& point,
               std::vector<Candidate>& found) {
   bool regular = true;
   if (turn.off > told_apart || !examine_turn(arc, turn, regular, found)) return false;
@@ -171,7 +171,7 @@ bool add_turn(const WatchedStep& arc, const ZeroOf& turn, const CurvePoint& poin
   return true;
 }
 
-bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
+bool add_limit_points(const TestedStep& arc, const std::vector<ZeroOf>& turns,
                       std::vector<Candidate>& found) {
   for (std::size_t i = 0; i < turns.size();) {
     const ZeroOf& turn = turns[i];
@@ -192,7 +192,7 @@ bool add_limit_points(const WatchedStep& arc, const std::vector<ZeroOf>& turns,
 }
 
 /// Number of negative eigenvalues on the arc, counted away from special points.
-std::optional<Index> negative_at(const WatchedStep& arc, double ds) {
+std::optional<Index> negative_at(const TestedStep& arc, double ds) {
   const auto& p = arc.point(ds);
   return p ? p->negative : std::nullopt;
 }
@@ -205,7 +205,7 @@ struct Explained {
 
 /// Between any two neighbouring special points the count of negative eigenvalues must not change, and
 /// at each one only as much as it explains.
-std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& found,
+std::string accounting(const TestedStep& arc, const std::vector<Candidate>& found,
                        const CurvePoint& to) {
   std::optional<Index> before = arc.from().negative;
   Explained since{};
@@ -246,7 +246,7 @@ std::string accounting(const WatchedStep& arc, const std::vector<Candidate>& fou
   return {};
 }
 
-Hit hit_of(const WatchedStep& arc, Candidate candidate) {
+Hit hit_of(const TestedStep& arc, Candidate candidate) {
   const char* name = candidate.kind == HitKind::limit_point    ? "limit point"
                      : candidate.kind == HitKind::branch_point ? "branch point"
                      : candidate.kind == HitKind::touch
@@ -288,7 +288,7 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   const auto wide = widened(walker, from, to, noise);
   if (!wide) return std::nullopt;
   const double length = wide->to.s - wide->from.s;
-  const WatchedStep arc(walker, wide->from, length);
+  const TestedStep arc(walker, wide->from, length);
   const ZeroSearch found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, length, noise,
                                       same_point, NoiseIs::bound);
   if (!found.resolved) return std::nullopt;
@@ -306,12 +306,12 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   return turns;
 }
 
-StepEvents singular_points(const WatchedStep& arc, Samples samples) {
+StepEvents singular_points(const TestedStep& arc, Samples samples) {
   StepEvents result;
   const CurvePoint& to = *samples.back();
   const TraceOptions& options = arc.walker().options;
-  WatchedZeros turns = turns_on(arc, samples);
-  const WatchedZeros singular = singularities_on(arc, samples);
+  TestedZeros turns = turns_on(arc, samples);
+  const TestedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
     result.flat = turns.flat && singular.resolved && singular.zeros.empty();
     result.doubt = result.flat ? "lambda stands still to rounding, it may turn here several times"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/arc.hpp"
 #include "continuation/points/step.hpp"
 
@@ -27,7 +27,7 @@ struct StepEvents {
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
 /// @param arc      the step
 /// @param samples  its ends and points between them, in order; all on one piece
-StepEvents singular_points(const WatchedStep& arc, Samples samples);
+StepEvents singular_points(const TestedStep& arc, Samples samples);
 
 /// Rates of lambda this many times their rounding have a sign beyond doubt.
 inline constexpr double clear_of_rounding = 100;

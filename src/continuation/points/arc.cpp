@@ -6,7 +6,7 @@
 
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 
 namespace springfold::continuation {
 

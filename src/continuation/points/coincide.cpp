@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -28,8 +28,8 @@ void take_signs(const std::vector<Index>& double_covers, const Vector& x, const 
 }
 
 /// The memory with what the problem says of itself.
-WorkingMemory& informed(const Walker& walker) {
-  WorkingMemory& memory = *walker.memory;
+Workspace& informed(const Walker& walker) {
+  Workspace& memory = *walker.memory;
   if (!memory.asked) {
     memory.periods = walker.problem.periods();
     memory.double_covers = walker.problem.double_covers();
@@ -39,7 +39,7 @@ WorkingMemory& informed(const Walker& walker) {
 }
 
 void set_between(const Walker& walker, const CurvePoint& a, const CurvePoint& b, Direction& d) {
-  const WorkingMemory& memory = informed(walker);
+  const Workspace& memory = informed(walker);
   d.dx = b.x;
   d.dlambda = b.lambda - a.lambda;
   take_signs(memory.double_covers, b.x, a.x, d.dx);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/finite.hpp"
 
@@ -112,7 +112,7 @@ double residual_bound(ProblemView problem, const Piece& piece, const NewtonOptio
   return std::max(options.residual_tolerance, few_roundings * problem.growth(piece)) * size;
 }
 
-bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
+bool tangent_at(Workspace& memory, LinearisedPoint& place, const Vector& weights,
                 const Direction& reference, Direction& tangent) {
   if (!place.factors.set_border(weights, reference)) return false;
   const Index n = place.x.size();
@@ -129,7 +129,7 @@ bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
 
 NewtonResult correct(ProblemView problem, const Vector& weights, Vector x, double lambda,
                      const Piece& piece, const Direction& border, const NewtonOptions& options) {
-  const auto memory = working_memory();
+  const auto memory = workspace();
   memory->newton.x = std::move(x);
   memory->newton.lambda = lambda;
   correct(problem, weights, piece, border, options, *memory);
@@ -141,11 +141,11 @@ namespace {
 /// F at the iterate, together with its derivatives, which are needed there or, at the end, for the tangent.
 /// @param here  the place, where they were evaluated
 /// @returns false outside the domain
-bool evaluate(ProblemView problem, const Piece& piece, WorkingMemory& memory, Place*& here) {
+bool evaluate(ProblemView problem, const Piece& piece, Workspace& memory, LinearisedPoint*& here) {
   NewtonResult& at = memory.newton;
   Vector& F = memory.F;
-  here =
-      problem.structured() ? nullptr : place_with_residual(problem, memory, at.x, at.lambda, piece);
+  here = problem.structured() ? nullptr
+                              : linearised_with_residual(problem, memory, at.x, at.lambda, piece);
   if (here)
     F = here->F;
   else if (!problem.residual(at.x, at.lambda, piece, F) || !F.allFinite())
@@ -164,7 +164,7 @@ struct Judged {
 /// @param place   of the last correction
 /// @param before  the residual there
 Judged judge(ProblemView problem, const Piece& piece, const NewtonOptions& options,
-             WorkingMemory& memory, const Place* place, double before) {
+             Workspace& memory, const LinearisedPoint* place, double before) {
   const NewtonResult& at = memory.newton;
   const double scale = std::max({1.0, at.x.lpNorm<Eigen::Infinity>(), std::abs(at.lambda)});
   const bool first = at.corrections.empty(), fine = !first && at.corrections.back() < noise_step;
@@ -192,25 +192,25 @@ Judged judge(ProblemView problem, const Piece& piece, const NewtonOptions& optio
 }  // namespace
 
 void correct(ProblemView problem, const Vector& weights, const Piece& piece,
-             const Direction& border, const NewtonOptions& options, WorkingMemory& memory) {
+             const Direction& border, const NewtonOptions& options, Workspace& memory) {
   NewtonResult& result = memory.newton;
   Vector& step = memory.step;
   const Index n = result.x.size();
-  Place* here = nullptr;
+  LinearisedPoint* here = nullptr;
   double before = 0;
   result.iterations = 0;
   result.residual_norm = result.contraction = 0;
   result.corrections.clear();
   const auto ends = [&result](NewtonStatus status) { result.status = status; };
   for (;; ++result.iterations) {
-    const Place* const last = here;  // of the last correction
+    const LinearisedPoint* const last = here;  // of the last correction
     if (!evaluate(problem, piece, memory, here)) return ends(NewtonStatus::outside_domain);
     const Judged judged = judge(problem, piece, options, memory, last, before);
     before = result.residual_norm;
     if (judged.small && judged.refined) return ends(NewtonStatus::converged);
     if (result.iterations == options.maximum_iterations)
       return ends(judged.settled ? NewtonStatus::converged : NewtonStatus::too_many_iterations);
-    if (!here) here = place_at(problem, memory, result.x, result.lambda, piece);
+    if (!here) here = linearised_at(problem, memory, result.x, result.lambda, piece);
     if (!here) return ends(NewtonStatus::outside_domain);
     step.resize(n + 1);
     step.head(n) = -memory.F;

@@ -7,7 +7,7 @@
 
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/words.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -36,7 +36,7 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
                 CurvePoint& point, StepReport* report) {
   StepReport unasked;
   auto& [measures, refusal] = report ? *report : unasked;
-  WorkingMemory& memory = *walker.memory;
+  Workspace& memory = *walker.memory;
   NewtonResult& newton = memory.newton;
   newton.x.swap(point.x);
   newton.lambda = point.lambda;
@@ -51,7 +51,8 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
   }
   point.x.swap(newton.x);
   point.lambda = newton.lambda;
-  Place* const place = place_at(walker.problem, memory, point.x, point.lambda, piece);
+  LinearisedPoint* const place =
+      linearised_at(walker.problem, memory, point.x, point.lambda, piece);
   if (!place) {
     refusal = to_string(NewtonStatus::outside_domain);
     return false;
@@ -86,7 +87,7 @@ bool expect(const Walker& walker, const ArcModel* model, const CurvePoint& origi
   if (model == nullptr || model->empty() || ahead > 2 * (model->end() - model->begin()))
     return false;
   model->point(walker.weights, origin, ahead, point);
-  return off_straight(walker, origin, ahead, point) <= most_bend * ahead;
+  return off_straight(walker, origin, ahead, point) <= small_share * ahead;
 }
 
 bool try_step(const Walker& walker, const CurvePoint& from, double ds, const ArcModel* model,

@@ -11,8 +11,8 @@ namespace springfold::continuation {
 
 /// Derivatives and factorisations at the last few places, and vectors that are used again: a walk does not ask the
 /// heap for memory with every step, and what is known of a place is not computed twice.
-struct WorkingMemory;
-std::shared_ptr<WorkingMemory> working_memory();
+struct Workspace;
+std::shared_ptr<Workspace> workspace();
 
 /// What the engine needs beside the problem while it walks.
 struct Walker {
@@ -20,7 +20,7 @@ struct Walker {
   Vector weights{};  ///< metric of x
   TraceOptions options{};
   /// Copies of a walker share it; they and the walker serve one thread, and one problem.
-  std::shared_ptr<WorkingMemory> memory = working_memory();
+  std::shared_ptr<Workspace> memory = workspace();
 };
 
 /// How nonlinear the curve was over one step.

@@ -1,4 +1,4 @@
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double left_of(const Vector& entries, const Vector& slopes, Index m, double noth
 }
 
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
-std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, double length,
+std::vector<Singularity> multiple_zeros_on(const TestedStep& arc, double t, double length,
                                            Index m) {
   const auto curve = curve_near(arc, t, length);
   if (!curve) return {};
@@ -72,7 +72,7 @@ std::vector<Singularity> multiple_zeros_on(const WatchedStep& arc, double t, dou
 
 /// The best ones of a wide window, on which rounding matters less, and narrower ones; none that
 /// belongs to other zeros of the determinant.
-std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double free, Index m) {
+std::vector<Singularity> multiple_zeros(const TestedStep& arc, double t, double free, Index m) {
   const auto worst = [](const std::vector<Singularity>& list) {
     double doubt = 0;
     for (const Singularity& s : list) doubt = std::max(doubt, s.doubt);
@@ -90,7 +90,7 @@ std::vector<Singularity> multiple_zeros(const WatchedStep& arc, double t, double
 
 /// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
 /// place, otherwise a simple one, where the zero is.
-std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vector<ZeroOf>& zeros,
+std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros,
                                         Index most, double free) {
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
   const auto crossings =
@@ -133,7 +133,7 @@ std::vector<Candidate> branch_points_at(const WatchedStep& arc, const std::vecto
 }
 
 /// Distances along the arc at which E, moving on as it does at t, is singular, also complex ones.
-std::vector<double> singular_distances(const WatchedStep& arc, double t) {
+std::vector<double> singular_distances(const TestedStep& arc, double t) {
   const double d = 2 * negligible_share * arc.length();
   std::vector<ExtendedMatrix> E;
   for (const double ds : {t, t - d, t + d}) {
@@ -150,7 +150,7 @@ std::vector<double> singular_distances(const WatchedStep& arc, double t) {
 /// A corrected point is off by the rounding of F over the smallest singular value, and that changes an entry
 /// of Sigma in proportion to the rate of E: this is the product of the entry and its change, the same at
 /// every distance from a singular point.
-double blur_of_entries(const WatchedStep& arc, const ExtendedMatrix& E, const Borders& borders,
+double blur_of_entries(const TestedStep& arc, const ExtendedMatrix& E, const Borders& borders,
                        double reach) {
   const Index n = arc.from().x.size();
   Vector sizes(n + 1);
@@ -172,7 +172,7 @@ double free_length(const std::vector<ZeroOf>& zeros, std::size_t first, std::siz
 
 }  // namespace
 
-WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
+TestedZeros singularities_on(const TestedStep& arc, Samples samples) {
   if (!arc.walker().options.branch_points) return {};
   if (surely_regular(arc.walker(), arc.from().tangent, samples)) return {};
   std::vector<ExtendedMatrix> E;
@@ -183,7 +183,7 @@ WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
   }
   const std::size_t middle = E.size() / 2;
   const Reach reach = reach_of(E, middle);
-  WatchedZeros result{.order = reach.order, .examined = true};
+  TestedZeros result{.order = reach.order, .examined = true};
   const Borders borders = borders_of(E[middle], result.order);
   double scale = 0;
   const auto determinant = [&](double ds) -> std::optional<double> {
@@ -215,7 +215,7 @@ WatchedZeros singularities_on(const WatchedStep& arc, Samples samples) {
   return result;
 }
 
-bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+bool add_branch_points(const TestedStep& arc, const TestedZeros& singular,
                        std::vector<ZeroOf>& turns, std::vector<Candidate>& found) {
   const auto& zeros = singular.zeros;
   const auto add = [&](const std::vector<ZeroOf>& group, double free) {
@@ -259,7 +259,7 @@ bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
   return true;
 }
 
-bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+bool examine_turn(const TestedStep& arc, const ZeroOf& turn, bool& regular,
                   std::vector<Candidate>& found) {
   constexpr double far_enough = 1000;
   regular = true;

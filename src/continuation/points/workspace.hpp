@@ -13,10 +13,10 @@
 namespace springfold::continuation {
 
 /// What is known at one place. Its factors look at its derivatives: it stays where it is.
-struct Place {
-  Place() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
+struct LinearisedPoint {
+  LinearisedPoint() {}  // of most factors nothing is ever touched, and nothing is to be set to zero
+  LinearisedPoint(const LinearisedPoint&) = delete;
+  LinearisedPoint& operator=(const LinearisedPoint&) = delete;
 
   Vector x{};
   double lambda = std::numeric_limits<double>::quiet_NaN();
@@ -28,10 +28,10 @@ struct Place {
   long request = 0;  ///< the last one that asked for it
 };
 
-struct WorkingMemory {
+struct Workspace {
   /// Of two steps and their middles there are about this many: a guess or two and the point itself.
-  static constexpr std::size_t most_places = 12;
-  std::vector<std::unique_ptr<Place>> places{};
+  static constexpr std::size_t most_linearised = 12;
+  std::vector<std::unique_ptr<LinearisedPoint>> places{};
   long requests = 0;  ///< for places, so far
   NewtonResult newton{};
   Vector F{}, step{}, sizes{}, x{}, bound{};
@@ -68,23 +68,23 @@ struct WorkingMemory {
 /// The derivatives at a place, with factors to be asked for; computed unless it is one of the last few. Valid until
 /// eleven others have been asked for.
 /// @returns nullptr outside the domain
-Place* place_at(ProblemView problem, WorkingMemory& memory, const Vector& x, double lambda,
-                const Piece& piece);
+LinearisedPoint* linearised_at(ProblemView problem, Workspace& memory, const Vector& x,
+                               double lambda, const Piece& piece);
 
 /// The same with F, which is evaluated together with them. Also nullptr where F is defined and its derivatives are not.
-Place* place_with_residual(ProblemView problem, WorkingMemory& memory, const Vector& x,
-                           double lambda, const Piece& piece);
+LinearisedPoint* linearised_with_residual(ProblemView problem, Workspace& memory, const Vector& x,
+                                          double lambda, const Piece& piece);
 
 /// F at a place where it was asked for not long ago; nullptr where nobody did.
-const Vector* known_residual(const WorkingMemory& memory, const Vector& x, double lambda,
+const Vector* known_residual(const Workspace& memory, const Vector& x, double lambda,
                              const Piece& piece);
 
 /// correct() from memory.newton.x and .lambda on, with the result there.
 void correct(ProblemView problem, const Vector& weights, const Piece& piece,
-             const Direction& border, const NewtonOptions& options, WorkingMemory& memory);
+             const Direction& border, const NewtonOptions& options, Workspace& memory);
 
 /// The unit tangent of tangent_at(), from the factors at hand. @returns false when the bordered matrix is singular
-bool tangent_at(WorkingMemory& memory, Place& place, const Vector& weights,
+bool tangent_at(Workspace& memory, LinearisedPoint& place, const Vector& weights,
                 const Direction& reference, Direction& tangent);
 
 /// try_step(), point_at() and examine() with their results in storage of the caller's.

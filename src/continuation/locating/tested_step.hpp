@@ -10,7 +10,7 @@
 #include "continuation/points/arc.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/locate.hpp"
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -18,14 +18,14 @@ namespace springfold::continuation {
 /// Share of the step before and after it that is searched as well.
 inline constexpr double beyond = 0.03;
 
-/// One step, its points (each computed once), and what is watched on it. Points are predicted by the model that its samples
+/// One step, its points (each computed once), and its test functions. Points are predicted by the model that its samples
 /// define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding decides about the
 /// point, beside a branch point: there the model is the better curve.
-class WatchedStep {
+class TestedStep {
  public:
-  WatchedStep(const Walker& walker, Samples samples);
+  TestedStep(const Walker& walker, Samples samples);
 
-  WatchedStep(const Walker& walker, const CurvePoint& from, double length)
+  TestedStep(const Walker& walker, const CurvePoint& from, double length)
       : walker_{walker}, from_{from}, length_{length} {}
 
   const Walker& walker() const { return walker_; }
@@ -63,7 +63,8 @@ class WatchedStep {
     return model_.rate_of_lambda(ds);
   }
   std::optional<ExtendedMatrix> matrix(const CurvePoint& p) const {
-    const Place* place = place_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
+    const LinearisedPoint* place =
+        linearised_at(walker_.problem, *walker_.memory, p.x, p.lambda, p.piece);
     if (!place) return std::nullopt;
     return extended_matrix(place->at, walker_.weights, from_.tangent);
   }
@@ -80,7 +81,7 @@ class WatchedStep {
   std::optional<CurvePoint> find(double ds) const;
   std::optional<CurvePoint> corrected(double ds) const;
   bool model_of_samples() const;
-  Place* place_on_model(const CurvePoint& point) const;
+  LinearisedPoint* place_on_model(const CurvePoint& point) const;
   bool is_on_curve(const CurvePoint& point, const Vector& F) const;
   void settle_model() const;
   double largest_of(const Direction& d) const;
@@ -121,7 +122,7 @@ struct Candidate {
   double off = 0;      ///< estimated error of a branch point's place
 };
 
-struct WatchedZeros {
+struct TestedZeros {
   std::vector<ZeroOf> zeros{};
   bool resolved = true;
   Index order = 1;
@@ -130,18 +131,18 @@ struct WatchedZeros {
 };
 
 /// Zeros of the determinant of Sigma on the arc; none where the samples show that E stays regular.
-WatchedZeros singularities_on(const WatchedStep& arc, Samples samples);
+TestedZeros singularities_on(const TestedStep& arc, Samples samples);
 
 /// Branch points from the zeros of det Sigma; turns of lambda at them are taken from `turns`.
 /// @returns false when a zero could not be told to be a branch point
-bool add_branch_points(const WatchedStep& arc, const WatchedZeros& singular,
+bool add_branch_points(const TestedStep& arc, const TestedZeros& singular,
                        std::vector<ZeroOf>& turns, std::vector<Candidate>& found);
 
 /// At a limit point E is regular. Is it so at this turn of lambda? If not, and det Sigma did not show the
 /// branch point at which the branch turns, it is added to `found`.
 /// @param regular  whether the turn is a limit point
 /// @returns false when a branch point is too near to tell
-bool examine_turn(const WatchedStep& arc, const ZeroOf& turn, bool& regular,
+bool examine_turn(const TestedStep& arc, const ZeroOf& turn, bool& regular,
                   std::vector<Candidate>& found);
 
 /// A branch point on the arc, from the curve's points around it: (x, lambda) and Sigma are
@@ -155,14 +156,14 @@ struct Singularity {
 };
 
 /// The curve's points near t, interpolated.
-std::optional<Interpolant> curve_near(const WatchedStep& arc, double t, double length);
+std::optional<Interpolant> curve_near(const TestedStep& arc, double t, double length);
 
 /// A branch point of corank m from its interpolated place: placed to rounding where second derivatives tell
 /// it, polished otherwise.
 /// @param zeros    of the test function that showed it
 /// @param touches  the test function does not change its sign: a degenerate point
 /// @returns nothing if branches do not meet there
-std::optional<Candidate> candidate_at(const WatchedStep& arc, const Singularity& place,
+std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& place,
                                       const std::vector<ZeroOf>& zeros, Index m, bool touches);
 
 }  // namespace springfold::continuation

@@ -1,5 +1,5 @@
 // A walk evaluates and factorises nothing twice.
-#include "continuation/points/working_memory.hpp"
+#include "continuation/points/workspace.hpp"
 
 #include <map>
 #include <utility>
@@ -81,9 +81,11 @@ TEST(AWalk, AsksForNoFurtherDerivativesForAnEventThatIsZeroAllAlongAStraightBran
 
 TEST(AWalk, OverwritesThePlaceThatHasNotBeenAskedForTheLongest) {
   const ScalarProblem line = graph([](double x) { return x; }, [](double) { return 1.0; });
-  const auto memory = working_memory();
-  const auto ask = [&](double x) { return place_at(line, *memory, Vector::Constant(1, x), x, {}); };
-  Place* const first = ask(0);
+  const auto memory = workspace();
+  const auto ask = [&](double x) {
+    return linearised_at(line, *memory, Vector::Constant(1, x), x, {});
+  };
+  LinearisedPoint* const first = ask(0);
   for (int k = 1; k < 12; ++k) ask(k);
   EXPECT_EQ(ask(0), first);  // the first that came, and the last that was asked for
   for (int k = 20; k < 31; ++k) EXPECT_NE(ask(k), first) << k;

@@ -1,11 +1,11 @@
-// The points of a step that is watched, between its ends.
+// The points of a step that is tested, between its ends.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "continuation/locating/evidence.hpp"
-#include "continuation/locating/watched_step.hpp"
+#include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
 
@@ -17,31 +17,31 @@ constexpr std::array places_of_comparison{0.07, 0.4, 0.6, 0.93};
 
 }  // namespace
 
-WatchedStep::WatchedStep(const Walker& walker, Samples samples)
+TestedStep::TestedStep(const Walker& walker, Samples samples)
     : walker_{walker}, from_{*samples.front()}, length_{samples.back()->s - samples.front()->s} {
   assert(samples.size() <= samples_.size());
   for (const CurvePoint* p : samples) samples_[sample_count_++] = p;
 }
 
-std::optional<CurvePoint> WatchedStep::corrected(double ds) const {
+std::optional<CurvePoint> TestedStep::corrected(double ds) const {
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
   if (!find_point(walker_, from_.piece, from_.tangent, *point)) return {};
   return point;
 }
 
-bool WatchedStep::model_of_samples() const {
+bool TestedStep::model_of_samples() const {
   return model_.go_through(walker_.weights, from_, Samples(samples_).first(sample_count_));
 }
 
-std::optional<CurvePoint> WatchedStep::point_once(double ds) const {
+std::optional<CurvePoint> TestedStep::point_once(double ds) const {
   if (model_.empty() && (settled_ || !model_of_samples())) return point_at(walker_, from_, ds);
   return point_near(walker_, model_, from_, ds);
 }
 
 /// The samples' polynomial is compared with corrected points between them; these become nodes as well, and others are
 /// compared with what they all define.
-void WatchedStep::settle_model() const {
+void TestedStep::settle_model() const {
   settled_ = true;
   if (sample_count_ < 2) return;
   std::vector<CurvePoint> nodes;
@@ -76,24 +76,24 @@ void WatchedStep::settle_model() const {
 }
 
 /// The place of the model's own point, with its residual.
-Place* WatchedStep::place_on_model(const CurvePoint& point) const {
+LinearisedPoint* TestedStep::place_on_model(const CurvePoint& point) const {
   const ProblemView problem = walker_.problem;
-  WorkingMemory& memory = *walker_.memory;
+  Workspace& memory = *walker_.memory;
   if (!problem.structured())
-    return place_with_residual(problem, memory, point.x, point.lambda, point.piece);
-  Place* const place = place_at(problem, memory, point.x, point.lambda, point.piece);
+    return linearised_with_residual(problem, memory, point.x, point.lambda, point.piece);
+  LinearisedPoint* const place = linearised_at(problem, memory, point.x, point.lambda, point.piece);
   if (!place) return nullptr;
   place->knows_F = problem.residual(point.x, point.lambda, point.piece, place->F);
   return place->knows_F ? place : nullptr;
 }
 
 /// Newton's first correction, and the angle to the tangent there: what is left after it is its square.
-std::optional<WatchedStep::ModelError> WatchedStep::error_at(double ds) const {
+std::optional<TestedStep::ModelError> TestedStep::error_at(double ds) const {
   CurvePoint expected;
   model_.point(walker_.weights, from_, ds, expected);
-  Place* const place = place_on_model(expected);
+  LinearisedPoint* const place = place_on_model(expected);
   Direction tangent;
-  WorkingMemory& memory = *walker_.memory;
+  Workspace& memory = *walker_.memory;
   if (!place || !tangent_at(memory, *place, walker_.weights, from_.tangent, tangent))
     return std::nullopt;
   const Index n = expected.x.size();
@@ -108,13 +108,13 @@ std::optional<WatchedStep::ModelError> WatchedStep::error_at(double ds) const {
 
 /// The largest entry, of unknowns without weight in the arc length as well: forces in closures may bend where positions do
 /// not.
-double WatchedStep::largest_of(const Direction& d) const {
+double TestedStep::largest_of(const Direction& d) const {
   const double entry = d.dx.size() > 0 ? d.dx.lpNorm<Eigen::Infinity>() : 0.0;
   return std::max(length_of(walker_, d), entry);
 }
 
 /// Are the samples' ways from the first one, and their tangents, one direction to rounding?
-bool WatchedStep::samples_lie_straight() const {
+bool TestedStep::samples_lie_straight() const {
   const Direction& line = from_.tangent;
   const double off = refined_step * std::max(1.0, size_of(from_)),
                turned = refined_step * std::max(1.0, largest_of(line));
@@ -134,11 +134,12 @@ bool WatchedStep::samples_lie_straight() const {
 
 /// Newton's first correction of places between the samples, with the middle's factors, is rounding: then the line is the
 /// curve all along the step, and the line's direction its tangent.
-bool WatchedStep::is_straight() const {
+bool TestedStep::is_straight() const {
   if (!samples_lie_straight()) return false;
-  WorkingMemory& memory = *walker_.memory;
+  Workspace& memory = *walker_.memory;
   const CurvePoint& middle = *samples_[sample_count_ / 2];
-  Place* const place = place_at(walker_.problem, memory, middle.x, middle.lambda, middle.piece);
+  LinearisedPoint* const place =
+      linearised_at(walker_.problem, memory, middle.x, middle.lambda, middle.piece);
   if (!place || !place->factors.set_border(walker_.weights, from_.tangent)) return false;
   const Index n = from_.x.size();
   on_line_ = from_;
@@ -160,13 +161,13 @@ bool WatchedStep::is_straight() const {
   return true;
 }
 
-void WatchedStep::put_on_line(double ds) const {
+void TestedStep::put_on_line(double ds) const {
   on_line_.x = from_.x + ds * from_.tangent.dx;
   on_line_.lambda = from_.lambda + ds * from_.tangent.dlambda;
   on_line_.s = from_.s + ds;
 }
 
-const CurvePoint* WatchedStep::straight_point(double ds) const {
+const CurvePoint* TestedStep::straight_point(double ds) const {
   if (!straight_) straight_ = is_straight();
   if (!*straight_ || ds < 0 || ds > length_) return nullptr;
   put_on_line(ds);
@@ -174,14 +175,14 @@ const CurvePoint* WatchedStep::straight_point(double ds) const {
 }
 
 /// Does the model's own point satisfy F as corrected ones do?
-bool WatchedStep::is_on_curve(const CurvePoint& point, const Vector& F) const {
+bool TestedStep::is_on_curve(const CurvePoint& point, const Vector& F) const {
   const double allowed =
       small_share * residual_bound(walker_.problem, point.piece, walker_.options.newton,
                                    std::max(1.0, size_of(point)));
   return F.size() == 0 || F.lpNorm<Eigen::Infinity>() <= allowed;
 }
 
-std::optional<CurvePoint> WatchedStep::exact_place(double ds) const {
+std::optional<CurvePoint> TestedStep::exact_place(double ds) const {
   if (!settled_) settle_model();
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
@@ -191,12 +192,12 @@ std::optional<CurvePoint> WatchedStep::exact_place(double ds) const {
   return inside && is_on_curve(*point, F) ? point : std::nullopt;
 }
 
-std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
+std::optional<CurvePoint> TestedStep::exact_point(double ds) const {
   if (!settled_) settle_model();
   if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
   std::optional<CurvePoint> point(std::in_place);
   model_.point(walker_.weights, from_, ds, *point);
-  Place* const place = place_on_model(*point);
+  LinearisedPoint* const place = place_on_model(*point);
   if (!place || !is_on_curve(*point, place->F)) return std::nullopt;
   const Direction expected = point->tangent;
   if (!tangent_at(*walker_.memory, *place, walker_.weights, from_.tangent, point->tangent))
@@ -206,7 +207,7 @@ std::optional<CurvePoint> WatchedStep::exact_point(double ds) const {
   return point;
 }
 
-std::optional<CurvePoint> WatchedStep::find(double ds) const {
+std::optional<CurvePoint> TestedStep::find(double ds) const {
   if (!settled_) settle_model();
   if (model_.empty()) return point_at(walker_, from_, ds);
   auto point = exact_point(ds);
@@ -234,7 +235,7 @@ double residual_at(const Walker& walker, const CurvePoint& p) {
 
 /// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated from
 /// farther off satisfies F as well as it does, that one is nearer to the curve.
-CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
+CurvePoint least_blurred(const TestedStep& step, const CurvePoint& corrected) {
   if (corrected.x.size() == 0)
     return corrected;  // a body that is driven in all its ways: lambda alone is left
   const double ds = corrected.s - step.from().s;
@@ -250,7 +251,8 @@ CurvePoint least_blurred(const WatchedStep& step, const CurvePoint& corrected) {
   const double rounded = rounding_unit * magnitudes(*E, u).topRows(point.x.size()).maxCoeff();
   if (residual_at(walker, point) > std::max(residual_at(walker, corrected), rounded))
     return corrected;
-  Place* const place = place_at(walker.problem, *walker.memory, point.x, point.lambda, point.piece);
+  LinearisedPoint* const place =
+      linearised_at(walker.problem, *walker.memory, point.x, point.lambda, point.piece);
   if (!place || place->factors.negative() != corrected.negative) return corrected;
   return point;
 }
@@ -264,7 +266,7 @@ std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples sample
   const CurvePoint& from = *samples.front();
   const bool has_unknowns =
       from.x.size() > 0;  // else lambda alone is left: a body that is driven in all its ways
-  const WatchedStep step(walker, samples);
+  const TestedStep step(walker, samples);
   for (std::size_t i = 1; i < hits.size(); ++i) {
     const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
     for (const double share : {0.5, near_share, 1 - near_share}) {
