@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "branch_entries.hpp"
 #include "closure_rank.hpp"
 #include "force_events.hpp"
 #include "merged_hits.hpp"
@@ -20,96 +21,6 @@ using continuation::CurvePoint;
 using continuation::Hit;
 using continuation::HitKind;
 using continuation::StopReason;
-
-/// A row to be: a point, and the special point that it belongs to.
-struct Entry {
-  CurvePoint point{};
-  const Hit* hit = nullptr;
-  bool leaving = false;  ///< second row of a kink
-  Turns turns{};         ///< rotation vectors that continue those of the row before
-};
-
-/// Rotations go on from row to row, both ways from the start, also beyond whole turns.
-void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProblem& problem) {
-  entries[start].turns = problem.turns(entries[start].point.x);
-  for (std::size_t i = start + 1; i < entries.size(); ++i)
-    entries[i].turns = problem.turns(entries[i].point.x, &entries[i - 1].turns);
-  for (std::size_t i = start; i-- > 0;)
-    entries[i].turns = problem.turns(entries[i].point.x, &entries[i + 1].turns);
-}
-
-/// Points and special points of one direction in the order of s, without the start.
-std::vector<Entry> entries_of(const Curve& curve, std::vector<CurvePoint>&& between) {
-  std::vector<Entry> entries;
-  entries.reserve(curve.points.size() + between.size() + 2 * curve.hits.size());
-  std::size_t h = 0, b = 0;
-  const auto add_between = [&](double s) {
-    for (; b < between.size() && between[b].s < s; ++b)
-      entries.push_back({std::move(between[b]), nullptr, false, {}});
-  };
-  const auto add_hit = [&](const Hit& hit) {
-    add_between(hit.point.s);
-    entries.push_back({hit.point, &hit, false, {}});
-    // Where there are several ways out the trace ended and none of them belongs to this branch.
-    if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true, {}});
-  };
-  for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    while (h < curve.hits.size() && curve.hits[h].point.s <= curve.points[i].s)
-      add_hit(curve.hits[h++]);
-    add_between(curve.points[i].s);
-    entries.push_back({curve.points[i], nullptr, false, {}});
-  }
-  while (h < curve.hits.size()) add_hit(curve.hits[h++]);
-  return entries;
-}
-
-/// The start, once for every special point that lies on it.
-std::vector<Entry> entries_at(const CurvePoint& start, const std::vector<Hit>& hits) {
-  if (hits.empty()) return {{start, nullptr, false, {}}};
-  std::vector<Entry> entries;
-  for (const Hit& hit : hits) {
-    entries.push_back({hit.point, &hit, false, {}});
-    if (hit.leaving.size() == 1) entries.push_back({hit.leaving.front(), &hit, true, {}});
-  }
-  return entries;
-}
-
-/// Rows at which springs rest, neighbours with the same answer together.
-void note_resting(const CurvePoint& point, std::size_t row, const Evaluator& evaluator,
-                  std::vector<RestingRows>& list) {
-  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point);
-  if (!found) return;
-  using Stable = RestingRows::Stable;
-  const RestingRows next{row, row,
-                         found->verdict == Definiteness::positive       ? Stable::yes
-                         : found->verdict == Definiteness::not_positive ? Stable::no
-                                                                        : Stable::undecided,
-                         static_cast<int>(found->fewest), static_cast<int>(found->most)};
-  const bool goes_on = !list.empty() && list.back().last + 1 == row &&
-                       list.back().stable == next.stable && list.back().fewest == next.fewest &&
-                       list.back().most == next.most;
-  if (goes_on)
-    list.back().last = row;
-  else
-    list.push_back(next);
-}
-
-/// The same curve walked the other way: s and tangents change sign, kinks swap their sides.
-std::vector<Entry> reversed(std::vector<Entry> entries) {
-  std::reverse(entries.begin(), entries.end());
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    Entry& e = entries[i];
-    e.point.s = -e.point.s;
-    e.point.tangent.dx = -e.point.tangent.dx;
-    e.point.tangent.dlambda = -e.point.tangent.dlambda;
-    const bool pair = i + 1 < entries.size() && e.leaving && entries[i + 1].hit == e.hit;
-    if (pair) {
-      e.leaving = false;
-      entries[i + 1].leaving = true;
-    }
-  }
-  return entries;
-}
 
 /// Does the force turn back at a switching although it is regular on both sides? A rate that is nothing beside that on the
 /// other side, at the end of a dead band, has no sign.
@@ -243,7 +154,13 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
 }  // namespace
 
 BranchRows join(BranchSource source, const Evaluator& evaluator,
-                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem) {
+                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem,
+                const Asking* asking) {
+  if (asking != nullptr && !asking->goes_on()) {
+    source.is_thinned |= !source.backward_between.empty() || !source.forward_between.empty();
+    source.backward_between.clear();
+    source.forward_between.clear();
+  }
   const Curve backward = with_hits_merged(std::move(source.backward), evaluator);
   const Curve forward = with_hits_merged(std::move(source.forward), evaluator);
   std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
@@ -254,7 +171,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
                                   entries_of(forward, std::move(source.forward_between))})
     entries.insert(entries.end(), std::make_move_iterator(more.begin()),
                    std::make_move_iterator(more.end()));
-  count_turns(entries, branch.start_row, problem);
+  const bool is_whole = add_rows({evaluator, quantities, problem, asking}, entries, branch);
   branch.backward = explained(source.backward_stop, entries.front().point, entries.back().point,
                               backward, problem);
   branch.forward =
@@ -282,9 +199,6 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
   }
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& e = entries[i];
-    branch.samples.push_back({evaluator.values(quantities, e.point, &e.turns),
-                              piece_text(problem.system(e.point.lambda), e.point.piece), ""});
-    note_resting(e.point, i, evaluator, branch.resting);
     if (e.hit == nullptr || e.leaving || is_end(backward, e.hit) || is_end(forward, e.hit))
       continue;
     const Entry* next = i + 1 < entries.size() ? &entries[i + 1] : nullptr;
@@ -315,6 +229,9 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
                          end_event(entries.back(), end, branch.forward, evaluator, quantities));
   }
   refuse_contradictions(entries, evaluator, branch);
+  if (source.is_thinned || !is_whole)
+    branch.forward = {
+        "interrupted, so that rows between the steps are missing; " + branch.forward.reason, false};
   append_log(backward, -1, branch.log);
   append_log(forward, 1, branch.log);
   branch.arcs = arcs_of(backward, forward);

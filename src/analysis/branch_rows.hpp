@@ -8,6 +8,8 @@
 
 namespace springfold::analysis {
 
+class Asking;
+
 /// What the events are that a study watches for: their tags.
 enum EventTag : int {
   plain_event,       ///< a limit or a mark
@@ -31,6 +33,7 @@ struct BranchSource {
   std::vector<continuation::Hit> at_start{};  ///< what the first point of both is itself
   std::optional<int> origin{};                ///< the junction at which the branch begins
   EventKind origin_kind = EventKind::branch_point;
+  bool is_thinned = false;  ///< an interruption left out points for rows between those of the steps
 };
 
 /// A branch whose special points have no labels yet.
@@ -40,9 +43,11 @@ struct BranchRows {
 };
 
 /// Rows from the backward end through the start to the forward end, special points as rows of their
-/// own.
+/// own. Interrupted, it keeps those of the special points and of the steps, and of the others as many as are soon written.
+/// @param asking  whether the rows are still wanted; nullptr: they are
 BranchRows join(BranchSource source, const Evaluator& evaluator,
-                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem);
+                const std::vector<QuantityDefinition>& quantities, const PathProblem& problem,
+                const Asking* asking = nullptr);
 
 /// How a junction is called, and as what it is seen on the first branch that shows it.
 struct JunctionLabel {

@@ -168,14 +168,16 @@ class Writer {
           kind_of_junction(diagram_.junctions[static_cast<std::size_t>(origin)].kind);
       source.backward_stop = {"", true};  // said by describe()
     } else if (group.size() == 1 && source.forward.stop != StopReason::closed) {
-      source.backward_stop = {"the start, which several curves leave", true};
+      source.backward_stop = t_.asking.was_stopped()
+                                 ? Stop{"interrupted at the start", false}
+                                 : Stop{"the start, which several curves leave", true};
     }
     end_at_zero_lengths(t_, source);
     add_stability_changes(t_, source);
     add_between(t_, source);
     const bool has_start = origin < 0 && (junction >= 0 || traced(group[0]).start == 0);
     const CurvePoint first = source.forward.points.front();
-    BranchRows rows = join(std::move(source), t_.evaluator, t_.quantities, t_.problem);
+    BranchRows rows = join(std::move(source), t_.evaluator, t_.quantities, t_.problem, &t_.asking);
     if (has_start) add_marks_at_start(t_.study, t_.evaluator, t_.quantities, first, rows);
     return rows;
   }
@@ -228,7 +230,7 @@ class Writer {
       if (diagram_.branches[i].start == 0) own.push_back(static_cast<int>(i));
     const bool closed = own.size() == 1 && traced(own[0]).curve.stop == StopReason::closed;
     std::string& situation = result_.start.situation;
-    if (own.size() != 2 && !closed)
+    if (own.size() != 2 && !closed && !t_.asking.was_stopped())
       situation = (own.empty() ? "a point that no curve leaves" : "a branching kink") +
                   (situation.empty() ? "" : ", " + situation);
     if (situation.empty()) return;
@@ -267,6 +269,7 @@ void trace_branches(const Tracing& tracing, const CurvePoint& start, StudyResult
   const Grown grown = grow_diagram(tracing, start, landings);
   result.searches = grown.searches;
   Writer(tracing, grown, result).write();
+  result.doubts.insert(result.doubts.end(), grown.doubts.begin(), grown.doubts.end());
 }
 
 }  // namespace springfold::analysis

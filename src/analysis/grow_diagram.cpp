@@ -7,6 +7,7 @@
 #include "limits.hpp"
 #include "search_box.hpp"
 #include "springfold/continuation/between.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/number_text.hpp"
 #include "within_limits.hpp"
@@ -44,12 +45,28 @@ class Grower {
     grown_.starts.insert(grown_.starts.end(), further.begin(), further.end());
     run();
     for (const double lambda : t_.study.branches.search_at)
-      if (!stopped_) search(lambda);
-    count_traced();
+      if (wants_more()) search(lambda);
+    if (!stopped_by_observer()) count_traced();
+    say_what_is_missing();
     return std::move(grown_);
   }
 
  private:
+  bool stopped_by_observer() const { return t_.asking.was_stopped(); }
+  bool wants_more() const { return !stopped_ && !stopped_by_observer(); }
+
+  void say_what_is_missing() {
+    if (!stopped_by_observer()) return;
+    const int ways = grown_.diagram.not_followed;
+    if (ways > 0)
+      grown_.doubts.push_back("interrupted: " + std::to_string(ways) +
+                              (ways == 1 ? " branch was not traced" : " branches were not traced"));
+    const std::size_t all = t_.study.branches.search_at.size(), done = grown_.searches.size();
+    if (done < all)
+      grown_.doubts.push_back("interrupted: " + std::to_string(done) + " of " +
+                              std::to_string(all) + " searches for further branches were made");
+  }
+
   void run() {
     options_.maximum_branches = t_.study.branches.maximum;
     int points = 0;
@@ -63,7 +80,7 @@ class Grower {
                  (t_.observer && !t_.observer(points, point.s));
       return !stopped_ && crawl == Crawl::none;
     };
-    grown_.diagram = trace_diagram(t_.problem, grown_.starts, events_, options_, observe);
+    grown_.diagram = trace_diagram(asked_, grown_.starts, events_, options_, observe);
     for (continuation::Branch& branch : grown_.diagram.branches)
       if (std::any_of(away.begin(), away.end(), [&](const CurvePoint& p) {
             return branch.curve.stop == continuation::StopReason::observer &&
@@ -92,9 +109,14 @@ class Grower {
     const double scaled = lambda / t_.lambda_scale;
     const auto known = known_at(t_.problem, grown_.diagram, scaled, options_.trace.newton);
     const auto [low, high] = search_box(t_.problem, grown_.diagram, grown_.starts.front().x);
-    const auto found = continuation::search_at(
-        t_.problem, scaled, known,
-        {.low = low, .high = high, .starts = settings.starts, .seed = settings.seed});
+    continuation::SearchResult found;
+    try {
+      found = continuation::search_at(
+          asked_, scaled, known,
+          {.low = low, .high = high, .starts = settings.starts, .seed = settings.seed});
+    } catch (const continuation::Interrupted&) {
+      return;
+    }
     Search report{.lambda = lambda, .starts = found.starts_used};
     report.limit_reached = found.limit_reached;
     std::vector<int> numbers;
@@ -126,6 +148,7 @@ class Grower {
   }
 
   const Tracing& t_;
+  const AskedProblem asked_{t_.problem, t_.asking};
   std::vector<continuation::Event> events_;
   continuation::DiagramOptions options_{};
   Grown grown_{};
@@ -181,16 +204,23 @@ void add_between(const Tracing& tracing, BranchSource& source) {
   if (spacing == 0 || !has_room(tracing, length_of(source.backward) + length_of(source.forward)))
     return;
   const auto options = options_of(tracing.study.trace);
+  const AskedProblem asked(tracing.problem, tracing.asking);
   const auto fill = [&](Curve& curve, std::vector<CurvePoint>& between) {
-    auto found = continuation::points_between(tracing.problem, curve, spacing, options);
+    auto found = continuation::points_between(asked, curve, spacing, options);
     between = std::move(found.points);
     if (found.missed > 0)
       curve.log.push_back(
           {curve.points.back().s, spacing,
            std::to_string(found.missed) + " rows beside special points could not be computed"});
   };
-  fill(source.backward, source.backward_between);
-  fill(source.forward, source.forward_between);
+  for (auto [curve, between] : {std::pair{&source.backward, &source.backward_between},
+                                {&source.forward, &source.forward_between}}) {
+    if (tracing.asking.goes_on()) fill(*curve, *between);
+  }
+  if (!tracing.asking.was_stopped()) return;
+  source.is_thinned = true;
+  source.backward_between.clear();
+  source.forward_between.clear();
 }
 
 Grown grow_diagram(const Tracing& tracing, const CurvePoint& start,

@@ -2,6 +2,7 @@
 // Private to analysis.
 #pragma once
 
+#include "asking.hpp"
 #include "branch_rows.hpp"
 #include "lambda_crawl.hpp"
 #include "quantities.hpp"
@@ -28,6 +29,7 @@ struct Tracing {
   RowBudget& budget;        ///< for all branches of the run
   LambdaCrawl&
       crawl;  ///< asked at every point; where it sees one, the run is to begin again in another unit
+  const Asking& asking;  ///< also between points
 };
 
 continuation::TraceOptions options_of(const TraceSettings& settings);
@@ -40,6 +42,7 @@ struct Grown {
   std::vector<continuation::DiagramStart>
       starts{};  ///< the study's own, then those that were found
   std::vector<Search> searches{};
+  std::vector<std::string> doubts{};  ///< what an interruption left undone
 };
 
 /// Traces the branches of the start and of all special points to the study's depth. At every lambda

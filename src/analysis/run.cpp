@@ -169,8 +169,10 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   report_start(evaluator, start, result.start);
   RowBudget budget;
   LambdaCrawl crawl(problem, largest, range_of_lambda(study, setup));
-  const Tracing tracing{problem, study, evaluator, quantities, begun.observer, setup.lambda_scale,
-                        budget,  crawl};
+  const Asking asking(begun.observer);
+  const Observer observer = [&asking](int points, double s) { return asking.step(points, s); };
+  const Tracing tracing{problem, study, evaluator, quantities, observer, setup.lambda_scale,
+                        budget,  crawl, asking};
   if (study.kind == StudyKind::equilibrium) {
     result.start.situation = situation_of(tracing, start, {});
     result.branches.push_back(single_point(start, evaluator, quantities, problem));

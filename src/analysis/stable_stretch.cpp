@@ -75,7 +75,7 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   stretch.ends_low = ends(source.backward);
   if (ends_at_a_kink(source.forward)) source.forward_stop = over;
   if (ends_at_a_kink(source.backward)) source.backward_stop = over;
-  stretch.rows = join(std::move(source), t.evaluator, t.quantities, t.problem);
+  stretch.rows = join(std::move(source), t.evaluator, t.quantities, t.problem, &t.asking);
   return stretch;
 }
 

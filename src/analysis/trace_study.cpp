@@ -42,7 +42,8 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
       return !t.observer || t.observer(points, sign * point.s);
     };
   };
-  const Following with{t.problem, t.study, t.evaluator, t.quantities};
+  const AskedProblem asked(t.problem, t.asking);
+  const Following with{t.problem, t.study, t.evaluator, t.quantities, &asked};
   const auto follow = [&](const continuation::Ray& ray, double sign) {
     continuation::Curve curve =
         trace_within_limits(with, start, ray, events, options, observe(sign));
@@ -61,7 +62,8 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   add_stability_changes(t, source);
   add_between(t, source);
   const CurvePoint first = source.forward.points.front();
-  std::vector<BranchRows> rows{join(std::move(source), t.evaluator, t.quantities, t.problem)};
+  std::vector<BranchRows> rows{
+      join(std::move(source), t.evaluator, t.quantities, t.problem, &t.asking)};
   add_marks_at_start(t.study, t.evaluator, t.quantities, first, rows.front());
   label_events(rows, 0, t.quantities);
   return std::move(rows.front().branch);
@@ -155,6 +157,8 @@ void trace_study(const Tracing& t, const CurvePoint& start, StudyResult& result)
 }
 
 void add_branch_of_start(const Tracing& t, const CurvePoint& start, StudyResult& result) {
+  if (t.asking.was_stopped())
+    return result.branches.push_back(not_traced(t, start, "interrupted at the start"));
   const auto rays =
       rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
   result.branches.push_back(not_traced(t, start,

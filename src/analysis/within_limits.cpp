@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "springfold/continuation/davidenko.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/verification.hpp"
 
 namespace springfold::analysis {
@@ -36,6 +37,27 @@ void cut_to_range(const Study& study, const Evaluator& evaluator,
   curve.stop_detail = *passed;
 }
 
+namespace {
+
+/// trace(), given up on request also before its first step.
+Curve trace_as_asked(const AskedProblem& problem, const CurvePoint& start,
+                     const continuation::Ray& ray, const std::vector<continuation::Event>& events,
+                     const continuation::TraceOptions& options,
+                     const continuation::StepObserver& observer,
+                     const continuation::HitObserver& at_hit) {
+  try {
+    return trace(problem, start.x, start.lambda, ray, events, options, observer, at_hit);
+  } catch (const continuation::Interrupted&) {
+    CurvePoint begin = start;
+    begin.piece = ray.piece;
+    begin.tangent = ray.tangent;
+    begin.s = 0;
+    return {.points = {begin}, .stop = StopReason::observer};
+  }
+}
+
+}  // namespace
+
 Curve trace_within_limits(const Following& with, const CurvePoint& start,
                           const continuation::Ray& ray,
                           const std::vector<continuation::Event>& events,
@@ -54,6 +76,8 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
   Curve curve =
       with.study.path == Path::davidenko
           ? davidenko(with.problem, start.x, start.lambda, ray, events, options, observe)
+      : with.asked
+          ? trace_as_asked(*with.asked, start, ray, events, options, observe, at_hit)
           : trace(with.problem, start.x, start.lambda, ray, events, options, observe, at_hit);
   if (passed && options.verify_arcs && with.study.path != Path::davidenko)
     curve.arcs = verified_arcs(with.problem, curve, options);

@@ -1,6 +1,7 @@
 // Curves that stay within the limits of a study. Private to analysis.
 #pragma once
 
+#include "asking.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/trace.hpp"
 
@@ -17,6 +18,7 @@ struct Following {
   const Study& study;
   const Evaluator& evaluator;
   const std::vector<QuantityDefinition>& quantities;
+  const AskedProblem* asked = nullptr;  ///< the problem, if steps are given up half-way on request
 };
 
 /// The curve from the start along the ray, as the study's path says, within its limits also where it begins on one.

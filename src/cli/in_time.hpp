@@ -22,6 +22,8 @@ class Patience {
 
   /// Is there a signal, and has the work had its time since?
   bool is_over();
+  /// When the signal was seen first; nothing if none was.
+  std::optional<std::chrono::steady_clock::time_point> since() const { return since_; }
 
  private:
   std::function<bool()> stop_requested_;
@@ -34,12 +36,11 @@ class Patience {
 /// @returns its result; nothing if it was given up. Then the thread goes on: what the work uses must be its
 /// own or shared, and the program must end by session.leave_at_once. Throws what the work throws
 template <class Result>
-std::optional<Result> done_in_time(std::function<Result()> work, const Session& session) {
+std::optional<Result> done_in_time(std::function<Result()> work, const Session& session,
+                                   Patience& patience) {
   if (!session.leave_at_once) return work();
   const auto task = std::make_shared<std::packaged_task<Result()>>(std::move(work));
   std::future<Result> result = task->get_future();
-  Patience patience{
-      stop_request_of(session)};  // before the thread: nothing may throw while it runs
   std::thread thread;
   try {
     thread = std::thread{[task] { (*task)(); }};
@@ -55,6 +56,12 @@ std::optional<Result> done_in_time(std::function<Result()> work, const Session& 
     }
   thread.join();
   return result.get();
+}
+
+template <class Result>
+std::optional<Result> done_in_time(std::function<Result()> work, const Session& session) {
+  Patience patience{stop_request_of(session)};
+  return done_in_time<Result>(std::move(work), session, patience);
 }
 
 }  // namespace springfold::cli

@@ -111,12 +111,33 @@ int judge_all(const Case& the_case, const Results& results,
   for (const PlannedRun* run : results.given_up)
     say(session, run->study + ", run " + std::to_string(run->run) +
                      ": interrupted in the middle of a step: nothing of it is kept");
-  const auto failed = std::count_if(comparisons.begin(), comparisons.end(),
-                                    [](const io::Comparison& c) { return !c.holds; });
+  const auto how_many = [&](bool interrupted) {
+    return std::count_if(comparisons.begin(), comparisons.end(), [&](const io::Comparison& c) {
+      return !c.holds && c.is_interrupted == interrupted;
+    });
+  };
+  const std::string all = " of " + std::to_string(comparisons.size()) + " compared values ";
+  if (const auto unknown = how_many(true); unknown > 0)
+    say(session, std::to_string(unknown) + all + "were not computed (interrupted)");
+  const auto failed = how_many(false);
   if (failed == 0) return code;
-  say(session, std::to_string(failed) + " of " + std::to_string(comparisons.size()) +
-                   " compared values do not hold: see NOT OK in the table");
+  say(session, std::to_string(failed) + all + "do not hold: see NOT OK in the table");
   return worse(code, partial);
+}
+
+/// Of runs that a signal kept from their end, values that do not hold are not wrong: they are not known.
+std::vector<io::Comparison> compared(const Case& the_case, const Results& results,
+                                     const Session& session) {
+  auto comparisons = io::compare(the_case.expected, results.list);
+  if (session.signal() == 0) return comparisons;
+  for (io::Comparison& c : comparisons) {
+    bool has_ended = false;
+    for (std::size_t i = 0; i < results.list.size(); ++i)
+      has_ended |= results.list[i].study == c.expected.study &&
+                   results.list[i].run == c.expected.run && !results.interrupted[i];
+    c.is_interrupted = !has_ended && !c.holds;
+  }
+  return comparisons;
 }
 
 /// True if standard output took everything.
@@ -154,19 +175,48 @@ std::string signal_name(int signal) {
   return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "a signal";
 }
 
+/// "; not drawn: a, b"; empty if there are none.
+std::string list_of(const std::string& what, const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files) text += (text.empty() ? "; " + what + ": " : ", ") + file;
+  return text;
+}
+
+/// What was wanted and is not there.
+struct Missing {
+  std::vector<std::string> pictures{}, tables{};
+  std::vector<std::string> all() const {
+    std::vector<std::string> files = tables;
+    files.insert(files.end(), pictures.begin(), pictures.end());
+    return files;
+  }
+};
+
 /// What a signal left: never that all is complete.
 std::string interruption(int signal, const Case& the_case, const Results& results,
-                         const std::vector<std::string>& missing, const fs::path& folder) {
-  const std::string begin = "interrupted by " + signal_name(signal);
+                         const Missing& missing, const fs::path& folder) {
+  const std::string begin = "interrupted by " + signal_name(signal),
+                    tables = list_of("there was no time to write", missing.tables);
   if (!results.all_done(the_case)) {
     const auto whole = std::count_if(results.list.begin(), results.list.end(), analysis::complete);
     return begin + ": " + std::to_string(whole) + " of " + std::to_string(the_case.runs.size()) +
-           " runs are complete; what was found until then is in " + folder.string();
+           " runs are complete; what was found until then is in " + folder.string() + tables;
   }
-  std::string pictures;
-  for (const std::string& picture : missing) pictures += (pictures.empty() ? "" : ", ") + picture;
-  return begin + " after all runs were done: their results are in " + folder.string() +
-         (pictures.empty() ? "" : "; not drawn: " + pictures);
+  return begin + " after all runs were done: their results are in " + folder.string() + tables +
+         list_of("not drawn", missing.pictures);
+}
+
+/// How long results are written after a signal: with what follows it makes less than a second. Runs that took long to end
+/// leave a moment all the same, enough for all but very large tables.
+std::function<bool()> end_of_writing(const Results& results, const Session& session) {
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds after_signal{400}, at_least{150};
+  return [&session, since = results.signal_since, begin = Clock::now()]() mutable {
+    if (!session.signal || session.signal() == 0) return false;
+    const auto now = Clock::now();
+    if (!since) since = now;
+    return now > std::max(*since + after_signal, begin + at_least);
+  };
 }
 
 std::string shortage(const Case& the_case, const std::vector<StudyResult>& results,
@@ -201,18 +251,23 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
   const bool gave_up = !all.given_up.empty();
   const std::vector<StudyResult>& results = all.list;
   const bool is_whole = all.all_done(the_case);
-  const io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
+  io::SetState state = is_whole ? io::SetState::whole : io::SetState::interrupted;
   // [report] of a case is no fault where the program has no page.
   const bool makes_report = arguments.makes_report || (the_case.wants_report && io::has_report());
   if (the_case.wants_report && !io::has_report())
     say(session, "no page: this springfold was built without it (-DSPRINGFOLD_REPORT=OFF)");
+  Missing missing;
   const auto write = [&] {
+    io::Deadline deadline{end_of_writing(all, session)};
     io::write_results(folder, the_case, results,
-                      arguments.draws_plots ? io::SetState::being_written : state, makes_report);
+                      arguments.draws_plots ? io::SetState::being_written : state, makes_report,
+                      &deadline);
+    missing.tables = std::move(deadline.unwritten);
+    if (!missing.tables.empty()) state = io::SetState::interrupted;
     if (is_whole && session.signal() == 0) io::remove_checkpoints(folder, the_case);
   };
   if (!is_done(write, session)) return {input_output, gave_up};
-  const auto comparisons = io::compare(the_case.expected, results);
+  const auto comparisons = compared(the_case, all, session);
   const bool is_printed = print(arguments, the_case, results, comparisons, session);
   int code = judge_all(the_case, all, comparisons, session);
   if (code != all_done)
@@ -223,10 +278,10 @@ Ending run_in(const fs::path& folder, const Arguments& arguments,
        (has_curves ? "curves in " + (folder / "branches").string() + ", " : std::string{}) +
            "tables and summary in " + folder.string());
   if (makes_report) note(arguments, session, "page in " + (folder / "report.html").string());
-  std::vector<std::string> missing;
   if (arguments.draws_plots) {
-    missing = draw(folder, arguments, the_case, results, session);
-    if (!is_done([&] { io::close_results(folder, state, missing); }, session)) code = input_output;
+    missing.pictures = draw(folder, arguments, the_case, results, session);
+    if (!is_done([&] { io::close_results(folder, state, missing.all()); }, session))
+      code = input_output;
   }
   if (!is_printed) {
     say(session, "cannot write to standard output");

@@ -324,8 +324,11 @@ Results run_all(const Arguments& arguments, const fs::path& folder,
     runner->run();
     return true;
   };
-  done_in_time<bool>(work, session);
-  return runner->collected();
+  Patience patience{stop_request_of(session)};
+  done_in_time<bool>(work, session, patience);
+  Results results = runner->collected();
+  results.signal_since = patience.since();
+  return results;
 }
 
 }  // namespace springfold::cli

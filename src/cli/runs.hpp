@@ -1,8 +1,10 @@
 // All runs of a case, one study after the other, those of one study on all cores.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "arguments.hpp"
@@ -16,6 +18,7 @@ struct Results {
   const io::PlannedRun* failed = nullptr;     ///< there was not enough memory for it, and the end
   /// They did not end in time after a signal: threads are still at work on them, and they are not in the list.
   std::vector<const io::PlannedRun*> given_up{};
+  std::optional<std::chrono::steady_clock::time_point> signal_since{};  ///< seen while they ran
 
   /// Every run is there and none was ended by a signal.
   bool all_done(const io::Case& the_case) const;

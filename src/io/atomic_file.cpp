@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -43,10 +44,12 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path{"."};
 }
 
-/// 0 or the error.
-int write_all(int file, std::string_view bytes) {
+/// 0 or the error; ECANCELED once it is over.
+int write_all(int file, std::string_view bytes, const std::function<bool()>& is_over) {
+  constexpr std::size_t part = std::size_t{1} << 22;  // [byte], a few milliseconds
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (is_over && is_over()) return ECANCELED;
+    const ssize_t written = ::write(file, bytes.data(), std::min(part, bytes.size()));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -63,11 +66,12 @@ int synchronise(const fs::path& path, int flags) {
   return file.number() < 0 ? errno : synchronise(file.number());
 }
 
-int create_with(const fs::path& path, std::string_view bytes) {
+int create_with(const fs::path& path, std::string_view bytes,
+                const std::function<bool()>& is_over) {
   constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
   Descriptor file{::open(path.c_str(), flags, 0666)};
   if (file.number() < 0) return errno;
-  if (const int error = write_all(file.number(), bytes)) return error;
+  if (const int error = write_all(file.number(), bytes, is_over)) return error;
   return file.close();
 }
 
@@ -83,14 +87,18 @@ int rename_into_place(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, std::string_view bytes) { write_file(path, bytes, {}); }
+
+bool write_file(const fs::path& path, std::string_view bytes,
+                const std::function<bool()>& is_over) {
   // The process number keeps two runs into one folder from sharing a temporary file.
   const fs::path temporary =
       folder_of(path) / ("." + path.filename().string() + ".part" + std::to_string(::getpid()));
-  int error = create_with(temporary, bytes);
+  int error = create_with(temporary, bytes, is_over);
   if (error == 0) error = rename_into_place(temporary, path);
-  if (error == 0) return;
+  if (error == 0) return true;
   ::unlink(temporary.c_str());
+  if (error == ECANCELED) return false;
   fail("cannot write", path, error);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,12 @@ namespace springfold::io {
 /// empty: put_on_disk() waits for the disk, which takes milliseconds.
 /// @throws std::runtime_error "cannot write <path>: <reason>"
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same, unless it takes too long: then what was there stays.
+/// @param is_over  asked after every part; may be empty
+/// @returns whether it was written
+bool write_file(const std::filesystem::path& path, std::string_view bytes,
+                const std::function<bool()>& is_over);
 
 /// Moves a finished file of the same file system to `to`, over what was there, as safely.
 /// @throws std::runtime_error "cannot write <to>: <reason>"

@@ -45,9 +45,9 @@ double kept_value(const Expectations& expected, const ExpectedValue& value,
 /// Headings in order of first appearance.
 std::vector<std::string> groups_of(const std::vector<Comparison>& comparisons) {
   std::vector<std::string> groups;
-  for (const auto& [expected, ours, holds] : comparisons)
-    if (std::find(groups.begin(), groups.end(), expected.group) == groups.end())
-      groups.push_back(expected.group);
+  for (const Comparison& comparison : comparisons)
+    if (std::find(groups.begin(), groups.end(), comparison.expected.group) == groups.end())
+      groups.push_back(comparison.expected.group);
   return groups;
 }
 

@@ -24,13 +24,17 @@ std::string word_of(Agreement agreement) {
 }
 
 std::vector<std::string> comparison_cells(const Comparison& comparison) {
-  const auto& [expected, ours, holds] = comparison;
+  const auto& [expected, ours, holds, is_interrupted] = comparison;
   return {expected.name,
-          std::isnan(ours) ? "not found" : rounded(ours, 10),
+          is_interrupted     ? "not computed"
+          : std::isnan(ours) ? "not found"
+                             : rounded(ours, 10),
           sign_of(expected.agreement) + rounded(expected.expected, 12),
-          std::isnan(ours) ? "" : signed_rounded(ours - expected.expected, 2),
+          std::isnan(ours) || is_interrupted ? "" : signed_rounded(ours - expected.expected, 2),
           rounded(expected.tolerance, 12),
-          holds ? "ok" : "NOT OK",
+          holds            ? "ok"
+          : is_interrupted ? "interrupted"
+                           : "NOT OK",
           expected.source};
 }
 

@@ -32,7 +32,7 @@ std::vector<ListedFile> hashes_listed_in(const std::filesystem::path& folder);
 /// @throws std::runtime_error when it cannot be written
 void list_in_manifest(const std::filesystem::path& folder, const std::vector<ListedFile>& files);
 
-/// Changes the state that an existing manifest tells, and the pictures that it calls pending.
+/// Changes the state that an existing manifest tells, and the files that it calls pending.
 /// @throws std::runtime_error when it cannot be written
 void set_manifest_state(const std::filesystem::path& folder, SetState state,
                         const std::vector<std::string>& pending);

@@ -71,6 +71,11 @@ std::vector<std::string> counts_among(const std::vector<std::string>& names) {
 }  // namespace
 
 std::string branch_csv(const StudyResult& result, const Branch& branch) {
+  return *branch_csv(result, branch, {});
+}
+
+std::optional<std::string> branch_csv(const StudyResult& result, const Branch& branch,
+                                      const std::function<bool()>& is_over) {
   std::string csv;
   // Targets and nodes say how they are; points of curves have nothing to say.
   const bool has_status =
@@ -81,7 +86,10 @@ std::string branch_csv(const StudyResult& result, const Branch& branch) {
   constexpr std::size_t usual = 18;  // characters of a number and its comma
   csv.reserve(csv.size() + branch.samples.size() * (usual * result.quantities.size() + 8));
   CsvNumbers numbers{result.quantities.size()};
+  constexpr std::size_t block = 1000;  // rows: a few milliseconds
+  std::size_t rows = 0;
   for (const auto& sample : branch.samples) {
+    if (++rows % block == 0 && is_over && is_over()) return std::nullopt;
     numbers.append(csv, sample.values);
     append_csv_text(csv, sample.piece);
     csv += ',';

@@ -1,6 +1,8 @@
 // The CSV tables of a set of results, as text. Columns: docs/results.md.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,11 @@
 namespace springfold::io {
 
 /// One row per point of the branch: all quantities, then piece and event.
+/// @param is_over  asked after every block of rows; true: the rest is not wanted any more. May be empty
+/// @returns nothing if it was asked to end
+std::optional<std::string> branch_csv(const analysis::StudyResult& result,
+                                      const analysis::Branch& branch,
+                                      const std::function<bool()>& is_over);
 std::string branch_csv(const analysis::StudyResult& result, const analysis::Branch& branch);
 
 /// One row per equilibrium of a study of kind `equilibria`.

@@ -7,10 +7,18 @@
 
 namespace springfold::io {
 
-std::string sha256(std::string_view bytes) {
+std::string sha256(std::string_view bytes) { return *sha256(bytes, {}); }
+
+std::optional<std::string> sha256(std::string_view bytes, const std::function<bool()>& is_over) {
+  constexpr std::size_t most = std::size_t{1} << 22;  // [byte], a hundredth of a second
   sha256_ctx context;
   sha256_init(&context);
-  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  while (!bytes.empty()) {
+    if (is_over && is_over()) return std::nullopt;
+    const std::string_view part = bytes.substr(0, most);
+    sha256_update(&context, part.size(), reinterpret_cast<const std::uint8_t*>(part.data()));
+    bytes.remove_prefix(part.size());
+  }
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
   sha256_digest(&context, digest.size(), digest.data());
 

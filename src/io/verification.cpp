@@ -87,7 +87,7 @@ std::string verification_csv(const std::vector<VerifiedCase>& cases) {
       "case,group,name,study,run,at,quantity,ours,reference,difference,tolerance,compare,holds,"
       "source\n";
   for (const VerifiedCase& verified : cases)
-    for (const auto& [expected, ours, is_held] : verified.comparisons)
+    for (const auto& [expected, ours, is_held, is_interrupted] : verified.comparisons)
       csv += csv_text(verified.name) + "," + csv_text(expected.group) + "," +
              csv_text(expected.name) + "," + csv_text(expected.study) + "," +
              std::to_string(expected.run) + "," + csv_text(expected.at) + "," +

@@ -264,6 +264,24 @@ TEST_F(Program, ClosesCleanlyWhenInterrupted) {
   }
 }
 
+TEST_F(Program, SaysOfAnInterruptedRunThatItsValuesWereNotComputed) {
+  put_text(scratch.path() / "expected.toml",
+           "[[value]]\nname = \"energy\"\nstudy = \"rest\"\nquantity = \"energy\"\n"
+           "expected = 1\ntolerance = 0.1\nsource = \"none\"\n");
+  put_case("expected = \"expected.toml\"\n");
+  const InterruptGuard guard;
+  const auto engine = [&](const io::PlannedRun&, const analysis::Observer&) {
+    std::raise(SIGINT);
+    return stopped_result("stopped on request");
+  };
+  const Outcome outcome = run_with(engine, InterruptGuard::signal);
+  EXPECT_EQ(outcome.code, 128 + SIGINT);
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 1 compared values were not computed (interrupted)"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("do not hold")));
+  EXPECT_THAT(outcome.out, HasSubstr("not computed"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("NOT OK")));
+}
+
 TEST_F(Program, ShowsProgressOnTerminalsOnly) {
   const auto engine = [](const io::PlannedRun&, const analysis::Observer& observer) {
     for (int points = 1; points <= 40; ++points) observer(points, 0.0);

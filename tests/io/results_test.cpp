@@ -120,6 +120,37 @@ TEST(WriteResults, RemovesFilesOfTheEarlierSetAndNoOthers) {
   EXPECT_TRUE(fs::exists(scratch.path() / "notes.txt"));
 }
 
+TEST(WriteResults, LeavesOutTablesForWhichThereIsNoTimeAndSaysWhich) {
+  const ScratchFolder scratch;
+  const auto results = sample::two_results();
+  write_results(scratch.path(), sample::two_runs(), results);
+  Deadline deadline{.is_over = [] { return true; }};
+  const auto written =
+      write_results(scratch.path(), sample::two_runs(), results, SetState::whole, false, &deadline);
+  EXPECT_EQ(deadline.unwritten, (std::vector<std::string>{"branches/push_from_Q2-1.csv",
+                                                          "branches/push_from_Q2-2.csv"}));
+  for (const std::string& file : deadline.unwritten)
+    EXPECT_FALSE(fs::exists(scratch.path() / file)) << "that of the run before is not this one's";
+  EXPECT_EQ(static_cast<int>(written.size()), count_files(scratch.path()));
+  const json manifest = json::parse(text_in(scratch.path() / "manifest.json"));
+  EXPECT_EQ(manifest["state"], "interrupted");
+  EXPECT_EQ(manifest["pending"], json(deadline.unwritten));
+  for (const auto& file : manifest["files"])
+    EXPECT_TRUE(fs::exists(scratch.path() / file["path"])) << file["path"];
+  EXPECT_TRUE(fs::exists(scratch.path() / "summary.json"));
+}
+
+TEST(WriteResults, WritesShortTablesBeforeLongOnes) {
+  const ScratchFolder scratch;
+  auto results = sample::two_results();
+  auto& samples = results[0].branches[0].samples;
+  while (samples.size() < 5000) samples.insert(samples.end(), samples.begin(), samples.end());
+  int asked = 0;
+  Deadline deadline{.is_over = [&asked] { return ++asked > 3; }};
+  write_results(scratch.path(), sample::two_runs(), results, SetState::whole, false, &deadline);
+  EXPECT_EQ(deadline.unwritten, std::vector<std::string>{"branches/push_from_Q2-1.csv"});
+}
+
 TEST(WriteResults, RemovesTablesOfEquilibriaOfTheEarlierSet) {
   const ScratchFolder scratch;
   auto results = sample::two_results();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Comparison {
   ExpectedValue expected{};
   double ours = 0;  ///< NaN: the run or the point does not exist
   bool holds = false;
+  bool is_interrupted = false;  ///< its run did not come to its end: nothing is known of it
 };
 
 std::vector<Comparison> compare(const Expectations& expected,
@@ -39,23 +41,33 @@ std::string summary_json(const Case& the_case, const std::vector<analysis::Study
 /// What a manifest says of its files.
 enum class SetState {
   being_written,  ///< files may be missing or of an earlier run: also what a killed program leaves
-  interrupted,    ///< all files are there; some runs were interrupted or not begun
+  interrupted,    ///< all files that it lists are there; some runs were interrupted or not begun
   whole,          ///< all files are there, and all runs were done
+};
+
+/// When results are not waited for any longer.
+struct Deadline {
+  std::function<bool()> is_over{};  ///< asked in tables after every block of rows; may be empty
+  std::vector<std::string>
+      unwritten{};  ///< filled in: tables that were left out, "branches/push-1.csv"
 };
 
 /// Writes branch CSVs, events.csv, steps.csv, summary.json, manifest.json and timings.json, each to
 /// a temporary name first, then renamed; returns the files written.
 /// @param state  what the manifest says at the end: being_written if figures follow
 /// @param with_report  write report.html too; needs has_report()
+/// @param deadline  once it is over, tables of branches that are not written yet are left out, the largest first, and the
+///                  report; the manifest calls them pending. nullptr: all is written
 /// @throws std::filesystem::filesystem_error or std::runtime_error when something cannot be written
 std::vector<std::filesystem::path> write_results(const std::filesystem::path& folder,
                                                  const Case& the_case,
                                                  const std::vector<analysis::StudyResult>& results,
                                                  SetState state = SetState::whole,
-                                                 bool with_report = false);
+                                                 bool with_report = false,
+                                                 Deadline* deadline = nullptr);
 
 /// Says in the manifest that nothing more is written.
-/// @param pending  pictures that were wanted and are not there, "plots/push.png"
+/// @param pending  files that were wanted and are not there, "plots/push.png"
 /// @throws std::runtime_error when it cannot be written
 void close_results(const std::filesystem::path& folder, SetState state,
                    const std::vector<std::string>& pending);

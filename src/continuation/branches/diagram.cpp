@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "continuation/branches/junction_ways.hpp"
+#include "continuation/branches/known_junctions.hpp"
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
@@ -16,6 +17,7 @@
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -36,26 +38,24 @@ struct Begin {
   bool attached = true;  ///< nothing is left out between the junction and `from`
 };
 
-/// A junction that a branch meets, and its ways on the two sides of it.
-struct Met {
-  double s = 0;
-  int junction = -1, way_back = -1, way_on = -1;
-};
-
 class Tracer {
  public:
   Tracer(const Walker& walker, const std::vector<Event>& events, const DiagramOptions& options,
          const StepObserver& observer)
       : walker_{walker}, events_{events}, options_{options}, observer_{observer} {}
 
-  void add_start(const DiagramStart& start, int number);
-  void run();
+  /// The branches of a start and of all that they meet.
+  void trace_from(const DiagramStart& start, int number);
   Diagram take();
 
  private:
-  int junction_at(const Hit& hit);
+  void add_start(const DiagramStart& start, int number);
+  void run();
+  void give_up(const Task& task);
+  int junction_at(const Hit& hit) const {
+    return junction_where(walker_, diagram_.junctions, hit.point, met_, options_.same_place);
+  }
   int add_junction(const Hit& hit);
-  int way_along(int junction, const Direction& direction, const Piece* piece);
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
   bool at_hit(const Hit& hit, bool ends = false);
@@ -91,58 +91,27 @@ class Tracer {
   int current_ = -1;        ///< branch that is being traced
   std::vector<Met> met_{};  ///< junctions that it has met
   int depth_ = 0;           ///< its depth
+  bool interrupted_ = false;
 };
-
-/// The nearest junction that is the same point. Points that a curve has passed right before are others: between two
-/// passages of one point lies a whole loop.
-int Tracer::junction_at(const Hit& hit) {
-  const double same = options_.same_place * scale_of(hit.point);
-  const auto just_passed = [&](int number) {
-    return std::any_of(met_.begin(), met_.end(), [&](const Met& met) {
-      return met.junction == number && std::abs(met.s - hit.point.s) <= 2 * same;
-    });
-  };
-  int best = -1;
-  double nearest = same;
-  for (std::size_t i = 0; i < diagram_.junctions.size(); ++i) {
-    const double distance =
-        length_of(walker_, between(walker_, at(static_cast<int>(i)).point, hit.point));
-    if (!(distance <= nearest) || just_passed(static_cast<int>(i)) ||
-        are_in_different_pieces(walker_, at(static_cast<int>(i)).point, hit.point))
-      continue;
-    best = static_cast<int>(i);
-    nearest = distance;
-  }
-  return best;
-}
 
 /// Finds the ways out of a special point. A touch may have no more than the curve itself.
 int Tracer::add_junction(const Hit& hit) {
   Junction junction{
       .kind = hit.kind, .point = hit.point, .multiplicity = hit.multiplicity, .depth = depth_};
-  find_ways(walker_, options_, hit, junction);
+  try {
+    find_ways(walker_, options_, hit, junction);
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+    junction.ways.clear();
+    junction.complete = false;
+    junction.why = "interrupted";
+  }
   const auto number = static_cast<int>(diagram_.junctions.size());
   if (!junction.complete)
     doubt(DoubtKind::ways_missing, "branches may be missing: " + junction.why, junction.point,
           number);
   diagram_.junctions.push_back(std::move(junction));
   return number;
-}
-
-/// Number of the way that leads most nearly into this direction, or -1.
-int Tracer::way_along(int junction, const Direction& direction, const Piece* piece) {
-  int best = -1;
-  double nearest = same_way;
-  const std::vector<Way>& ways = at(junction).ways;
-  for (std::size_t w = 0; w < ways.size(); ++w) {
-    const double c = cosine(walker_, ways[w].point.tangent, direction) -
-                     (piece && ways[w].point.piece != *piece ? nearly_same_line : 0.0);
-    if (c > nearest) {
-      nearest = c;
-      best = static_cast<int>(w);
-    }
-  }
-  return best;
 }
 
 void Tracer::queue_ways(int number) {
@@ -166,9 +135,10 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
   const Direction along = direction_seen_from(walker_, at(number).point.x, hit.point);
-  Met met{hit.point.s, number, way_along(number, opposite(along), &hit.point.piece),
-          ends ? -1 : way_along(number, along, &hit.point.piece)};
-  if (met.way_back < 0 || (met.way_on < 0 && !ends))
+  Met met{hit.point.s, number, way_along(walker_, at(number), opposite(along), hit.point.piece),
+          ends ? -1 : way_along(walker_, at(number), along, hit.point.piece)};
+  const bool is_way = met.way_back >= 0 && (met.way_on >= 0 || ends);
+  if (!is_way && !interrupted_)
     doubt(DoubtKind::no_such_way,
           "a branch passes a special point in a direction that is none of its ways", hit.point,
           number);
@@ -293,9 +263,9 @@ void Tracer::follow(const Task& task) {
       {.start = task.start, .junction = task.junction, .depth = task.depth});
   if (ends_at_once(task, diagram_.branches.back().curve)) return;
   const Begin begin = begin_of(task);
-  Curve curve =
-      trace_in_own_units(walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_,
-                         options_.trace, observer_, [this](const Hit& hit) { return at_hit(hit); });
+  Curve curve = trace_in_own_units(
+      walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_, options_.trace,
+      observer_, [this](const Hit& hit) { return at_hit(hit); }, IfInterrupted::keep);
   // A kink with several ways out ends the trace by itself.
   if (curve.stop == StopReason::several_ways && options_.through_kinks && !curve.hits.empty() &&
       curve.hits.back().kind == HitKind::branching_kink)
@@ -330,19 +300,54 @@ void Tracer::note_early_end() {
   doubt(DoubtKind::stopped_early, std::move(text), curve.points.back());
 }
 
+/// A branch that has not left its first point is none, one that is not traced back to its junction is not finished.
+void Tracer::give_up(const Task& task) {
+  interrupted_ = true;
+  if (current_ >= 0 && !diagram_.branches.back().curve.points.empty()) {
+    diagram_.branches.back().curve.stop = StopReason::observer;
+    return;
+  }
+  queue_.push_front(task);
+  if (current_ < 0) return;
+  diagram_.branches.pop_back();
+  for (Junction& junction : diagram_.junctions)
+    for (Way& way : junction.ways)
+      if (way.branch == current_) way.branch = -1;
+}
+
 void Tracer::run() {
-  while (!queue_.empty()) {
+  while (!queue_.empty() && !interrupted_) {
     const Task task = std::move(queue_.front());
     queue_.pop_front();
-    follow(task);
+    current_ = -1;
+    try {
+      follow(task);
+    } catch (const Interrupted&) {
+      give_up(task);
+    }
   }
 }
 
+void Tracer::trace_from(const DiagramStart& start, int number) {
+  if (interrupted_) return;
+  try {
+    add_start(start, number);
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+  }
+  run();
+}
+
 Diagram Tracer::take() {
-  if (diagram_.not_followed > 0)
-    diagram_.doubts.push_back(
-        {DoubtKind::bounds, std::to_string(diagram_.not_followed) +
-                                " branches were not traced: bounds of depth or number reached"});
+  const auto say = [&](int count, const std::string& why) {
+    if (count > 0)
+      diagram_.doubts.push_back(
+          {DoubtKind::bounds, std::to_string(count) + " branches were not traced: " + why});
+  };
+  say(diagram_.not_followed, "bounds of depth or number reached");
+  const auto waiting = static_cast<int>(queue_.size());
+  say(waiting, "interrupted");
+  diagram_.not_followed += waiting;
   return std::move(diagram_);
 }
 
@@ -351,10 +356,7 @@ Diagram diagram_inside(ProblemView problem, const std::vector<DiagramStart>& sta
                        const StepObserver& observer) {
   const Walker walker{problem, problem.metric(), options.trace};
   Tracer tracer(walker, events, options, observer);
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    tracer.add_start(starts[i], static_cast<int>(i));
-    tracer.run();
-  }
+  for (std::size_t i = 0; i < starts.size(); ++i) tracer.trace_from(starts[i], static_cast<int>(i));
   return tracer.take();
 }
 
@@ -364,13 +366,17 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer) {
   if (starts.empty()) return {};
-  for (const DiagramStart& start : starts)
-    check_entry(problem, start.x, start.lambda, start.piece, options.trace);
-  const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
-  std::vector<DiagramStart> inside = starts;
-  for (DiagramStart& start : inside) start.x = own.inside(start.x);
-  return own.outside(
-      diagram_inside(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
+  try {
+    for (const DiagramStart& start : starts)
+      check_entry(problem, start.x, start.lambda, start.piece, options.trace);
+    const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
+    std::vector<DiagramStart> inside = starts;
+    for (DiagramStart& start : inside) start.x = own.inside(start.x);
+    return own.outside(
+        diagram_inside(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
+  } catch (const Interrupted&) {  // before anything was traced
+    return {};
+  }
 }
 
 }  // namespace springfold::continuation

@@ -10,6 +10,7 @@
 #include "continuation/kinks/beside.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/stretches.hpp"
 #include "springfold/continuation/verification.hpp"
@@ -57,11 +58,28 @@ void follow(const Following& following, const StepObserver& observer, Progress& 
   curve.stop_detail = why_so_many(following.walker, curve);
 }
 
+/// A curve that was asked to end is handed over at once.
+void hand_over(const TraceOptions& options, Curve& curve) {
+  curve.stop = StopReason::observer;
+  if (options.verify_arcs)
+    curve.arcs = {{.s_begin = curve.points.front().s, .s_end = curve.points.back().s}};
+}
+
+/// What is said of a curve that is traced to its end.
+void finish(const Walker& walker, Curve& curve) {
+  settle_families(curve);
+  check_narrow_places(walker, curve);
+  if (curve.stop == StopReason::observer)
+    hand_over(walker.options, curve);
+  else if (walker.options.verify_arcs)
+    curve.arcs = verified_arcs(walker.problem, curve, walker.options);
+}
+
 /// trace_in_own_units(). @param middles  as Following has them
 Curve trace_inside(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                    const std::vector<Event>& events, const TraceOptions& options,
                    const StepObserver& observer, const HitObserver& at_hit,
-                   std::vector<CurvePoint>* middles) {
+                   std::vector<CurvePoint>* middles, IfInterrupted interrupted) {
   const Walker walker{problem, problem.metric(), options};
   const CurvePoint first{.x = x, .lambda = lambda};
   Progress progress;
@@ -73,11 +91,7 @@ Curve trace_inside(ProblemView problem, const Vector& x, double lambda, const Ra
   Curve curve{.points = {progress.here}};
   const auto opening =
       start.beyond ? opening_of(walker, progress.here, *start.beyond) : std::nullopt;
-  bool ended = false;
-  if (opening) {
-    progress.from_singular = true;
-    ended = pass_opening(walker, events, at_hit, *opening, progress, curve) == Outcome::stop;
-  } else if (start.start) {
+  if (!opening && start.start) {
     // The piece may be singular at the point itself, and the next surface as near as the way's first point.
     progress.from_singular = true;
     progress.ds = std::clamp(start.start->s, options.step.minimum, options.step.initial);
@@ -87,15 +101,17 @@ Curve trace_inside(ProblemView problem, const Vector& x, double lambda, const Ra
       curve.points.push_back(progress.here);
     }
   }
-
-  if (!ended) follow({walker, events, at_hit, middles}, observer, progress, curve);
-  settle_families(curve);
-  check_narrow_places(walker, curve);
-  // A curve that was asked to end is handed over at once.
-  if (options.verify_arcs && curve.stop == StopReason::observer)
-    curve.arcs = {{.s_begin = curve.points.front().s, .s_end = curve.points.back().s}};
-  else if (options.verify_arcs)
-    curve.arcs = verified_arcs(problem, curve, options);
+  // What is given up in the middle of a step has left nothing of that step: the points before stand.
+  try {
+    progress.from_singular = progress.from_singular || opening.has_value();
+    if (!opening ||
+        pass_opening(walker, events, at_hit, *opening, progress, curve) != Outcome::stop)
+      follow({walker, events, at_hit, middles}, observer, progress, curve);
+    finish(walker, curve);
+  } catch (const Interrupted&) {
+    if (interrupted == IfInterrupted::give_up) throw;
+    hand_over(options, curve);
+  }
   return curve;
 }
 
@@ -107,9 +123,9 @@ Curve trace_normalised(ProblemView problem, const Vector& x, double lambda, cons
   check_entry(problem, x, lambda, start.piece, options);
   check_ray(problem, start);
   const Normalised own(problem, x, lambda, start.piece);
-  Curve curve =
-      own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start), own.inside(events),
-                               options, own.inside(observer), own.inside(at_hit), middles));
+  Curve curve = own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start),
+                                         own.inside(events), options, own.inside(observer),
+                                         own.inside(at_hit), middles, IfInterrupted::keep));
   if (!middles) return curve;
   // Those whose steps were not taken back.
   std::ranges::stable_sort(*middles, {}, &CurvePoint::s);
@@ -142,8 +158,10 @@ Curve trace(ProblemView problem, const Vector& x, double lambda, const Ray& star
 
 Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                          const std::vector<Event>& events, const TraceOptions& options,
-                         const StepObserver& observer, const HitObserver& at_hit) {
-  return trace_inside(problem, x, lambda, start, events, options, observer, at_hit, nullptr);
+                         const StepObserver& observer, const HitObserver& at_hit,
+                         IfInterrupted interrupted) {
+  return trace_inside(problem, x, lambda, start, events, options, observer, at_hit, nullptr,
+                      interrupted);
 }
 
 Curve trace_with_middles(ProblemView problem, const Vector& x, double lambda, const Ray& start,

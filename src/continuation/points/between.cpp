@@ -10,6 +10,7 @@
 #include "continuation/points/locate.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/stretches.hpp"
 
@@ -257,7 +258,10 @@ Between points_between(ProblemView problem, const Curve& curve,
   std::vector<PointGap> gaps =
       gaps_of(smooth_stretches(walker, own, curve), curve, problem.symmetric());
   put_middles(walker, own, middles, gaps);
-  for (std::size_t i = 0; i < gaps.size(); ++i) filler.fill(gaps[i], points_around(gaps, i));
+  try {
+    for (std::size_t i = 0; i < gaps.size(); ++i) filler.fill(gaps[i], points_around(gaps, i));
+  } catch (const Interrupted&) {  // those up to here are points of the curve
+  }
   for (CurvePoint& point : result.points) point = own.outside(std::move(point));
   return result;
 }

@@ -77,9 +77,16 @@ class Normalised {
   mutable ScaledMatrices matrices_{};
 };
 
+/// What becomes of a curve in the middle of which the problem throws Interrupted.
+enum class IfInterrupted {
+  give_up,  ///< it is thrown on: what is half a curve says nothing
+  keep,     ///< the curve ends at the last accepted point, as if its observer had stopped it
+};
+
 /// trace() without a change of units: for callers that have changed them already.
 Curve trace_in_own_units(ProblemView problem, const Vector& x, double lambda, const Ray& start,
                          const std::vector<Event>& events, const TraceOptions& options,
-                         const StepObserver& observer, const HitObserver& at_hit);
+                         const StepObserver& observer, const HitObserver& at_hit,
+                         IfInterrupted interrupted = IfInterrupted::give_up);
 
 }  // namespace springfold::continuation
