@@ -56,6 +56,36 @@ double noise_of_force(const Landscape& landscape, const Vector& critical, const 
   return clear_force * (at && at->hessian.size() > 0 ? std::max(1.0, at->hessian.norm()) : 1.0);
 }
 
+/// What a push along a direction shows.
+struct Leaving {
+  std::optional<Pushed> at{};  ///< the state is left: after the push
+  double amplitude = 0;
+  bool is_flat = false;  ///< no force above rounding
+};
+
+/// The nearest force above rounding tells whether the state is left. Where it turns back before a push of the usual size, a
+/// stable state lies nearer than that, and the push ends before it.
+Leaving leave_along(const Landscape& landscape, const Vector& critical, const Vector& along,
+                    double noise) {
+  constexpr double least_push = push_size / 1024;
+  // The critical state is off by as much as its load: nearer than a push of the usual size only what is far clear counts.
+  constexpr double far_clear = 100;
+  Leaving outward;
+  for (double a = least_push; a < largest_push; a *= 2) {
+    const auto at = pushed(landscape, critical, along, critical, {.amplitude = a});
+    const bool usual = a >= push_size;
+    if (!at && usual) break;
+    if (!at) continue;
+    if (!(std::abs(at->force) > (usual ? 1 : far_clear) * noise)) continue;
+    if (at->force < 0) return outward;
+    if (usual)
+      return landscape.energy(at->x) < landscape.energy(critical) ? Leaving{at, a} : Leaving{};
+    outward = {at, a};
+  }
+  if (!outward.at) outward.is_flat = true;
+  return outward;
+}
+
 }  // namespace
 
 Departure shortened(const Landscape& landscape, const Vector& critical, const Departure& departure,
@@ -85,15 +115,9 @@ Departures departures(const Landscape& landscape, const Vector& critical,
             std::any_of(result.list.begin(), result.list.end(),
                         [&](const Departure& other) { return other.along.dot(along) > 0.999; });
         if (known) continue;
-        bool decided = false;
-        for (double a = push_size; a < largest_push && !decided; a *= 2) {
-          const auto at = pushed(landscape, critical, along, critical, {.amplitude = a});
-          if (!at) break;
-          decided = std::abs(at->force) > noise;
-          if (decided && at->force > 0 && landscape.energy(at->x) < landscape.energy(critical))
-            result.list.push_back({side, along, at->x, a});
-        }
-        result.is_flat |= !decided;
+        const Leaving leaving = leave_along(landscape, critical, along, noise);
+        if (leaving.at) result.list.push_back({side, along, leaving.at->x, leaving.amplitude});
+        result.is_flat |= leaving.is_flat;
       }
   }
   return result;

@@ -26,9 +26,14 @@ bool is_quiet(const Event& event, const CurvePoint& junction, const CurvePoint& 
 
 }  // namespace
 
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
-          Curve& curve) {
-  const std::vector<CurvePoint> between = points_between_hits(walker, samples, found.hits);
+bool keep(const Walker& walker, Samples samples, bool ends_at_kink, const HitObserver& at_hit,
+          const StepEvents& found, Curve& curve) {
+  const double begin = samples.front()->s, end = samples.back()->s;
+  std::vector<double> places;
+  if (!curve.hits.empty() && curve.hits.back().point.s == begin) places.push_back(begin);
+  for (const Hit& hit : found.hits) places.push_back(hit.point.s);
+  if (ends_at_kink) places.push_back(end);
+  const std::vector<CurvePoint> between = points_between_special(walker, samples, places);
   auto next = between.begin();
   for (const Hit& hit : found.hits) {
     if (is_reported(curve, hit)) continue;
@@ -40,6 +45,7 @@ bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, cons
     curve.stop_detail = hit.name;
     return true;
   }
+  curve.points.insert(curve.points.end(), next, between.end());
   return false;
 }
 
@@ -53,7 +59,7 @@ Outcome pass_opening(const Walker& walker, const std::vector<Event>& events,
   StepEvents found =
       events_on_step(without_special_points(walker), progress.here, end, &middle, wanted);
   if (!found.doubt.empty()) add_unresolved(progress.here, end, found, curve);
-  if (keep(walker, StepSamples(progress.here, &middle, end), at_hit, found, curve))
+  if (keep(walker, StepSamples(progress.here, &middle, end), true, at_hit, found, curve))
     return Outcome::stop;
   if (found.hits.empty()) curve.points.push_back(middle);
   return pass_kink(walker, opening.kink, progress, curve, &opening.middle);

@@ -12,9 +12,10 @@
 namespace springfold::continuation {
 
 /// Keeps the special points of a step and, between any two, a point of the curve with the index there.
+/// @param ends_at_kink  the end of the step will be one more
 /// @returns whether the curve ends at one of them
-bool keep(const Walker& walker, Samples samples, const HitObserver& at_hit, const StepEvents& found,
-          Curve& curve);
+bool keep(const Walker& walker, Samples samples, bool ends_at_kink, const HitObserver& at_hit,
+          const StepEvents& found, Curve& curve);
 
 /// The way to a surface just beside the singular point that the curve leaves, and past it: nothing of the engine's own lies
 /// on it, events of the caller may.

@@ -178,11 +178,15 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
   const bool closed = start && !(meets_kink && kink.point.s < start->s);
   CurvePoint& end = meets_kink ? kink.point : walker.memory->next;
   if (closed) kink.status = KinkSearch::Status::none;
+  const auto half = middle && kink.status == KinkSearch::Status::found
+                        ? point_at(walker, progress.here, 0.5 * (end.s - progress.here.s))
+                        : std::nullopt;
+  if (half) middle = &*half;  // of the part before the kink
   StepEvents found = passage_events(walker, progress, kink, end, middle, following.events, curve);
   if (closed) end_at(*start, found);
   if (!passes_by(report, end, found, progress, curve, refused)) return Outcome::shorten;
   if (keep(walker, StepSamples(progress.here, middle && middle->s < end.s ? middle : nullptr, end),
-           following.at_hit, found, curve))
+           meets_kink && !closed, following.at_hit, found, curve))
     return Outcome::stop;
   if (meets_kink && !closed) {
     curve.log.push_back({progress.here.s, kink.point.s - progress.here.s,

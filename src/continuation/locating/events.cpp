@@ -98,6 +98,16 @@ SampledFunction value_on(const TestedStep& arc, const Event& event,
   };
 }
 
+Hit hit_of(const Event& event, CurvePoint point, double before, double after) {
+  return {.kind = HitKind::user,
+          .name = event.name,
+          .point = std::move(point),
+          .s_before = before,
+          .s_after = after,
+          .stops = event.action == EventAction::stop,
+          .tag = event.tag};
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
@@ -129,13 +139,7 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
       scale <= clear_of_rounding * scatter_of(arc, samples, event, values))
     return true;
   const auto add = [&](CurvePoint point, double before, double after) {
-    found.push_back({.kind = HitKind::user,
-                     .name = event.name,
-                     .point = std::move(point),
-                     .s_before = from.s + before,
-                     .s_after = from.s + after,
-                     .stops = event.action == EventAction::stop,
-                     .tag = event.tag});
+    found.push_back(hit_of(event, std::move(point), from.s + before, from.s + after));
   };
   const double begin =
       from.s > 0 ? 0 : exact_model * h;  // a start that is on the event does not meet it
@@ -159,6 +163,59 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
     if (beyond != 0 && (beyond < 0) != (values.front() < 0)) add(*samples.back(), h, h);
   }
   return search.resolved;
+}
+
+/// A special point shows the curve where its samples did not: between two of them an event changes its sign once more than was
+/// found, as where a force has passed its limit and comes back within the step.
+/// @param found  all special points of the step, in order
+bool add_between_special(const TestedStep& arc, Samples samples, const Event& event,
+                         std::vector<Hit>& found) {
+  struct Known {
+    double ds = 0, value = 0;
+  };
+  const CurvePoint &from = *samples.front(), &to = *samples.back();
+  const EventValue first = value_of(event, from), last = value_of(event, to);
+  std::vector<Known> known{{0, first.value}};
+  const auto is_inside = [&](const Hit& hit) { return hit.point.s > from.s && hit.point.s < to.s; };
+  const auto is_own = [&](const Hit& hit) {
+    return hit.kind == HitKind::user && hit.tag == event.tag && hit.name == event.name;
+  };
+  for (const Hit& hit : found)
+    if (is_inside(hit) && !is_own(hit))
+      known.push_back({hit.point.s - from.s, event.value(hit.point)});
+  known.push_back({arc.length(), last.value});
+  double scale = 0;
+  for (const Known& k : known) scale = std::max(scale, std::abs(k.value));
+  const double noise = std::max({first.noise, last.noise, refined_step * scale});
+  // A special point may lie on the event with a double zero, which has no sign within the root of its rounding.
+  const double clear = std::max(noise, root_of_rounding * scale);
+  const std::array<double, 2> ends{first.value, last.value};
+  const SampledFunction value = value_on(arc, event, ends);
+  std::vector<Hit> more;
+  for (std::size_t i = 1; i < known.size(); ++i) {
+    const auto [a, before] = known[i - 1];
+    const auto [b, after] = known[i];
+    const bool changes = std::min(std::abs(before), std::abs(after)) > clear && before * after < 0;
+    const bool told = std::any_of(found.begin(), found.end(), [&](const Hit& hit) {
+      const double ds = hit.point.s - from.s;
+      return is_own(hit) && ds >= a - together && ds <= b + together;
+    });
+    if (!changes || told || !(b - a > 2 * together)) continue;
+    // At the very special points a value may be another one than beside them.
+    const auto behind = value(a + together), ahead = value(b - together);
+    if (!behind || !ahead || !(*behind * before > 0) || !(*ahead * after > 0)) continue;
+    const ZeroSearch search = find_zeros(value, a, b, noise, one_place * arc.length());
+    if (!search.resolved) return false;
+    for (const ZeroOf& zero : search.zeros) {
+      auto point = zero.touches ? std::nullopt : arc.point_once(zero.at);
+      if (zero.touches) continue;
+      if (!point) return false;
+      more.push_back(hit_of(event, std::move(*point), from.s + zero.before, from.s + zero.after));
+    }
+  }
+  found.insert(found.end(), more.begin(), more.end());
+  sort_by_place(found);
+  return true;
 }
 
 }  // namespace
@@ -196,6 +253,12 @@ StepEvents events_on_step(const Walker& walker, const CurvePoint& from, const Cu
     known.values.swap(known.next);
   }
   sort_by_place(result.hits);
+  const bool shown = !result.hits.empty();
+  for (std::size_t i = 0; shown && i < events.size(); ++i)
+    if (!add_between_special(arc, samples, events[i], result.hits)) {
+      result.doubt = "event \"" + events[i].name + "\" could not be located";
+      result.of_caller = true;
+    }
   return result;
 }
 

@@ -259,16 +259,16 @@ CurvePoint least_blurred(const TestedStep& step, const CurvePoint& corrected) {
 
 }  // namespace
 
-std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
-                                            const std::vector<Hit>& hits) {
+std::vector<CurvePoint> points_between_special(const Walker& walker, Samples samples,
+                                               const std::vector<double>& places) {
   std::vector<CurvePoint> points;
-  if (hits.size() < 2) return points;
+  if (places.size() < 2) return points;
   const CurvePoint& from = *samples.front();
   const bool has_unknowns =
       from.x.size() > 0;  // else lambda alone is left: a body that is driven in all its ways
   const TestedStep step(walker, samples);
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    const double left = std::max(hits[i - 1].point.s, from.s), right = hits[i].point.s;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double left = std::max(places[i - 1], from.s), right = places[i];
     for (const double share : {0.5, near_share, 1 - near_share}) {
       const double s = left + share * (right - left);
       if (!(s > left && s < right)) break;

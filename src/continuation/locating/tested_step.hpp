@@ -106,10 +106,11 @@ class TestedStep {
   mutable bool passing_ = false;
 };
 
-/// One point of the curve between any two neighbouring special points of a step, with the number of negative eigenvalues
-/// there; none where they lie so close together that rounding decides on which branch it lies.
-std::vector<CurvePoint> points_between_hits(const Walker& walker, Samples samples,
-                                            const std::vector<Hit>& hits);
+/// One point of the curve between any two neighbouring special points on a step, kinks at its ends among them, with the number
+/// of negative eigenvalues there; none where they lie so close together that rounding decides on which branch it lies.
+/// @param places  arc lengths of the special points, in order
+std::vector<CurvePoint> points_between_special(const Walker& walker, Samples samples,
+                                               const std::vector<double>& places);
 
 /// A special point on the arc before its label is final.
 struct Candidate {
