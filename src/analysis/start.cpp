@@ -167,10 +167,7 @@ statics::FirstEquilibrium find_start(const Setup& setup, const Study& study, Sta
   report_move(setup, study, problem, first, report);
   if (!setup.origins_found) {
     report.found = false;
-    report.where = study.start.pose.size() > 0 ? "start.pose" : "body";
-    report.message =
-        "the chains cannot be closed in the start pose, from which springs with origin "
-        "= \"start\" are counted: check the poses, lengths and initial coordinates";
+    explain_origins(setup, study, problem, report);
   }
   return first;
 }

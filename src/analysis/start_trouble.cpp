@@ -229,6 +229,21 @@ std::string free_motions(const statics::System& system, const Vector& z,
   return text;
 }
 
+void explain_origins(const Setup& setup, const Study& study, statics::StartProblem problem,
+                     StartReport& report) {
+  const std::string from_there =
+      "springs with origin = \"start\" are counted from the start pose: ";
+  if (problem.unknowns == StartUnknowns::pose) problem.unknowns = StartUnknowns::wrench;
+  if (setup.system.size > most_looked_into) {
+    report.where = pose_key(setup, study);
+    report.message = "the chains cannot be closed there";
+    report.advice = "check the poses, lengths and initial coordinates";
+  } else {
+    explain_gap(setup, study, problem, report);
+  }
+  report.message = from_there + report.message;
+}
+
 void explain_failure(const Setup& setup, const Study& study, const statics::StartProblem& problem,
                      const statics::FirstEquilibrium& first, StartReport& report) {
   switch (first.status) {

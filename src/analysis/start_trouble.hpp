@@ -13,6 +13,10 @@ namespace springfold::analysis {
 void explain_failure(const Setup& setup, const Study& study, const statics::StartProblem& problem,
                      const statics::FirstEquilibrium& first, StartReport& report);
 
+/// The same where the chains cannot be closed in the start pose, from which springs with origin = "start" are counted.
+void explain_origins(const Setup& setup, const Study& study, statics::StartProblem problem,
+                     StartReport& report);
+
 /// The motions without stiffness at a state, by the coordinates that move most: "tool.x, leg.knee";
 /// several of them separated by ";". Empty where there are none.
 /// @param z  closed state with its wrenches

@@ -56,7 +56,7 @@ int judge(const Case& the_case, const StudyResult& result, const Session& sessio
   }
   if (!problem.empty()) {
     say(session, name_of(result) + ": nothing was traced: " + problem);
-    return partial;
+    return no_start_point;
   }
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
@@ -88,7 +88,8 @@ int judge_rows(const Case& the_case, const Results& results, const Session& sess
   for (const StudyResult& result : results.list) {
     if (!result.row || result.row->complete) continue;
     ++incomplete[result.study];
-    code = worse(code, result.start.found ? partial : no_start_point);
+    const bool has_start = result.start.found && result.start.outside.empty();
+    code = worse(code, has_start ? partial : no_start_point);
   }
   for (const auto& sweep : the_case.sweeps)
     if (const int count = incomplete[sweep.study]; count > 0)

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
+#include "springfold/statics/system.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -24,21 +26,46 @@ void add_once(std::vector<std::string>& hints, const std::string& hint) {
   if (std::find(hints.begin(), hints.end(), hint) == hints.end()) hints.push_back(hint);
 }
 
-/// Numbers in radians that look like degrees: more than a turn, and not written with deg or pi.
+/// An angle in radians that looks like degrees: more than a turn, and not written with deg or pi.
+void add_angle_hint(const Definition& at, double value, std::vector<std::string>& hints) {
+  const double size = std::abs(value);
+  if (at.place.file.empty() || !(size > 2 * std::numbers::pi) || !std::isfinite(size)) return;
+  if (at.shown.find("deg") != std::string::npos || at.shown.find("pi") != std::string::npos) return;
+  const std::string number = rounded(value, 6);
+  add_once(hints, place_text(at.place, at.key) + ": " + number + " rad is more than " +
+                      rounded(std::floor(size / (2 * std::numbers::pi)), 6) +
+                      " full turns; if degrees are meant write \"" + number + "*deg\"");
+}
+
 void add_angle_hints(const NumberTable& table, const std::vector<double>& values,
                      std::vector<std::string>& hints) {
-  for (NumberId id = 0; id < table.size() && id < values.size(); ++id) {
-    const Definition& at = table.definition(id);
-    if (table.rule(id).unit != "rad" || at.place.file.empty() ||
-        !(std::abs(values[id]) > 2 * std::numbers::pi))
-      continue;
-    if (at.shown.find("deg") != std::string::npos || at.shown.find("pi") != std::string::npos)
-      continue;
-    const std::string number = rounded(values[id], 6);
-    add_once(hints, place_text(at.place, at.key) + ": " + number + " rad is more than " +
-                        rounded(std::floor(std::abs(values[id]) / (2 * std::numbers::pi)), 6) +
-                        " full turns; if degrees are meant write \"" + number + "*deg\"");
-  }
+  for (NumberId id = 0; id < table.size() && id < values.size(); ++id)
+    if (table.rule(id).unit == "rad") add_angle_hint(table.definition(id), values[id], hints);
+}
+
+/// Quantities of a study that are angles: coordinates of joints and bodies, commands.
+std::set<std::string> angles_of(const model::Mechanism& mechanism) {
+  const statics::System system = statics::prepare(mechanism);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < system.coordinate_names.size(); ++i)
+    if (!system.is_wrench[i] && !system.is_length[i]) names.insert(system.coordinate_names[i]);
+  for (std::size_t i = 0; i < system.command_names.size(); ++i)
+    if (!system.command_is_length[i]) names.insert(system.command_names[i] + ".rho");
+  return names;
+}
+
+/// What limits and marks are in is known from the mechanism only.
+void add_range_hints(const StudyDraft& study, const std::vector<double>& values,
+                     const model::Mechanism& mechanism, std::vector<std::string>& hints) {
+  if (study.until.empty() && study.marks.empty()) return;
+  const std::set<std::string> angles = angles_of(mechanism);
+  const auto look = [&](const NamedPlace& quantity, NumberId id) {
+    if (angles.contains(quantity.name))
+      add_angle_hint(study.numbers.definition(id), values[id], hints);
+  };
+  for (const LimitDraft& limit : study.until)
+    for (const NumberId id : {limit.low, limit.high}) look(limit.quantity, id);
+  for (const MarkDraft& mark : study.marks) look(mark.quantity, mark.value);
 }
 
 /// A joint with the line that it turns about or the direction that it slides along, seen from the begin
@@ -107,6 +134,7 @@ void add_hints(const CaseDraft& draft, std::size_t study, const std::vector<doub
                std::vector<std::string>& hints) {
   add_angle_hints(draft.mechanism.numbers, of_mechanism, hints);
   add_angle_hints(draft.studies[study].numbers, of_study, hints);
+  add_range_hints(draft.studies[study], of_study, mechanism, hints);
   for (std::size_t i = 0; i < draft.mechanism.chains.size(); ++i)
     add_line_hints(draft.mechanism.chains[i], mechanism.chains[i], of_mechanism, hints);
 }

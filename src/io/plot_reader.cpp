@@ -62,8 +62,10 @@ void check_vary_labels(const Item& markup, const PlotCurves& curves,
 std::string curves_example(const Node* curves, const std::vector<StudyDraft>& studies) {
   std::string study = "...";
   const Node* named = curves;
-  if (curves && curves->kind == Node::Kind::table && curves->find("study"))
-    named = curves->find("study");
+  if (curves && curves->kind == Node::Kind::array && !curves->items.empty())
+    named = &curves->items.front();
+  if (named && named->kind == Node::Kind::table && named->find("study"))
+    named = named->find("study");
   const auto has_name = [named](const StudyDraft& s) { return s.name == named->text; };
   if (named && named->kind == Node::Kind::text &&
       std::any_of(studies.begin(), studies.end(), has_name))

@@ -169,7 +169,8 @@ std::vector<Item> list_of_tables(const Item& list, Reading& reading, const std::
                              std::to_string(most_tables));
     items.resize(most_tables);
   }
-  std::erase_if(items, [&](const Item& item) { return !is_table(item, "a table", reading); });
+  const std::string one = example.empty() ? "a table" : "a table as in " + example;
+  std::erase_if(items, [&](const Item& item) { return !is_table(item, one, reading); });
   return items;
 }
 

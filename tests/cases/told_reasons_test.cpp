@@ -236,6 +236,29 @@ TEST(RefusedQuestions, AboutStableStatesAreDoubtsWhoseReasonTheScreenShows) {
               HasSubstr("UNRESOLVED: jumps: the start is not"));
 }
 
+TEST(UnreachableStart, FromWhichSpringsAreCountedNamesChainGapAndPlaceAsAnyOther) {
+  // Links of 1 and 0.8 reach 1.8; the pose is 2.2 away.
+  const auto start = [](const std::string& counted) {
+    const Ran ran = run(
+        "[[body]]\nname = \"tool\"\ntask_space = \"xy\"\npose = [2.2, 0]\n[[chain]]\nname = "
+        "\"leg\"\n"
+        "elements = [{ joint = \"revolute\", axis = \"z\", name = \"foot\" }, { rigid = [1, 0] }, "
+        "{ "
+        "joint = \"revolute\", axis = \"z\", name = \"knee\", role = \"preloaded\", initial = 0.9, "
+        "spring = { law = \"linear\", stiffness = 1, " +
+        counted +
+        " } }, { rigid = [0.8, 0] }]\n[[study]]\nname = \"s\"\ncontrol = \"pose\"\ndirection = [0, "
+        "-1]\nstart = { solve = \"wrench\" }\nuntil = { lambda = [-1, 1] }\n");
+    return ran.of("s").start;
+  };
+  const auto counted = start("origin = \"start\""), plain = start("free = 0.9");
+  EXPECT_FALSE(counted.found);
+  EXPECT_THAT(counted.message, AllOf(HasSubstr("origin = \"start\""), HasSubstr(plain.message),
+                                     HasSubstr("chain leg is short by 0.4")));
+  EXPECT_EQ(counted.where, "body.tool");
+  EXPECT_EQ(counted.advice, plain.advice);
+}
+
 TEST(EndOfTheReach, OfACrankIsItsDeadCentreWhereTheForceHasNoBound) {
   // F = c (1 - t)/sin t with cos t the place of its tip: it grows all the way to t = 0, and there is nothing else.
   const StudyResult result =

@@ -245,6 +245,17 @@ TEST_F(Program, TellsWhenAComparedValueDoesNotHold) {
   EXPECT_THAT(outcome.err, HasSubstr("1 of 1 compared values do not hold"));
 }
 
+TEST_F(Program, SaysTheSameOfAStartOutsideOfItsLimitsBeforeAndAfterTheRun) {
+  std::string text = small_case();
+  const std::string limits = "deflection = [-0.1, 0.3]";
+  text.replace(text.find(limits), limits.size(), "deflection = [0.1, 0.3]");
+  put_text(case_file(), text);
+  EXPECT_EQ(run({"check", case_file().string()}).code, no_start_point);
+  const Outcome outcome = run_case();
+  EXPECT_EQ(outcome.code, no_start_point);
+  EXPECT_THAT(outcome.err, HasSubstr("nothing was traced"));
+}
+
 TEST_F(Program, ClosesCleanlyWhenInterrupted) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const InterruptGuard guard;

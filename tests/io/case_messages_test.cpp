@@ -138,6 +138,10 @@ TEST_F(CaseMessages, OfNamesNameTheNearestKnownOne) {
   EXPECT_THAT(after("curves = [{ study = \"Q2\"", "curves = [{ study = \"Q1\""),
               ElementsAre("case.toml:47:21: plot[1].curves[1].study: no study \"Q1\", did you mean "
                           "\"Q2\"?"));
+  EXPECT_THAT(
+      after("curves = [{ study", "curves = [\"Q2\", { study"),
+      ElementsAre("case.toml:47:11: plot[1].curves[1]: got \"Q2\", need a table as in curves "
+                  "= [{ study = \"Q2\" }]"));
   EXPECT_THAT(after("parameter = \"Kv\"", "parameter = \"Kw\""),
               ElementsAre("case.toml:36:22: study[1].vary.parameter: no parameter \"Kw\", did you "
                           "mean \"Kv\"?"));

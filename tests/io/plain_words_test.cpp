@@ -74,6 +74,16 @@ TEST_F(PlainWords, HintAtDegreesForRadiansAndAtCranksWithoutLength) {
   EXPECT_THAT(degrees.hints,
               ElementsAre(HasSubstr("elements[2].initial: 20 rad is more than 3 full "
                                     "turns; if degrees are meant write \"20*deg\"")));
+  const Case limits =
+      load(replaced(orthoglide_text(), "\"-80*deg\", \"80*deg\"", "-80, \"80*deg\""));
+  EXPECT_THAT(limits.hints,
+              ElementsAre(HasSubstr("until.leg_x.knee[1]: -80 rad is more than 12 full "
+                                    "turns; if degrees are meant write \"-80*deg\"")));
+  const Case marks = load(replaced(orthoglide_text(), "mark = { deflection = [0.1, 0.2] }",
+                                   "mark = { \"leg_y.knee\" = 45, \"tool.x\" = 45 }"));
+  EXPECT_THAT(marks.hints,
+              ElementsAre(HasSubstr("mark.leg_y.knee: 45 rad is more than 7 full turns")))
+      << "a length has no turns";
   const Case crank =
       load(replaced(orthoglide_text(), "{ rigid = [\"-L\", 0] }",
                     "{ joint = \"revolute\", axis = \"z\", name = \"pin\" }, { rigid = "
