@@ -12,7 +12,8 @@ class Evaluator;
 ///  - an extremum of the force at a switching beyond which the force stands still is none;
 ///  - remarks on a special point are words of it;
 ///  - a place where only the count of negative eigenvalues in the engine's own piece changes, beside springs
-///    at rest, is none: nothing switches there, and stability is decided on all pieces together.
+///    at rest, is none: nothing switches there, and stability is decided on all pieces together;
+///  - nor is a breakpoint between segments of one stiffness, where the law goes straight on.
 continuation::Curve with_hits_merged(continuation::Curve curve, const Evaluator& evaluator);
 
 }  // namespace springfold::analysis

@@ -203,7 +203,7 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
     if (hit.kind == HitKind::unresolved) hit = settled(hit, t.problem, source).value_or(hit);
     const bool is_known = std::any_of(hits.begin(), hits.end(),
                                       [&](const Hit& other) { return is_same_kind(other, hit); });
-    if (is_known || only_switches(hit, t.evaluator)) continue;
+    if (is_known) continue;
     hits.push_back(placed_at(start, std::move(hit)));
   }
   return hits;

@@ -1,4 +1,4 @@
-// What the start of a branch itself is: limit points, corners and changes of stability that lie on it. Private to
+// What the start of a branch itself is: limit points, switchings, corners and changes of stability that lie on it. Private to
 // analysis.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace springfold::analysis {
 /// an interval that reaches back to the start is the start as well, and is taken from them. A flat limit point, which
 /// rounding does not place, is told by the rates of lambda beside it, or said to be unresolved. A closed curve that begins on
 /// a special point becomes two halves (closed_start.hpp).
-/// @returns the special points at the start, s = 0, in the direction of the forward curve; marks and plain switchings,
-/// which other parts of a result tell, are left out
+/// @returns the special points at the start, s = 0, in the direction of the forward curve, switchings of springs on whose
+/// thresholds it lies among them; marks, which start_marks.hpp tells, are left out
 std::vector<continuation::Hit> hits_at_start(const Following& with, BranchSource& source);
 
 bool is_same_kind(const continuation::Hit& a, const continuation::Hit& b);

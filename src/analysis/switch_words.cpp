@@ -1,5 +1,7 @@
 #include "switch_words.hpp"
 
+#include <algorithm>
+
 #include "branch_rows.hpp"
 
 namespace springfold::analysis {
@@ -17,17 +19,36 @@ std::size_t first_switch_of(const statics::System& system, const statics::Switch
                                                : system.springs[s.spring].first_switch);
 }
 
+namespace {
+
+std::size_t segment_in(const statics::System& system, const statics::Switch& s,
+                       const Piece& piece) {
+  return s.of_shape() ? segment_of(system.shapes[s.spring], piece)
+                      : segment_of(system.springs[s.spring], piece);
+}
+
+}  // namespace
+
+bool is_between_equal_segments(const statics::System& system, const continuation::Hit& hit,
+                               const Piece& before, const Piece& after) {
+  return !hit.switches.empty() &&
+         std::all_of(hit.switches.begin(), hit.switches.end(), [&](Index j) {
+           const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
+           const model::CompiledSpring& law = law_of(system, s);
+           const std::size_t from = segment_in(system, s, before),
+                             to = segment_in(system, s, after);
+           return law.is_straight(from) && law.is_straight(to) &&
+                  law.stiffness(from, s.breakpoint) == law.stiffness(to, s.breakpoint);
+         });
+}
+
 std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
                              const Piece& before, const Piece& after) {
   std::string text;
   for (const Index j : hit.switches) {
     const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
     const model::CompiledSpring& law = law_of(system, s);
-    const auto segment_in = [&](const Piece& piece) {
-      return s.of_shape() ? segment_of(system.shapes[s.spring], piece)
-                          : segment_of(system.springs[s.spring], piece);
-    };
-    const std::size_t from = segment_in(before), to = segment_in(after);
+    const std::size_t from = segment_in(system, s, before), to = segment_in(system, s, after);
     const double k_from = law.stiffness(from, s.breakpoint);
     const double k_to = law.stiffness(to, s.breakpoint);
     const bool was_flat = k_from == 0 && law.is_straight(from);

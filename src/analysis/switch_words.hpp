@@ -13,6 +13,10 @@ const model::CompiledSpring& law_of(const statics::System& system, const statics
 const std::string& name_of(const statics::System& system, const statics::Switch& s);
 std::size_t first_switch_of(const statics::System& system, const statics::Switch& s);
 
+/// Are the laws of all springs that switch there one straight line on both sides? Then nothing changes.
+bool is_between_equal_segments(const statics::System& system, const continuation::Hit& hit,
+                               const Piece& before, const Piece& after);
+
 /// "spring leg.knee becomes active (segment 0 to 1)", one for each spring that switches.
 std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
                              const Piece& before, const Piece& after);
