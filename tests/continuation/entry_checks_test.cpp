@@ -35,6 +35,35 @@ TEST(EntryChecks, PiecesOfAWrongSizeAreRefused) {
   EXPECT_THROW(rays_from(problem, zero_vector, 0, Piece{0}, {}), std::invalid_argument);
 }
 
+TEST(EntryChecks, APieceOfAProblemWithoutSwitchesIsRefused) {
+  const auto problem = circle();
+  const Vector x{{0.6}};
+  const Piece piece{1};
+  EXPECT_THROW(rays_from(problem, x, 0.8, piece, {}), std::invalid_argument);
+  EXPECT_THROW(trace(problem, x, 0.8, Ray{piece, {Vector{{0.8}}, -0.6}}, {}, {}),
+               std::invalid_argument);
+  EXPECT_THROW(trace_diagram(problem, {{x, 0.8, piece}}, {}, {}), std::invalid_argument);
+}
+
+TEST(EntryChecks, AnEventWithoutAFunctionIsNamed) {
+  const auto problem = circle();
+  const Vector x{{0.6}};
+  const std::vector<Event> events{{.name = "half-way"}};
+  const Ray ray{{}, {Vector{{0.8}}, -0.6}};
+  const auto text = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string wanted = "the event \"half-way\" has no function `value`";
+  EXPECT_EQ(text([&] { trace(problem, x, 0.8, ray, events, {}); }), wanted);
+  EXPECT_EQ(text([&] { davidenko(problem, x, 0.8, ray, events, {}); }), wanted);
+  EXPECT_EQ(text([&] { trace_diagram(problem, {{x, 0.8, {}}}, events, {}); }), wanted);
+}
+
 TEST(EntryChecks, AnEmptyRayIsRefused) {
   const OneSidedModes problem;
   EXPECT_THROW(trace(problem, zero_vector, 0, Ray{above({true}), {}, {}, {}}, {}, {}),

@@ -27,6 +27,10 @@ void check_search(ProblemView problem, double lambda, const std::vector<Vector>&
 /// @throws std::invalid_argument
 void check_curve(ProblemView problem, const Curve& curve);
 
+/// Every event has a value to watch.
+/// @throws std::invalid_argument
+void check_events(const std::vector<Event>& events);
+
 /// The same of the ray along which a curve is to be followed.
 /// @throws std::invalid_argument
 void check_ray(ProblemView problem, const Ray& ray);

@@ -366,6 +366,7 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer) {
   if (starts.empty()) return {};
+  check_events(events);
   try {
     for (const DiagramStart& start : starts)
       check_entry(problem, start.x, start.lambda, start.piece, options.trace);

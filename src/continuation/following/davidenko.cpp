@@ -354,6 +354,7 @@ Curve davidenko(ProblemView problem, const Vector& x, double lambda, const Ray& 
                 const StepObserver& observer) {
   check_entry(problem, x, lambda, start.piece, options);
   check_ray(problem, start);
+  check_events(events);
   const Walker walker{problem, problem.metric(), options};
   Walk walk{walker, everything_to_watch(events, options.limit_points)};
   Progress& progress = walk.progress;

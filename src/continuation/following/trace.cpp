@@ -122,6 +122,7 @@ Curve trace_normalised(ProblemView problem, const Vector& x, double lambda, cons
                        std::vector<CurvePoint>* middles) {
   check_entry(problem, x, lambda, start.piece, options);
   check_ray(problem, start);
+  check_events(events);
   const Normalised own(problem, x, lambda, start.piece);
   Curve curve = own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start),
                                          own.inside(events), options, own.inside(observer),

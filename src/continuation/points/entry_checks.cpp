@@ -19,9 +19,7 @@ void check_size(ProblemView problem) {
 }
 
 void check_piece(ProblemView problem, const Piece& piece) {
-  const Index m = problem.switch_count();
-  // A piece may be left out where no switch acts.
-  if (m > 0) expect(static_cast<Index>(piece.size()), m, "the piece");
+  expect(static_cast<Index>(piece.size()), problem.switch_count(), "the piece");
   if (std::any_of(piece.begin(), piece.end(), [](auto side) { return side != 1 && side != -1; }))
     refuse("the piece has sides that are neither +1 nor -1");
 }
@@ -111,6 +109,11 @@ void check_point(ProblemView problem, const Vector& x, double lambda, const Piec
   check_piece(problem, piece);
   check_constants(problem);
   check_evaluation(problem, x, lambda, piece);
+}
+
+void check_events(const std::vector<Event>& events) {
+  for (const Event& event : events)
+    if (!event.value) refuse("the event \"" + event.name + "\" has no function `value`");
 }
 
 void check_ray(ProblemView problem, const Ray& ray) {
