@@ -7,11 +7,13 @@
 #include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
 #include "degenerate_state.hpp"
+#include "equilibrium_families.hpp"
 #include "equilibrium_search.hpp"
 #include "frozen.hpp"
 #include "limits.hpp"
 #include "locked_chains.hpp"
 #include "morse.hpp"
+#include "springfold/analysis/equilibrium_notes.hpp"
 #include "springfold/model/rotation_vector.hpp"
 #include "start.hpp"
 
@@ -70,6 +72,35 @@ void take_back_counts(const std::vector<QuantityDefinition>& quantities, Equilib
     if (quantities[q].kind == Kind::index || quantities[q].kind == Kind::index_force)
       state.sample.values[q] = undefined;
   state.note += (state.note.empty() ? "" : "; ") + std::string(degenerate_note);
+}
+
+/// Singular equilibria that fill lines: of each line one stays, with a note.
+struct LinesOfEquilibria {
+  std::vector<bool> is_left_out{};
+  std::vector<std::string> notes{};  ///< empty: no family
+};
+
+LinesOfEquilibria lines_among(const PathProblem& problem, const Evaluator& evaluator,
+                              const std::vector<FoundEquilibrium>& found, const Vector* start,
+                              const std::function<bool()>& goes_on) {
+  LinesOfEquilibria lines{std::vector<bool>(found.size(), false),
+                          std::vector<std::string>(found.size())};
+  std::vector<std::size_t> singular;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!is_index_untold(evaluator, point_at(problem, found[i]))) continue;
+    const bool is_start =
+        start != nullptr && same_equilibrium(problem.system(0), found[i].z, *start);
+    singular.insert(is_start ? singular.begin() : singular.end(), i);
+  }
+  for (const EquilibriumFamily& family : equilibrium_families(problem, found, singular, goes_on)) {
+    for (const std::size_t i : family.others) lines.is_left_out[i] = true;
+    const std::size_t met = family.others.size() + 1;
+    lines.notes[family.shown] =
+        std::string(family_note) + " that fill a line through it" +
+        (met > 1 ? ", " + std::to_string(met) + " of which the search met" : "") +
+        "; its stability is not told";
+  }
+  return lines;
 }
 
 /// The same state with rotation vectors of at most half a turn.
@@ -161,8 +192,17 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
   const std::vector<Index>& full = all.full;
   std::vector<FoundEquilibrium>& distinct = all.distinct;
   sort(distinct, problem);
-  for (const FoundEquilibrium& f : distinct) {
+  bool is_wanted = !all.search.interrupted;
+  const auto goes_on = [&] {
+    is_wanted = is_wanted && (!observer || observer(report.starts, 0));
+    return is_wanted;
+  };
+  const LinesOfEquilibria lines =
+      lines_among(problem, evaluator, distinct, result.start.found ? &first.z : nullptr, goes_on);
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    const FoundEquilibrium& f = distinct[i];
     const CurvePoint point = point_at(problem, f);
+    if (lines.is_left_out[i]) continue;
     if (limit_passed(study, evaluator, quantities, point)) {
       ++report.out_of_range;
       continue;
@@ -173,6 +213,7 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;
     if (is_index_untold(evaluator, point)) take_back_counts(quantities, equilibrium);
+    if (!lines.notes[i].empty()) equilibrium.note = lines.notes[i];
     equilibrium.is_start = result.start.found && same_equilibrium(problem.system(0), f.z, first.z);
     if (const std::string locked = locked_chains(problem, evaluator, f, full); !locked.empty()) {
       ++report.locked;
@@ -192,6 +233,8 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
   if (all.search.interrupted)
     result.doubts.push_back("interrupted: the search ended after " +
                             std::to_string(all.search.starts) + " starts");
+  else if (!is_wanted)
+    result.doubts.push_back("interrupted: some of the equilibria may lie on one line");
   if (report.morse.applies && report.morse.found != report.morse.expected)
     result.doubts.push_back("the search missed equilibria: the sum of (-1)^index is " +
                             std::to_string(report.morse.found) + ", it must be " +

@@ -9,6 +9,7 @@
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "springfold/analysis/design.hpp"
+#include "springfold/analysis/equilibrium_notes.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "summary_line.hpp"
 #include "transition_access.hpp"
@@ -60,16 +61,24 @@ Extremes extremes_of(const std::vector<Sample>& samples, std::size_t column) {
 }
 
 std::string search_words(const StudyResult& result) {
-  int stable = 0, untold = 0;
+  int stable = 0, untold = 0, families = 0;
   const auto column = column_of(result, "index");
   for (const auto& e : result.equilibria->list) {
     if (column && e.sample.values[*column] == 0) ++stable;
-    if (column && std::isnan(e.sample.values[*column])) ++untold;
+    const bool is_untold = column && std::isnan(e.sample.values[*column]);
+    if (e.note.starts_with(analysis::family_note))
+      ++families;
+    else if (is_untold)
+      ++untold;
   }
   const auto count = static_cast<int>(result.equilibria->list.size());
   return "at least " + std::to_string(count) + (count == 1 ? " equilibrium" : " equilibria") +
          ", " + std::to_string(stable) + " of them stable" +
-         (untold > 0 ? ", " + std::to_string(untold) + " at a limit or branch point" : "");
+         (untold > 0 ? ", " + std::to_string(untold) + " at a limit or branch point" : "") +
+         (families > 0 ? ", " + std::to_string(families) +
+                             (families == 1 ? " standing for a whole line of them"
+                                            : " standing for whole lines of them")
+                       : "");
 }
 
 /// Which of the rows are held, and whether they are stable there.
