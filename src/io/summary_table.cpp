@@ -118,7 +118,11 @@ std::string left_out(const StudyResult& result) {
       labels +=
           (labels.empty() ? "" : ", ") + counted(static_cast<int>(count), "way") + " at " + label;
   }
-  if (!labels.empty()) return "not followed, beyond branches.depth or .maximum: " + labels;
+  const bool is_interrupted =
+      std::any_of(result.doubts.begin(), result.doubts.end(),
+                  [](const std::string& doubt) { return doubt.starts_with("interrupted"); });
+  const std::string why = is_interrupted ? "interrupted" : "beyond branches.depth or .maximum";
+  if (!labels.empty()) return "not followed, " + why + ": " + labels;
   if (!result.junctions.empty()) return "";
   for (const auto& branch : result.branches)
     for (const auto& event : branch.events)

@@ -106,6 +106,16 @@ TEST(SummaryOfADiagram, SaysWhereBranchesBeginAndWhatIsLeftOut) {
   EXPECT_TRUE(complete(result));
 }
 
+TEST(SummaryOfADiagram, SaysOfAnInterruptedOneWhyBranchesAreMissing) {
+  StudyResult result = forked();
+  result.junctions.push_back(
+      {.kind = EventKind::branching_kink, .label = "KB1", .ways = {1, 0, 0}});
+  result.doubts = {"interrupted: 2 branches were not traced"};
+  const std::string table = summary_table(one_run(), {result});
+  EXPECT_THAT(table, HasSubstr("not followed, interrupted: 2 ways at KB1"));
+  EXPECT_THAT(table, testing::Not(HasSubstr("branches.depth")));
+}
+
 TEST(SummaryOfADiagram, SaysWhatIsNotFollowedWithoutBranching) {
   StudyResult result = forked();
   result.branches.resize(1);
