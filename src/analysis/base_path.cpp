@@ -121,20 +121,16 @@ const Hit* hit_at_start(const std::vector<Hit>& hits, EventKind kind) {
 
 /// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise one for
 /// each of them, with itself alone behind it: on either side of the parameter another one may be the first.
-std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves, const SpecialPoint& point,
+std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves,
+                                              const std::vector<Index>& switches,
                                               CriticalStart start) {
-  const Hit& hit = point.hit;
-  if (hit.switches.empty() || hit.leaving.empty()) return {};
-  start.kind = CriticalKind::surface;
-  start.switching = hit.switches.front();
-  start.behind = hit.leaving.front().piece;
-  if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
-    start.turns = force_turns(curves);
-  if (hit.switches.size() == 1) return {start};
+  if (switches.empty()) return {};
+  start.switching = switches.front();
+  if (switches.size() == 1) return {start};
   std::vector<CriticalStart> starts;
   std::optional<continuation::CriticalPoint> first;
   bool together = true;
-  for (const Index j : hit.switches) {
+  for (const Index j : switches) {
     CriticalStart one = start;
     one.switching = j;
     one.behind = one.piece;
@@ -151,6 +147,18 @@ std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves, const Sp
   }
   if (together) return {start};
   return starts;
+}
+
+/// The same at a switching or corner of a path.
+std::vector<CriticalStart> starts_at_switching(const CaseCurves& curves, const SpecialPoint& point,
+                                               CriticalStart start) {
+  const Hit& hit = point.hit;
+  if (hit.leaving.empty()) return {};
+  start.kind = CriticalKind::surface;
+  start.behind = hit.leaving.front().piece;
+  if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
+    start.turns = force_turns(curves);
+  return starts_on_surfaces(curves, hit.switches, std::move(start));
 }
 
 /// The place of a special point, to be followed.
@@ -293,7 +301,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return start;
     case EventKind::switching:
     case EventKind::corner_limit_point:
-      if (auto starts = starts_on_surfaces(curves, point, start); starts.size() == 1)
+      if (auto starts = starts_at_switching(curves, point, start); starts.size() == 1)
         return std::move(starts.front());
       why = several_switch(point);
       return std::nullopt;
@@ -314,13 +322,29 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
   if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point) {
-    auto starts = starts_on_surfaces(curves, point, start_at(member, point));
+    auto starts = starts_at_switching(curves, point, start_at(member, point));
     if (starts.empty()) why = several_switch(point);
     return starts;
   }
   auto start = critical_start(curves, member, point, why);
   if (!start) return {};
   return {std::move(*start)};
+}
+
+std::vector<CriticalStart> critical_starts_again(const CaseCurves& curves, const Member& member,
+                                                 const SpecialPoint& point, CriticalStart same) {
+  if (same.kind == CriticalKind::zero) {
+    const CurvePoint here{.x = same.x, .lambda = same.lambda, .piece = same.piece};
+    same.value = point.kind == EventKind::limit_point
+                     ? force_rate_of(curves, here)
+                     : marked_value_on(curves, member, point, same.piece);
+  }
+  if (same.kind != CriticalKind::surface) return {std::move(same)};
+  if (same.turns) same.turns = force_turns(curves);
+  std::vector<Index> switches;
+  for (std::size_t j = 0; j < same.piece.size(); ++j)
+    if (same.piece[j] != same.behind[j]) switches.push_back(static_cast<Index>(j));
+  return starts_on_surfaces(curves, switches, std::move(same));
 }
 
 }  // namespace springfold::analysis

@@ -67,4 +67,12 @@ std::vector<continuation::CriticalStart> critical_starts(const CaseCurves& curve
                                                          const SpecialPoint& point,
                                                          std::string& why);
 
+/// A start on a critical curve of other curves, at its place and at the first value of these: the same kind of point. More than
+/// one as above.
+/// @param member, point  what that curve is one of, with the member on whose path it lies
+std::vector<continuation::CriticalStart> critical_starts_again(const CaseCurves& curves,
+                                                               const Member& member,
+                                                               const SpecialPoint& point,
+                                                               continuation::CriticalStart same);
+
 }  // namespace springfold::analysis

@@ -60,6 +60,19 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter, double lambda_
   base_ = make(value_ / scale_, nullptr);
 }
 
+CaseCurves::CaseCurves(const Study& study, std::size_t parameter, const Member& from,
+                       std::vector<std::pair<std::string, double>> held)
+    : study_{study},
+      parameter_{parameter},
+      name_{study.critical.cases->names[parameter]},
+      value_{study.critical.cases->values[parameter]},
+      scale_{size_of(study.critical, value_)},
+      held_{std::move(held)},
+      begins_at_member_{true} {
+  base_ = make(value_ / scale_, &from);
+  if (!base_) without_start_.emplace(value_ / scale_, why_none_);
+}
+
 /// The set-up that the case with this value has, anew. @param again  the member's own memory is used
 /// @param along  of control mode parameter: the family along the path
 /// @param way    where the start is a state that earlier studies lead to: the way there
@@ -169,7 +182,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   const Vector pose = member->first.z.segment(body.t, body.count);
   if (near != nullptr && member->study.control == ControlMode::load) {
     // The origin of the pose's unknowns is the same for all: a start that vanishes moves at any rate before.
-    setup.rule.t_start = base_->setup.rule.t_start;
+    setup.rule.t_start = (base_ ? *base_ : *near).setup.rule.t_start;
     setup.rule.t_counted =
         member->report.found ? pose : Vector(Vector::Constant(pose.size(), undefined));
   } else {
@@ -209,7 +222,7 @@ const Member* CaseCurves::at(double mu) const {
 }
 
 const Member* CaseCurves::equations_at(double mu) const {
-  if (!base_ || !base_->report.found || !std::isfinite(mu)) return nullptr;
+  if (!base_ || !(base_->report.found || begins_at_member_) || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
   const auto above = recent_.lower_bound(mu);
   if (above != recent_.end() && above->first == mu) {

@@ -59,11 +59,17 @@ class CaseCurves {
   /// @param parameter  its number in study.critical.cases
   /// @param lambda_unit  in that which the response at the case's own start asks for
   CaseCurves(const Study& study, std::size_t parameter, double lambda_unit = 1);
+  /// The same, begun at a member of other curves of the same study: with its scales, and with the start that belongs to its own.
+  /// @param held  parameters that have its values, not the case's own: their names and values
+  CaseCurves(const Study& study, std::size_t parameter, const Member& from,
+             std::vector<std::pair<std::string, double>> held);
 
   double scale() const { return scale_; }  ///< parameter = scale() * mu
   double value() const { return value_; }  ///< of the parameter in the case
   const std::string& name() const { return name_; }
-  const Member& base() const { return *base_; }  ///< base().report.found: can be used
+  const Member& base() const { return *base_; }       ///< base().report.found: can be used
+  bool has_base() const { return base_ != nullptr; }  ///< always, unless begun at a member
+  const std::vector<std::pair<std::string, double>>& held() const { return held_; }
   /// Nothing where the case has no start. Valid for the next two dozen calls.
   const Member* at(double mu) const;
   /// The same where the case has no start, if nothing of it enters the equations (report.found is false then, and what
@@ -112,6 +118,8 @@ class CaseCurves {
   std::string name_{};
   double value_ = 0, scale_ = 1, lambda_unit_ = 1;
   RuledRange rules_{};
+  std::vector<std::pair<std::string, double>> held_{};
+  bool begins_at_member_ = false;  ///< whose case need have no start
   std::unique_ptr<Member> base_{};
   mutable std::optional<Pattern> pattern_{};
   struct Recent {

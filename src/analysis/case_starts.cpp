@@ -46,7 +46,7 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   } else {
     problem.z = near.first.z;
   }
-  if (keeps) problem.inputs.rho = base_->first.inputs.rho;
+  if (keeps) problem.inputs.rho = (base_ ? *base_ : near).first.inputs.rho;
   if (how.solve == StartSolve::actuators)
     problem.inputs.rho = near.first.inputs.rho;
   else
@@ -121,7 +121,7 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
         (above != recent_.end() && above->first - mu < mu - std::prev(below)->first);
     take(upwards ? *(above++)->second.member : *(--below)->second.member);
   }
-  if (nodes.size() < most) take(*base_);
+  if (nodes.size() < most && base_) take(*base_);
   statics::Foresight expected{.z = Vector::Zero(near.first.z.size()),
                               .rho = Vector::Zero(near.first.inputs.rho.size()),
                               .factors = near.first.factors};

@@ -102,13 +102,15 @@ class Beyond {
   using ValueOn = std::function<continuation::StateFunction(const Piece&)>;
 
   /// @param value_on  of a marked value
+  /// @param pieces  that are followed, one per branch of the result
   Beyond(const CaseCurves& curves, const Study& study, const Observer& observer, ValueOn value_on,
-         StudyResult& result)
+         StudyResult& result, std::vector<FollowedCurve>& pieces)
       : curves_{curves},
         study_{base_study(study)},
         observer_{observer},
         value_on_{std::move(value_on)},
-        result_{result} {}
+        result_{result},
+        pieces_{pieces} {}
 
   /// Pieces behind one end of a curve of limit points. @param other  what ends its other side
   /// @returns whether they come round to the other end
@@ -239,6 +241,7 @@ class Beyond {
     for (std::string& doubt : doubts_of(curves_, study_, piece))
       result_.doubts.push_back(std::move(doubt));
     result_.branches.push_back(rows_of(curves_, piece));
+    pieces_.push_back(piece);
     last = std::move(piece);
   }
 
@@ -247,18 +250,22 @@ class Beyond {
   const Observer& observer_;
   ValueOn value_on_;
   StudyResult& result_;
+  std::vector<FollowedCurve>& pieces_;
 };
 
 /// Behind both ends; a closed chain of pieces is followed once.
-void go_on_beyond(const CaseCurves& curves, const Study& study, const FollowedCurve& followed,
-                  const SpecialPoint& point, const Observer& observer, StudyResult& result) {
+/// @param pieces  the one that is followed; those beyond it are added
+void go_on_beyond(const CaseCurves& curves, const Study& study, const CriticalOrigin& origin,
+                  const Observer& observer, StudyResult& result,
+                  std::vector<FollowedCurve>& pieces) {
+  const FollowedCurve followed = pieces.front();
   const bool is_marked = followed.start.kind == continuation::CriticalKind::zero &&
-                         point.kind == EventKind::user_value;
+                         origin.point.kind == EventKind::user_value;
   if (followed.start.kind != continuation::CriticalKind::limit_point && !is_marked) return;
   const auto value_on = [&](const Piece& piece) {
-    return marked_value_on(curves, curves.base(), point, piece);
+    return marked_value_on(curves, *origin.member, origin.point, piece);
   };
-  Beyond beyond(curves, study, observer, value_on, result);
+  Beyond beyond(curves, study, observer, value_on, result, pieces);
   const auto& other = followed.falling.hits;
   if (!beyond.follow(followed.start, followed.growing, other.empty() ? nullptr : &other.back()))
     beyond.follow(followed.start, followed.falling, nullptr);
@@ -279,42 +286,59 @@ void mark_branch_point(const SpecialPoint& point, Branch& branch) {
 
 }  // namespace
 
-void run_critical_curve(const CaseCurves& curves, const BasePath& path, const Study& study,
-                        const Observer& observer, StudyResult& result) {
+std::optional<CriticalOrigin> origin_on_path(const CaseCurves& curves, const BasePath& path,
+                                             const Study& study, StartReport& report) {
   const Member& base = curves.base();
   const auto point =
       std::find_if(path.points.begin(), path.points.end(),
                    [&](const SpecialPoint& p) { return p.label == study.critical.point; });
-  if (!path.problem.empty()) return refuse_start(path, result.start);
+  if (!path.problem.empty()) {
+    refuse_start(path, report);
+    return std::nullopt;
+  }
   std::string why;
   if (point == path.points.end())
     why = "the curve has no " + study.critical.point + "; its special points: " + list_of(path) +
           early_ends(path.branch);
-  std::vector<continuation::CriticalStart> starts;
-  if (why.empty()) starts = critical_starts(curves, base, *point, why);
-  if (starts.empty()) {
-    result.start.found = false;
-    result.start.message = why;
-    return;
+  CriticalOrigin origin;
+  origin.member = &base;
+  if (why.empty()) {
+    origin.point = *point;
+    origin.of = point->kind;
+    origin.starts = critical_starts(curves, base, *point, why);
   }
+  if (!origin.starts.empty()) return origin;
+  report.found = false;
+  report.message = why;
+  return std::nullopt;
+}
+
+std::vector<FollowedCurve> run_critical_curve(const CaseCurves& curves,
+                                              const CriticalOrigin& origin, const Study& study,
+                                              const Observer& observer, StudyResult& result) {
   FollowedCurve followed =
-      follow_both_ways(curves, base_study(study), starts, point->kind, observer);
-  const continuation::CriticalStart& start = starts.front();
+      follow_both_ways(curves, base_study(study), origin.starts, origin.of, observer);
+  const continuation::CriticalStart& start = origin.starts.front();
   const bool is_broken = start.kind == continuation::CriticalKind::branch_point &&
                          start.corank == 1 && !(followed.growing.kept && followed.falling.kept) &&
                          !is_kept(curves.family(), start);
-  if (is_broken) followed = limit_points_through(curves, study, start, observer);
+  if (is_broken)
+    followed = limit_points_through(curves, study, start, observer);
+  else if (origin.degeneracy)
+    begin_at_degeneracy(*origin.degeneracy, followed);
   result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
-  go_on_beyond(curves, study, followed, *point, observer, result);
+  std::vector<FollowedCurve> pieces{std::move(followed)};
+  go_on_beyond(curves, study, origin, observer, result, pieces);
   if (is_broken && !result.branches.front().samples.empty())
-    mark_branch_point(*point, result.branches.front());
+    mark_branch_point(origin.point, result.branches.front());
   label_critical(result.branches);
   if (result.branches.front().samples.empty()) {
     result.branches.clear();
     result.start.found = false;
-    result.start.message = point->label + ": " + critical_stop(followed.growing).reason;
+    result.start.message = origin.point.label + ": " + critical_stop(pieces.front().growing).reason;
   }
+  return pieces;
 }
 
 }  // namespace springfold::analysis

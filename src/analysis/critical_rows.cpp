@@ -263,6 +263,7 @@ std::vector<std::string> doubts_of(const CaseCurves& curves, const Study& study,
 std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
   std::vector<Quantity> columns;
   for (const auto& q : curves.base().quantities()) columns.push_back({q.name, q.unit});
+  for (const auto& [name, value] : curves.held()) columns.push_back({name, Unit::none});
   columns.push_back({curves.name(), Unit::none});
   return columns;
 }
@@ -318,13 +319,39 @@ Stop critical_stop(const CriticalCurve& curve) {
   return stop;
 }
 
+void begin_at_degeneracy(const CriticalHit& hit, FollowedCurve& followed) {
+  // Degeneracies are located as well, in arc length.
+  constexpr double within_start = 1e-9;
+  followed.at_start = hit;
+  for (CriticalCurve* side : {&followed.falling, &followed.growing}) {
+    const bool ends = side->stop == continuation::StopReason::event && side->hits.size() == 1;
+    if (side->hits.empty() || ends) continue;
+    const CriticalHit& first = side->hits.front();
+    if (first.kind == hit.kind && first.point.s <= within_start)
+      side->hits.erase(side->hits.begin());
+  }
+}
+
+const CriticalPoint* point_at(const FollowedCurve& followed, double s) {
+  for (const double sign : {1.0, -1.0}) {
+    const CriticalCurve& side = sign > 0 ? followed.growing : followed.falling;
+    for (const CriticalHit& hit : side.hits)
+      if (hit.point.s == sign * s) return &hit.point;
+    for (const CriticalPoint& point : side.points)
+      if (point.s == sign * s) return &point;
+  }
+  return nullptr;
+}
+
 Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
   Branch branch;
   std::vector<Row> rows = side_of(followed.falling, -1);
   std::reverse(rows.begin(), rows.end());
   branch.start_row = rows.size();
   const bool started = !followed.growing.points.empty();
-  if (started) rows.push_back({followed.growing.points.front(), nullptr});
+  if (started)
+    rows.push_back(
+        {followed.growing.points.front(), followed.at_start ? &*followed.at_start : nullptr});
   for (Row& row : side_of(followed.growing, 1)) rows.push_back(std::move(row));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Member* member = curves.equations_at(rows[i].point.mu);
@@ -335,6 +362,7 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
     if (followed.start.kind == continuation::CriticalKind::limit_point ||
         followed.start.kind == continuation::CriticalKind::branch_point)
       count_without_vanishing(*member, point, sample.values);
+    for (const auto& [name, value] : curves.held()) sample.values.push_back(value);
     sample.values.push_back(rows[i].point.mu * curves.scale());
     branch.samples.push_back(std::move(sample));
     const bool is_edge = i == 0 || i + 1 == rows.size();

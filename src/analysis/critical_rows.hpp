@@ -8,8 +8,9 @@ namespace springfold::analysis {
 /// A followed critical curve: both sides leave the same point.
 struct FollowedCurve {
   continuation::CriticalStart start{};
-  EventKind of = EventKind::limit_point;             ///< what is followed
-  continuation::CriticalCurve falling{}, growing{};  ///< by the parameter, at first
+  EventKind of = EventKind::limit_point;                ///< what is followed
+  continuation::CriticalCurve falling{}, growing{};     ///< by the parameter, at first
+  std::optional<continuation::CriticalHit> at_start{};  ///< a degeneracy that it begins at
 };
 
 /// "reaches its lower limit" (sense -1) or the upper one, of the parameter; the rule of the case that sets it, too.
@@ -40,8 +41,14 @@ double most_rows(const CaseCurves& curves);
 std::vector<std::string> doubts_of(const CaseCurves& curves, const Study& study,
                                    const FollowedCurve& followed);
 
-/// Columns of the study's curve, then the parameter.
+/// Columns of the study's curve, then parameters that are held, then the parameter.
 std::vector<Quantity> critical_quantities(const CaseCurves& curves);
+
+/// The curve begins at this degeneracy: where a side meets it at the start once more, that is no point of its own.
+void begin_at_degeneracy(const continuation::CriticalHit& hit, FollowedCurve& followed);
+
+/// The point that became the row with this s of rows_of(); nullptr: there is none.
+const continuation::CriticalPoint* point_at(const FollowedCurve& followed, double s);
 
 /// Rows from the falling end to the growing one, special points in rows of their own, without labels.
 Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed);

@@ -26,6 +26,7 @@ void check_range(const Study& study, const std::string& key, Problems& problems)
   if (whole_range && !finite) problems.push_back(key + ".range: need two finite numbers");
   const auto number = std::find(s.cases->names.begin(), s.cases->names.end(), s.parameter);
   if (study.kind != StudyKind::critical_curve || number == s.cases->names.end()) return;
+  if (s.point.find('/') != std::string::npos) return;  // the row of the earlier curve decides
   const double value = s.cases->values[static_cast<std::size_t>(number - s.cases->names.begin())];
   if (!(s.low <= value && value <= s.high))
     problems.push_back(key + ".range: the value of \"" + s.parameter +

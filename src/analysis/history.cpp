@@ -3,8 +3,11 @@
 #include <algorithm>
 
 #include "arrivals.hpp"
+#include "cpu_time.hpp"
+#include "critical_runs.hpp"
 #include "quantities.hpp"
 #include "run_kinds.hpp"
+#include "run_traced.hpp"
 #include "setup.hpp"
 
 namespace springfold::analysis {
@@ -69,11 +72,23 @@ std::vector<Quantity> columns_without_start(const model::Mechanism& mechanism, c
   return columns;
 }
 
+/// A critical curve from a row of the earlier one.
+StudyResult run_curve_after(const History& history, const model::Mechanism& mechanism,
+                            const Study& study, const Observer& observer) {
+  require_usable(mechanism, study);
+  const double began = thread_seconds();
+  CurveRun run = begin_on_curve(history, study, observer);
+  if (run.result.start.found) follow_within_rules(run, observer);
+  run.result.seconds = thread_seconds() - began;
+  return std::move(run.result);
+}
+
 }  // namespace
 
 StudyResult run_study_after(const History& history, const model::Mechanism& mechanism,
                             const Study& study, const ParameterFamily* family,
                             const Observer& observer, const RunOptions& options) {
+  if (begins_on_curve(history)) return run_curve_after(history, mechanism, study, observer);
   if (!history.earlier) return run_study(mechanism, study, family, observer, options);
   // A map asks its own observer from one thread alone, and what is stopped half-way is no node.
   const auto arrivals = std::make_shared<const Arrivals>(
@@ -96,6 +111,10 @@ StudyResult run_study_after(const History& history, const model::Mechanism& mech
 std::optional<StartReport> solve_start_after(const History& history,
                                              const model::Mechanism& mechanism, const Study& study,
                                              const ParameterFamily* family) {
+  if (begins_on_curve(history)) {
+    require_usable(mechanism, study);
+    return begin_on_curve(history, study, {}).result.start;
+  }
   if (!history.earlier) return solve_start(mechanism, study, family);
   if (has_parameter_axes(study)) return std::nullopt;
   const auto arrivals = std::make_shared<const Arrivals>(history, Observer{});

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "cpu_time.hpp"
-#include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/number_text.hpp"
@@ -39,34 +38,6 @@ void doubt_rows_beyond_rules(const CaseCurves& curves, const CriticalPointSettin
     result.doubts.push_back("the curve goes beyond what the case may be given with: " + text);
 }
 
-/// Ends that are asked for are kept, and it is told where the case may not be given before them. A curve may also have no range
-/// but that in which the case may be given: where it has been behind its end, it is followed again.
-void run_curve_within_rules(CaseCurves& curves, const BasePath& path, const Study& study,
-                            std::size_t parameter, const Observer& observer, StudyResult& result) {
-  const CaseFamily& cases = *study.critical.cases;
-  const CriticalPointSettings& asked = study.critical;
-  const bool is_open_below = !std::isfinite(asked.low), is_open_above = !std::isfinite(asked.high);
-  curves.end_at_rules(range_within_rules(cases, parameter,
-                                         is_open_below ? curves.value() : asked.low,
-                                         is_open_above ? curves.value() : asked.high));
-  const StudyResult before = result;
-  run_critical_curve(curves, path, study, observer, result);
-  if (!is_open_below && !is_open_above) return doubt_rows_beyond_rules(curves, asked, result);
-  const auto [low, high] = reach_of(curves, result);
-  RuledRange rules = range_within_rules(cases, parameter, is_open_below ? low : curves.value(),
-                                        is_open_above ? high : curves.value());
-  if (!rules.is_cut()) return doubt_rows_beyond_rules(curves, asked, result);
-  Study within = study;
-  if (!rules.below.empty()) within.critical.low = rules.low;
-  if (!rules.above.empty()) within.critical.high = rules.high;
-  if (!is_open_below) rules.low = curves.rules().low, rules.below = curves.rules().below;
-  if (!is_open_above) rules.high = curves.rules().high, rules.above = curves.rules().above;
-  curves.end_at_rules(rules);
-  result = before;
-  run_critical_curve(curves, path, within, observer, result);
-  doubt_rows_beyond_rules(curves, within.critical, result);
-}
-
 /// A threshold is a value that the case may be given with; first critical loads are told over all of the range that is asked for.
 void run_over_range(CaseCurves& curves, const Study& study, std::size_t parameter,
                     const Observer& observer, StudyResult& result) {
@@ -97,12 +68,66 @@ void run_over_range(CaseCurves& curves, const Study& study, std::size_t paramete
                             rounded(report.value) + ": " + rule);
 }
 
+std::size_t number_of_parameter(const Study& study) {
+  const auto& names = study.critical.cases->names;
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), study.critical.parameter) -
+                                  names.begin());
+}
+
 }  // namespace
 
 Study base_study(const Study& study) {
   Study curve = study;
   curve.kind = StudyKind::force_deflection;
   return curve;
+}
+
+CurveRun begin_critical_curve(const Study& study, const Observer& observer) {
+  CurveRun run{.study = study};
+  StudyResult& result = run.result;
+  result.study = study.name;
+  CurvesWithPath begun = curves_with_path(study, number_of_parameter(study), false, observer);
+  run.curves = std::move(begun.curves);
+  run.of_point = run.curves;
+  result.start = run.curves->base().report;
+  if (!result.start.found) return run;
+  const Member& base = run.curves->base();
+  result.quantities = critical_quantities(*run.curves);
+  result.lambda_unit = lambda_unit_of(base.study, base.setup.system);
+  if (auto origin = origin_on_path(*run.curves, begun.path, study, result.start))
+    run.origin = std::move(*origin);
+  return run;
+}
+
+/// Ends that are asked for are kept, and it is told where the case may not be given before them. A curve may also have no range
+/// but that in which the case may be given: where it has been behind its end, it is followed again.
+void follow_within_rules(CurveRun& run, const Observer& observer) {
+  CaseCurves& curves = *run.curves;
+  const Study& study = run.study;
+  StudyResult& result = run.result;
+  const CaseFamily& cases = *study.critical.cases;
+  const std::size_t parameter = number_of_parameter(study);
+  const CriticalPointSettings& asked = study.critical;
+  const bool is_open_below = !std::isfinite(asked.low), is_open_above = !std::isfinite(asked.high);
+  curves.end_at_rules(range_within_rules(cases, parameter,
+                                         is_open_below ? curves.value() : asked.low,
+                                         is_open_above ? curves.value() : asked.high));
+  const StudyResult before = result;
+  run.pieces = run_critical_curve(curves, run.origin, study, observer, result);
+  if (!is_open_below && !is_open_above) return doubt_rows_beyond_rules(curves, asked, result);
+  const auto [low, high] = reach_of(curves, result);
+  RuledRange rules = range_within_rules(cases, parameter, is_open_below ? low : curves.value(),
+                                        is_open_above ? high : curves.value());
+  if (!rules.is_cut()) return doubt_rows_beyond_rules(curves, asked, result);
+  Study within = study;
+  if (!rules.below.empty()) within.critical.low = rules.low;
+  if (!rules.above.empty()) within.critical.high = rules.high;
+  if (!is_open_below) rules.low = curves.rules().low, rules.below = curves.rules().below;
+  if (!is_open_above) rules.high = curves.rules().high, rules.above = curves.rules().above;
+  curves.end_at_rules(rules);
+  result = before;
+  run.pieces = run_critical_curve(curves, run.origin, within, observer, result);
+  doubt_rows_beyond_rules(curves, within.critical, result);
 }
 
 StudyResult run_critical(const Study& study, const Observer& observer) {
@@ -113,21 +138,19 @@ StudyResult run_critical(const Study& study, const Observer& observer) {
     run_sensitivity(study, observer, result);
   } else if (study.kind == StudyKind::design) {
     run_design(study, observer, result);
+  } else if (study.kind == StudyKind::critical_curve) {
+    CurveRun run = begin_critical_curve(study, observer);
+    if (run.result.start.found) follow_within_rules(run, observer);
+    result = std::move(run.result);
   } else {
-    const auto& names = study.critical.cases->names;
-    const auto number = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), study.critical.parameter) - names.begin());
-    const bool forward_only = study.kind != StudyKind::critical_curve;
-    const CurvesWithPath begun = curves_with_path(study, number, forward_only, observer);
+    const std::size_t number = number_of_parameter(study);
+    const CurvesWithPath begun = curves_with_path(study, number, true, observer);
     CaseCurves& curves = *begun.curves;
     result.start = curves.base().report;
     if (result.start.found) {
       result.quantities = critical_quantities(curves);
       result.lambda_unit = lambda_unit_of(curves.base().study, curves.base().setup.system);
-      if (study.kind == StudyKind::critical_curve)
-        run_curve_within_rules(curves, begun.path, study, number, observer, result);
-      else
-        run_over_range(curves, study, number, observer, result);
+      run_over_range(curves, study, number, observer, result);
     }
   }
   result.seconds = thread_seconds() - began;

@@ -118,6 +118,7 @@ std::vector<std::string> critical_columns(const Study& study, const model::Mecha
     return names;
   }
   if (study.kind != StudyKind::sensitivity) {
+    names.insert(names.end(), study.critical.parameters.begin(), study.critical.parameters.end());
     names.push_back(study.critical.parameter);
     if (study.kind == StudyKind::threshold)
       for (const ThresholdQuantity& one : threshold_quantities) names.emplace_back(one.name);

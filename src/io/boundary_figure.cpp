@@ -45,11 +45,15 @@ class Plane {
     return {spec_.x_factor * (along_x ? value : other), spec_.y_factor * (along_x ? other : value)};
   }
 
-  /// The other parameter of the plane in a run.
-  double across(const PlannedRun& planned) const {
+  /// The other parameter of the plane in a run, which a curve that begins at another one holds.
+  double across(const PlannedRun& planned, const StudyResult& result) const {
     const std::string& own = planned.plan.critical.parameter;
     const std::string other = plane_name(own == plane_name(spec_.x) ? spec_.y : spec_.x);
-    return planned.parameters.at(other);
+    const auto& held = planned.plan.critical.parameters;
+    const bool is_held = planned.plan.kind == StudyKind::critical_curve &&
+                         std::find(held.begin(), held.end(), other) != held.end();
+    return is_held && !result.branches.empty() ? value_at(result, result.branches.front(), 0, other)
+                                               : planned.parameters.at(other);
   }
 
  private:
@@ -79,7 +83,7 @@ bool is_boundary_point(StudyKind kind, EventKind event) {
 
 void add_run_points(const Plane& plane, const PlannedRun& planned, const StudyResult& result,
                     StudyBoundary& boundary) {
-  const double across = plane.across(planned);
+  const double across = plane.across(planned, result);
   const double none = std::nan("");
   const std::string& parameter = planned.plan.critical.parameter;
   bool any = false;

@@ -6,6 +6,7 @@
 #include "compared_quantity.hpp"
 #include "figure.hpp"
 #include "flat_shapes.hpp"
+#include "further_curves.hpp"
 #include "history_rules.hpp"
 #include "hold_draft.hpp"
 #include "jump_access.hpp"
@@ -89,7 +90,10 @@ class Builder {
         build_study(study, draft_->mechanism.bodies[body].task_space, numbers, draft_->parameters);
     add_holds(study.history, planned.mechanism);
     planned.history = history_of(study.history, draft_->mechanism);
-    if (study.history.study) planned.history.earlier = earlier_of(i, run, parameters);
+    if (study.critical.study)
+      begin_on_curve(*study.critical.study, run, planned);
+    else if (study.history.study)
+      planned.history.earlier = earlier_of(i, run, parameters);
     for (std::size_t p = 0; p < draft_->parameters.size(); ++p)
       planned.parameters[draft_->parameters[p].name] = parameters.values[p];
     if (study.control == analysis::ControlMode::parameter && study.parameter) {
@@ -120,6 +124,25 @@ class Builder {
     earlier.cases = cases_of(draft_, i, run, parameters);
     earlier.own_cases = cases_of(draft_, *history.study, run_before, own);
     return std::make_shared<const analysis::Earlier>(std::move(earlier));
+  }
+
+  /// The study at a row of whose critical curve this one begins, with the same history.
+  void begin_on_curve(std::size_t i, int run, PlannedRun& planned) {
+    const StudyDraft& before = draft_->studies[i];
+    const Values own = parameters_of(i, run);
+    PlannedRun earlier = plan_of(i, run, draft_->mechanism.numbers.values(draft_->book, own).values,
+                                 before.numbers.values(draft_->book, own).values, own);
+    earlier.plan.critical.cases = cases_of(draft_, i, run, own);
+    std::vector<std::string>& held = planned.plan.critical.parameters;
+    held = {earlier.plan.critical.parameter};
+    held.insert(held.end(), earlier.plan.critical.parameters.begin(),
+                earlier.plan.critical.parameters.end());
+    std::erase(held, planned.plan.critical.parameter);
+    planned.history.earlier = std::make_shared<const analysis::Earlier>(
+        analysis::Earlier{.mechanism = std::move(earlier.mechanism),
+                          .study = std::move(earlier.plan),
+                          .history = std::move(earlier.history),
+                          .at = curve_row(planned.plan.critical.point)->label});
   }
 
   void add_run(std::size_t i, int run) {

@@ -3,6 +3,8 @@
 #include <string_view>
 
 #include "critical_draft.hpp"
+#include "further_curves.hpp"
+#include "study_draft.hpp"
 #include "study_reader.hpp"
 
 namespace springfold::io {
@@ -63,6 +65,29 @@ bool is_followed(const std::string& label) {
          std::all_of(label.begin() + 2, label.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// A row of another study's table: "CP1", "EP2".
+bool is_row(const std::string& label) {
+  const auto is_letter = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return label.size() > 2 && is_letter(label[0]) && (is_letter(label[1]) || is_digit(label[1])) &&
+         std::all_of(label.begin() + 2, label.end(), is_digit);
+}
+
+/// What is wrong with the point at which the curve begins; empty: nothing that can be told now.
+std::string problem_of_point(const std::string& point) {
+  const auto row = curve_row(point);
+  if (!row && !is_followed(point))
+    return "got \"" + point +
+           "\", need LP, BP, CL, SA or UZ and a number, or a row of another curve such as "
+           "\"STUDY/UZ1\"";
+  if (row && !is_row(row->label))
+    return "got \"" + point +
+           "\", need the label of a row behind the name of the study, as in \"STUDY/UZ1\"";
+  if (row && row->label.starts_with("UR"))
+    return "got \"" + point + "\", where that curve is not resolved, need another row";
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> critical_keys() {
@@ -108,9 +133,9 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   draft.range = read_range(kind, table, numbers, reading);
   if (kind == StudyKind::critical_curve) {
     draft.point = table.required_text("of", "a special point such as \"LP1\"").value_or("");
-    if (!draft.point.empty() && !is_followed(draft.point))
-      reading.problems.add(table.find("of")->place, table.key_of("of"),
-                           "got \"" + draft.point + "\", need LP, BP, CL, SA or UZ and a number");
+    const std::string problem = draft.point.empty() ? "" : problem_of_point(draft.point);
+    if (!problem.empty())
+      reading.problems.add(table.find("of")->place, table.key_of("of"), problem);
     return draft;
   }
   table.require("of", "\"limit_point\" or \"loss_of_stability\"");
@@ -127,6 +152,17 @@ CriticalPointDraft read_critical(StudyKind kind, const TableReader& study, Numbe
   }
   draft.smallest = table.choice("value", value_words, 0) == 0;
   return draft;
+}
+
+void connect_curves(std::vector<StudyDraft>& studies) {
+  for (StudyDraft& study : studies)
+    if (const auto row = curve_row(study.critical.point)) {
+      const auto earlier =
+          std::find_if(studies.begin(), studies.end(),
+                       [&](const StudyDraft& other) { return other.name == row->study; });
+      if (earlier != studies.end())
+        study.critical.study = static_cast<std::size_t>(earlier - studies.begin());
+    }
 }
 
 void build_critical(const CriticalPointDraft& draft, const std::vector<double>& numbers,

@@ -101,6 +101,16 @@ std::string doubts_of(const StudyResult& result) {
   return text;
 }
 
+/// "at UZ1 of study "folds": kv = 0.25"; nothing of curves that begin on the path from the start.
+std::string beginning_of(const PlannedRun& planned, const StudyResult& result) {
+  if (result.branches.empty() || planned.plan.critical.parameters.empty()) return {};
+  std::string held;
+  for (const std::string& name : planned.plan.critical.parameters)
+    held += (held.empty() ? ": " : ", ") + name + " = " +
+            number_cell(value_at(result, result.branches.front(), 0, name));
+  return summary_line("begins", result.start.method + held);
+}
+
 }  // namespace
 
 std::string critical_lines(const PlannedRun& planned, const StudyResult& result) {
@@ -111,6 +121,8 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
         "threshold",
         result.threshold->message + (result.threshold->verified ? "; traced again beside it" : ""));
   if (result.design) return design_lines(*result.design) + doubts_of(result);
+  if (planned.plan.kind == analysis::StudyKind::critical_curve && planned.history.earlier)
+    text += beginning_of(planned, result);
   const std::string& parameter = planned.plan.critical.parameter;
   const bool is_curve = planned.plan.kind != analysis::StudyKind::sensitivity;
   for (const Branch& branch : result.branches) {

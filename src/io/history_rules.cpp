@@ -29,9 +29,18 @@ std::vector<std::string> changed_parameters(const analysis::Study& study,
   return names;
 }
 
+/// A critical curve that begins at another one has the load steps of that.
+const analysis::Earlier* load_steps_before(const analysis::History& history) {
+  const analysis::Earlier* earlier = history.earlier.get();
+  while (earlier != nullptr && earlier->study.kind == StudyKind::critical_curve)
+    earlier = earlier->history.earlier.get();
+  return earlier;
+}
+
 /// A parameter that is changed has one value, which is that of the whole history.
 std::string changed_twice(const PlannedRun& planned) {
-  const analysis::Earlier* earlier = planned.history.earlier.get();
+  const analysis::Earlier* earlier = load_steps_before(planned.history);
+  if (earlier == nullptr) return {};
   const std::vector<std::string>& all = earlier->cases->names;
   const std::vector<double>& values = earlier->cases->values;
   const auto changed = changed_parameters(planned.plan, all);

@@ -59,10 +59,17 @@ drawing::Scene with_members(drawing::Scene scene, const PlannedRun& planned) {
 }
 
 /// Is every row of the study such a point?
-bool has_critical_rows(const analysis::Study& plan) {
-  const std::string& point = plan.critical.point;
-  return plan.kind == StudyKind::critical_load ||
-         (plan.kind == StudyKind::critical_curve &&
+bool has_critical_rows(const PlannedRun& planned) {
+  // A curve that begins at a row of another one is one of the same points.
+  const analysis::Study* plan = &planned.plan;
+  const analysis::History* history = &planned.history;
+  while (history->earlier && history->earlier->study.kind == StudyKind::critical_curve) {
+    plan = &history->earlier->study;
+    history = &history->earlier->history;
+  }
+  const std::string& point = plan->critical.point;
+  return plan->kind == StudyKind::critical_load ||
+         (plan->kind == StudyKind::critical_curve &&
           (point.starts_with("LP") || point.starts_with("BP")));
 }
 
@@ -123,6 +130,9 @@ std::optional<analysis::Variant> RowScenes::variant_of(const Sample& row) const 
   const auto& cases = planned_.plan.critical.cases;
   if (!cases) return std::nullopt;
   std::vector<std::string> names{planned_.plan.critical.parameter};
+  if (planned_.plan.kind == StudyKind::critical_curve)
+    names.insert(names.end(), planned_.plan.critical.parameters.begin(),
+                 planned_.plan.critical.parameters.end());
   if (planned_.plan.kind == StudyKind::design) names.clear();
   for (const auto& parameter : planned_.plan.design.parameters) names.push_back(parameter.name);
   const bool along = planned_.plan.control == ControlMode::parameter &&
@@ -237,7 +247,7 @@ std::optional<drawing::Panel> RowScenes::panel_of(const Sample& row, const std::
                        .title = title,
                        .unstable_dead = count_of(value(row, dead_)),
                        .unstable_driven = count_of(value(row, driven_))};
-  panel.is_critical = is_critical(result_, row.event) || has_critical_rows(planned_.plan);
+  panel.is_critical = is_critical(result_, row.event) || has_critical_rows(planned_);
   for (const auto column : {lambda_, force_, deflection_}) {
     const double v = shown_value(row, column);
     if (!column || !std::isfinite(v)) continue;

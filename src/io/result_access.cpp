@@ -135,6 +135,10 @@ std::string parameter_in(const PlannedRun* planned, const std::string& quantity)
   if (quantity == "lambda") return planned->driven_parameter;
   if (analysis::is_of_critical_points(plan.kind) && quantity == plan.critical.parameter)
     return quantity;
+  const auto& held = plan.critical.parameters;
+  if (plan.kind == analysis::StudyKind::critical_curve &&
+      std::find(held.begin(), held.end(), quantity) != held.end())
+    return quantity;
   const auto& axes = plan.map.axes;
   const bool is_axis = plan.kind == analysis::StudyKind::map &&
                        std::any_of(axes.begin(), axes.end(), [&](const analysis::MapAxis& axis) {

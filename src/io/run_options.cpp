@@ -109,7 +109,10 @@ std::vector<NamedOption> options_of(const PlannedRun& planned) {
   const auto defaults = listed(untouched, body_name(planned.mechanism, untouched.body));
   for (std::size_t i = 0; i < used.size(); ++i)
     used[i].is_default = used[i].value == defaults[i].value;
-  if (const auto& earlier = planned.history.earlier) {
+  const auto& earlier = planned.history.earlier;
+  if (earlier && earlier->study.kind == analysis::StudyKind::critical_curve) {
+    used.push_back({"critical_curve.of", planned.plan.critical.point});
+  } else if (earlier) {
     used.push_back({"start.from", earlier->study.name});
     used.push_back({"start.at", earlier->at});
     used.push_back({"start.loads", earlier->keeps_loads ? "kept" : "own"});

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <set>
 
 #include "command_reader.hpp"
+#include "further_curves.hpp"
 #include "mark_reader.hpp"
 #include "mechanism_reader.hpp"
 #include "text.hpp"
@@ -81,6 +83,7 @@ class StudyReader {
         reading_{reading} {
     draft_.place = item.node->place;
     draft_.key = item.key;
+    begins_on_curve_ = curve_row(*item.node).has_value();
     add_entries(*item.node, "", draft_.entries);
   }
 
@@ -122,7 +125,7 @@ class StudyReader {
     draft_.kind = kinds[table_.choice("kind", study_words, 0)];
     const bool traces =
         draft_.kind == StudyKind::force_deflection || analysis::is_of_critical_points(draft_.kind);
-    if (traces) table_.require("control", choices(control_words));
+    if (traces && !begins_on_curve_) table_.require("control", choices(control_words));
     draft_.control =
         std::array{ControlMode::load, ControlMode::pose, ControlMode::mixed, ControlMode::actuator,
                    ControlMode::parameter}[table_.choice("control", control_words, 0)];
@@ -155,7 +158,7 @@ class StudyReader {
       draft_.body = number.value_or(1);
     } else if (!table_.has("body")) {
       body_known_ = mechanism_.bodies.size() == 1;
-      if (mechanism_.bodies.size() > 1)
+      if (mechanism_.bodies.size() > 1 && !begins_on_curve_)
         table_.require("body", "the name of a body: there are several");
     }
   }
@@ -366,6 +369,7 @@ class StudyReader {
   Reading& reading_;
   StudyDraft draft_{};
   bool body_known_ = false;
+  bool begins_on_curve_ = false;  ///< what says which curve is traced is that of another study
 };
 
 }  // namespace
@@ -374,7 +378,8 @@ std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
                                      const MechanismDraft& mechanism, Reading& reading) {
   std::vector<StudyDraft> studies;
   std::set<std::string> names;
-  for (const Item& item : tables) {
+  std::deque<Node> copies;
+  for (const Item& item : with_earlier_curves(tables, copies, reading.problems)) {
     StudyDraft study = StudyReader{item, mechanism, reading}.read();
     if (!study.name.empty() && !names.insert(study.name).second)
       reading.problems.add(item.node->find("name")->place, item.key + ".name",
@@ -383,6 +388,7 @@ std::vector<StudyDraft> read_studies(const std::vector<Item>& tables,
                                "different names");
     studies.push_back(std::move(study));
   }
+  connect_curves(studies);
   connect_histories(mechanism, studies, reading.problems);
   return studies;
 }

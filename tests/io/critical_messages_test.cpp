@@ -147,5 +147,71 @@ TEST_F(CriticalMessages, ShadeLoadsOnlyWhereAStudyKnowsWhichComesFirst) {
                                      "parameter of a study of kind critical_load")));
 }
 
+class FurtherCurveMessages : public CaseFiles {
+ protected:
+  std::vector<std::string> with_second(const std::string& keys) const {
+    return messages(critical_strut + "[[study]]\nname = \"b\"\nkind = \"critical_curve\"\n" + keys);
+  }
+  std::vector<std::string> with_row(const std::string& of) const {
+    return with_second("critical_curve = { of = \"" + of + "\", parameter = \"c\" }\n");
+  }
+};
+
+TEST_F(FurtherCurveMessages, AreNoneForARowOfAnotherStudyWhereverThatStands) {
+  EXPECT_THAT(with_row("a/UZ1"), ElementsAre());
+  const std::string first = critical_strut.substr(0, critical_strut.find("[[study]]"));
+  EXPECT_THAT(messages(first +
+                       "[[study]]\nname = \"b\"\nkind = \"critical_curve\"\nmark = { k = [1] }\n"
+                       "critical_curve = { of = \"a/UZ1\", parameter = \"c\" }\n" +
+                       critical_strut.substr(first.size())),
+              ElementsAre());
+}
+
+TEST_F(FurtherCurveMessages, WantAStudyWithACriticalCurve) {
+  EXPECT_THAT(with_row("aa/UZ1"),
+              ElementsAre(testing::HasSubstr(
+                  "study[2].critical_curve.of: got \"aa/UZ1\", need \"STUDY/ROW\" with the name of "
+                  "another study, did you mean \"a\"?")));
+  EXPECT_THAT(with_row("b/UZ1"), ElementsAre(testing::HasSubstr("the study itself, need")));
+  EXPECT_THAT(
+      messages(critical_strut + "[[study]]\nname = \"e\"\nkind = \"equilibrium\"\n"
+                                "[[study]]\nname = \"b\"\nkind = \"critical_curve\"\n"
+                                "critical_curve = { of = \"e/LP1\", parameter = \"c\" }\n"),
+      ElementsAre(testing::HasSubstr("study[3].critical_curve.of: study \"e\" is of kind "
+                                     "\"equilibrium\", need one of kind \"critical_curve\"")));
+}
+
+TEST_F(FurtherCurveMessages, WantARowThatIsResolved) {
+  EXPECT_THAT(with_row("a/row"), ElementsAre(testing::HasSubstr("need the label of a row")));
+  EXPECT_THAT(
+      with_row("a/UR1"),
+      ElementsAre(testing::HasSubstr("where that curve is not resolved, need another row")));
+}
+
+TEST_F(FurtherCurveMessages, TellACircleOnce) {
+  EXPECT_THAT(with_second("critical_curve = { of = \"d/UZ1\", parameter = \"c\" }\n"
+                          "[[study]]\nname = \"d\"\nkind = \"critical_curve\"\n"
+                          "critical_curve = { of = \"b/UZ1\", parameter = \"c\" }\n"),
+              ElementsAre(testing::HasSubstr("studies begin at each other's curves in a circle")));
+}
+
+TEST_F(FurtherCurveMessages, WantTheCurveOfTheOtherStudy) {
+  EXPECT_THAT(with_second("control = \"load\"\ndirection = [-1, 0]\n"
+                          "critical_curve = { of = \"a/UZ1\", parameter = \"c\" }\n"),
+              ElementsAre());
+  EXPECT_THAT(with_second("direction = [-2, 0]\nset = { c = 3 }\n"
+                          "critical_curve = { of = \"a/UZ1\", parameter = \"c\" }\n"),
+              ElementsAre(testing::HasSubstr("study[2].direction: study \"a\", at whose curve it "
+                                             "begins, has another one, need the same as there, or "
+                                             "leave it out"),
+                          testing::HasSubstr("study[2].set: study \"a\", at whose curve it begins, "
+                                             "has none, need the same as there")));
+  EXPECT_THAT(messages(replaced(critical_strut, "[0.1, 2] }", "[0.1, 2], tied = false }") +
+                       "[[study]]\nname = \"b\"\nkind = \"critical_curve\"\n"
+                       "critical_curve = { of = \"a/UZ1\", parameter = \"c\", tied = true }\n"),
+              ElementsAre(testing::HasSubstr("study[2].critical_curve.tied: study \"a\", at whose "
+                                             "curve it begins, keeps its commands")));
+}
+
 }  // namespace
 }  // namespace springfold::io
