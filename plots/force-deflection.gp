@@ -8,6 +8,7 @@
 #                 diagram and has the n-th colour, its dashes tell its stability
 #   curve_colors  one per curve: the colour of the value of its run, or 'by_hue'
 #   has_mixed     1: the block mixed holds stretches where lines of different stability lie on each other
+#   of_points     1: lines are critical points over a parameter, 0: equilibria
 #   first_parts   those of them that stand for the others of their kind in the key: kinds that are seen
 #   mixed_in_key  1: of that block something is seen
 #   quantities    number of quantities over the same x, with quantity_name[n]; the n-th has the n-th colour. Of one: 0
@@ -22,8 +23,12 @@
 # Labels and their leader lines are set already: they hang on points of the axes.
 
 part_style(part) = part[1:6] eq 'stable' ? 1 : part[1:6] eq 'driven' ? 6 : part[1:6] eq 'unknow' ? 8 : 2
-part_kind(part) = part[1:6] eq 'stable' ? 'stable' : part[1:6] eq 'unknow' ? 'stability not known' : \
+part_kind(part) = of_points ? point_kind(part) : \
+                  part[1:6] eq 'stable' ? 'stable' : part[1:6] eq 'unknow' ? 'stability not known' : \
                   part[1:6] eq 'driven' ? 'unstable under dead load' : 'unstable'
+point_kind(part) = part[1:6] eq 'stable' ? 'no other mode unstable' : \
+                   part[1:6] eq 'unknow' ? 'other modes not counted' : \
+                   part[1:6] eq 'driven' ? 'another unstable under dead load' : 'another mode unstable'
 part_hue(part) = part eq 'nothing' ? 0 : int(word(curve_hues, int(part[strstrt(part, '_') + 1:*])))
 own_color(part) = part eq 'nothing' ? 'by_hue' : word(curve_colors, int(part[strstrt(part, '_') + 1:*]))
 part_color(part) = own_color(part) ne 'by_hue' ? own_color(part) : part_hue(part) > 0 \

@@ -7,9 +7,8 @@
 
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
+#include "other_modes.hpp"
 #include "springfold/analysis/row_memory.hpp"
-#include "springfold/continuation/newton.hpp"
-#include "springfold/core/decompositions.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -47,33 +46,10 @@ std::vector<Row> side_of(const CriticalCurve& curve, double sign) {
   return rows;
 }
 
-std::string detail_of(const CriticalHit& hit) {
-  const std::string kind{to_string(hit.kind)};
+std::string detail_of(const CriticalHit& hit, EventKind of) {
+  const std::string kind = name_of_degeneracy(hit.kind, of);
   if (hit.kind == Degeneracy::user) return hit.name;
   return hit.name.empty() ? kind : kind + ": " + hit.name;
-}
-
-/// Where modes vanish the sign of their eigenvalues is rounding: they are not counted as unstable.
-void count_without_vanishing(const Member& member, const continuation::CurvePoint& point,
-                             std::vector<double>& values) {
-  constexpr double vanishing = 1e-9;
-  continuation::Linearisation at;
-  if (!member.problem->symmetric() ||
-      !continuation::linearise_densely(*member.problem, point.x, point.lambda, point.piece, at))
-    return;
-  // As many as are negative once all are greater by what vanishes beside the largest.
-  const double largest = at.dF_dx.cwiseAbs().colwise().sum().maxCoeff();
-  at.dF_dx.diagonal().array() += vanishing * largest;
-  const auto negative = negative_eigenvalues(at);
-  if (!negative) return;
-  const auto count = static_cast<double>(*negative - member.problem->closures());
-  using Kind = QuantityDefinition::Kind;
-  const std::vector<QuantityDefinition>& quantities = member.quantities();
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const Kind kind = quantities[i].kind;
-    const bool same = kind == Kind::index_force && member.study.control == ControlMode::load;
-    if (kind == Kind::index || same) values[i] = count;
-  }
 }
 
 CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::string& quantity,
@@ -310,6 +286,11 @@ EventKind kind_of(Degeneracy kind, EventKind of) {
   return EventKind::user_value;
 }
 
+std::string name_of_degeneracy(Degeneracy kind, EventKind of) {
+  const bool merge = kind == Degeneracy::turn && kind_of(kind, of) == EventKind::cusp;
+  return std::string{to_string(merge ? Degeneracy::cusp : kind)};
+}
+
 Stop critical_stop(const CriticalCurve& curve) {
   Stop stop;
   stop.complete = (curve.stop == continuation::StopReason::event ||
@@ -359,9 +340,7 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
     auto point = CaseCurves::point_of(rows[i].point, followed.start.piece);
     Sample sample{member->evaluator().values(member->quantities(), point),
                   piece_text(member->setup.system, followed.start.piece), ""};
-    if (followed.start.kind == continuation::CriticalKind::limit_point ||
-        followed.start.kind == continuation::CriticalKind::branch_point)
-      count_without_vanishing(*member, point, sample.values);
+    count_other_modes(*member, followed.start, point, sample.values);
     for (const auto& [name, value] : curves.held()) sample.values.push_back(value);
     sample.values.push_back(rows[i].point.mu * curves.scale());
     branch.samples.push_back(std::move(sample));
@@ -373,8 +352,8 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
                 .row = branch.samples.size() - 1};
     if (rows[i].hit != nullptr && (!is_edge || rows[i].hit->kind != Degeneracy::user)) {
       event.kind = kind_of(rows[i].hit->kind, followed.of);
-      event.detail =
-          event.kind == EventKind::switching ? switch_of(*rows[i].hit) : detail_of(*rows[i].hit);
+      event.detail = event.kind == EventKind::switching ? switch_of(*rows[i].hit)
+                                                        : detail_of(*rows[i].hit, followed.of);
     }
     event.rates_before.assign(branch.samples.back().values.size(),
                               std::numeric_limits<double>::quiet_NaN());

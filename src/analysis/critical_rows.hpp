@@ -59,6 +59,9 @@ void label_critical(std::vector<Branch>& branches);
 /// What a degeneracy is called in results.
 EventKind kind_of(continuation::Degeneracy kind, EventKind of);
 
+/// The same in words.
+std::string name_of_degeneracy(continuation::Degeneracy kind, EventKind of);
+
 /// Options of the engine for critical curves: those of the study.
 continuation::TraceOptions critical_options(const Study& study);
 

@@ -354,7 +354,7 @@ std::vector<Figure> figures_of(const Case& the_case, const std::vector<StudyResu
     if (!runs.empty() && std::all_of(runs.begin(), runs.end(), [](const RunCurves& run) {
           return run.planned != nullptr && is_curve_of_points(run.planned->plan.kind);
         }))
-      figure.tells_stability = false;
+      figure.is_of_points = true;
     if (is_over_parameter(spec))
       is_wanted =
           std::any_of(spec.curves.begin(), spec.curves.end(), [&](const PlotCurves& curves) {

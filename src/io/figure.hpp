@@ -74,6 +74,8 @@ struct Figure {
   PlotPoint least{};  ///< what lies below it on a logarithmic axis does not widen that
   /// False: its lines are no equilibria, and the key has none of them.
   bool tells_stability = true;
+  bool is_of_points =
+      false;  ///< its lines are critical points: they tell whether another mode is unstable
   std::optional<ColourBar> bar{};  ///< none: the curves' labels say enough
 };
 

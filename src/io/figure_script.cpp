@@ -140,7 +140,8 @@ void send_labels(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, b
             << "\n";
     if (label.has_leader)
       gnuplot << "set arrow from first anchor_x, first anchor_y rto "
-              << from_anchor(label.leader_to) << " nohead linestyle 4 back\n";
+              << from_anchor(label.leader_to) << " nohead linestyle 4 "
+              << (figure.regions.empty() ? "back" : "front") << "\n";  // shades hide what is behind
     if (label.has_leader && label.is_curve_label)
       gnuplot << "set label '' at first anchor_x, first anchor_y point linestyle 9 front\n";
     const FigureText text = text_for(label.text, is_tex);
@@ -252,6 +253,7 @@ void send_values(Gnuplot& gnuplot, const Figure& figure, const Canvas& canvas, b
           << gnuplot_assignment("figure_title", text_for(figure.title, is_tex))
           << gnuplot_assignment("x_title", text_for(figure.x_title, is_tex))
           << gnuplot_assignment("y_title", text_for(figure.y_title, is_tex))
+          << "of_points = " << (figure.is_of_points ? 1 : 0) << "\n"
           << assignment("x_low", figure.low.first) << assignment("x_high", figure.high.first)
           << assignment("y_low", figure.low.second) << assignment("y_high", figure.high.second)
           << "x_log = " << (figure.look.x_log ? 1 : 0)

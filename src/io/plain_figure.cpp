@@ -51,16 +51,17 @@ std::string colour_of(const FigureCurve& curve, Stability stability) {
   return stability == Stability::stable ? stable_blue : unstable_red;
 }
 
-const char* words_of(Stability stability) {
+/// @param of_points  of critical points, which are unstable in one mode at any rate
+const char* words_of(Stability stability, bool of_points) {
   switch (stability) {
     case Stability::stable:
-      return "stable";
+      return of_points ? "no other mode unstable" : "stable";
     case Stability::unknown:
-      return "stability not known";
+      return of_points ? "other modes not counted" : "stability not known";
     case Stability::driven:
-      return "unstable under dead load";
+      return of_points ? "another unstable under dead load" : "unstable under dead load";
     case Stability::unstable:
-      return "unstable";
+      return of_points ? "another mode unstable" : "unstable";
   }
   return "";
 }
@@ -191,7 +192,7 @@ std::vector<Entry> key_of(const Figure& figure, const Canvas& canvas, const Draw
         const FigureCurve& curve = figure.curves[i];
         const bool tells_branch = curve.hue > 0 || !curve.colour.empty();
         const std::string colour = tells_branch ? ink : colour_of(curve, stability);
-        add_once(words_of(stability), sample_line(ink_of(stability, colour)));
+        add_once(words_of(stability, figure.is_of_points), sample_line(ink_of(stability, colour)));
       }
   for (std::size_t n = 0; n < figure.quantities.size(); ++n)
     add_once(text_of({figure.quantities[n]}), sample_line({hue_of(n + 1), "", line_width, {}}));

@@ -1,4 +1,4 @@
-// Figures of critical loads and of boundaries, from case files with closed forms.
+// Figures of critical loads and of boundaries, from case files with closed forms, and what is named in them.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -223,6 +223,96 @@ TEST(ShadedLoads, SayNothingOfValuesAtWhichThePathIsNotResolved) {
   Ran ran = run(linear);
   ran.results.at(0).doubts.emplace_back("nobody knows");
   EXPECT_THAT(only_figure(ran).regions.at(0).parts, SizeIs(1)) << "only where the load is known";
+}
+
+std::string pushed_knees(const std::string& study) {
+  return "include = \"" SPRINGFOLD_SOURCE_DIR
+         "/cases/orthoglide-planar/mechanism.toml\"\n"
+         "[parameters]\nL = 1\nK = 1\nKv = 0.01\np = 0.454\n[[study]]\nname = \"s\"\n"
+         "direction = [1, 1]\nstart = { pose = [\"p\", \"p\"], solve = \"actuators\" }\n" +
+         study;
+}
+
+TEST(NamedDegeneracies, ExtremaOfTheForceMergeInACuspAsLimitPointsDo) {
+  const auto found =
+      run(pushed_knees("kind = \"threshold\"\ncontrol = \"mixed\"\n"
+                       "until = { deflection = [\"-0.05*L\", \"0.5*L\"] }\n"
+                       "threshold = { of = \"limit_point\", parameter = \"Kv\", range = [0, 0.3], "
+                       "index = \"dead_load\" }\n"))
+          .of("s");
+  ASSERT_TRUE(found.threshold);
+  EXPECT_EQ(found.threshold->decides, "cusp");
+  EXPECT_NEAR(found.threshold->value, 0.0295806845255585, 1e-12);
+  const auto curve =
+      run(pushed_knees(
+              "kind = \"critical_curve\"\ncontrol = \"mixed\"\n"
+              "until = { deflection = [\"-0.05*L\", \"0.5*L\"] }\n"
+              "critical_curve = { of = \"LP1\", parameter = \"Kv\", range = [0, 0.06] }\n"))
+          .of("s");
+  bool any = false;
+  for (const analysis::Event& event : curve.branches.at(0).events) {
+    if (event.kind != analysis::EventKind::cusp) continue;
+    any = true;
+    EXPECT_EQ(event.detail, "cusp");
+  }
+  EXPECT_TRUE(any);
+}
+
+TEST(NamedDegeneracies, AThresholdThatAMovingLimitDecidesNamesTheLimit) {
+  const auto result =
+      run(pushed_knees("kind = \"threshold\"\ncontrol = \"load\"\n"
+                       "until = { deflection = [\"-0.05*L\", \"0.3*L - 5*Kv\"] }\n"
+                       "threshold = { of = \"limit_point\", parameter = \"Kv\", range = [0, 0.025] "
+                       "}\n"))
+          .of("s");
+  ASSERT_TRUE(result.threshold && result.threshold->found);
+  EXPECT_EQ(result.threshold->decides, "deflection reaches its upper limit before it");
+  EXPECT_TRUE(result.threshold->verified);
+  // Force along the diagonal, commands that balance (p, p): the limit point lies on the limit.
+  const double Kv = result.threshold->value, p = 0.454;
+  const double q = p + (0.3 - 5 * Kv) / std::sqrt(2.0), a = std::asin(q), at = std::asin(p);
+  const double drive =
+      q + std::cos(a) - p - std::cos(at) - Kv * at / (std::cos(at) * (1 - std::tan(at)));
+  const double c = std::cos(a), t = std::tan(a);
+  EXPECT_NEAR((1 - t) * (1 - t) - drive / (c * c * c) + Kv / (c * c) * (1 + a * t), 0, 1e-9);
+}
+
+class CornerOfAToggle : public testing::Test {
+ protected:
+  const Case read = load_case(SPRINGFOLD_SOURCE_DIR "/cases/critical-curves/case-stop.toml");
+  const analysis::StudyResult result = [this] {
+    auto all = analysis::run_study(read.runs.at(0).mechanism, read.runs[0].plan);
+    all.study = read.runs[0].study;
+    return all;
+  }();
+};
+
+/// In front of the stop the toggle is unstable beyond its fold, on the stop between the places where the corner has no reversal.
+TEST_F(CornerOfAToggle, HasAnotherUnstableModeWhereBothSidesAreUnstable) {
+  const analysis::Branch& branch = result.branches.at(0);
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < branch.samples.size(); ++i) {
+    const double gap = value(result, i, "gap");
+    if (std::abs(gap - 0.51089188251234) < 1e-6 || std::abs(gap - 0.90332167986075) < 1e-6)
+      continue;
+    const bool both = gap > 0.51089188251234 && gap < 0.90332167986075;
+    EXPECT_EQ(value(result, i, "index"), both ? 1 : 0) << gap;
+    EXPECT_EQ(value(result, i, "index_force"), both ? 1 : 0) << gap;
+    ++rows;
+  }
+  EXPECT_GT(rows, 20U);
+}
+
+TEST_F(CornerOfAToggle, IsDrawnInLinesThatTheKeyExplains) {
+  std::vector<std::string> problems;
+  const auto figures = figures_of(read, {result}, problems);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_THAT(problems, IsEmpty());
+  EXPECT_TRUE(figures[0].is_of_points);
+  EXPECT_TRUE(figures[0].tells_stability);
+  std::vector<Stability> parts;
+  for (const CurvePart& part : figures[0].curves.at(0).parts) parts.push_back(part.stability);
+  EXPECT_THAT(parts, ElementsAre(Stability::stable, Stability::unstable, Stability::stable));
 }
 
 }  // namespace
