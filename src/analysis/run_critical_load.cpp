@@ -199,7 +199,7 @@ class LoadsOverParameter {
     }
     if (turn != side.curve.hits.end()) {
       side.decides = turn->kind;
-      end_at(side, static_cast<std::size_t>(turn - side.curve.hits.begin()));
+      end_at(side, piece.of, static_cast<std::size_t>(turn - side.curve.hits.begin()));
     } else {
       const double end = side.curve.hits.back().point.mu;
       // The end of the range itself, if that was reached: beyond what it was located to nothing is left of the range.
@@ -226,13 +226,13 @@ class LoadsOverParameter {
   }
 
   /// Cuts a side at one of its special points.
-  void end_at(Side& side, std::size_t hit) const {
+  void end_at(Side& side, EventKind of, std::size_t hit) const {
     CriticalCurve& curve = side.curve;
     curve.hits.resize(hit + 1);
     const CriticalPoint& last = curve.hits.back().point;
     std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last.s; });
     curve.stop = continuation::StopReason::event;
-    curve.stop_detail = to_string(curve.hits.back().kind);
+    curve.stop_detail = name_of_degeneracy(curve.hits.back().kind, of);
     side.end = last.mu;
   }
 
@@ -278,7 +278,7 @@ class LoadsOverParameter {
     const auto hit = std::find_if(side.curve.hits.begin(), side.curve.hits.end(), near);
     if (hit != side.curve.hits.end()) {
       side.decides = hit->kind;
-      return end_at(side, static_cast<std::size_t>(hit - side.curve.hits.begin()));
+      return end_at(side, piece.of, static_cast<std::size_t>(hit - side.curve.hits.begin()));
     }
     side.jumps = true;
     side.decides.reset();

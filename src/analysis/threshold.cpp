@@ -9,6 +9,7 @@
 #include "critical_runs.hpp"
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
+#include "limits.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -120,7 +121,8 @@ class Threshold {
     const bool at_range = end == curve.hits.end() &&
                           std::abs(curve.hits.back().point.mu - limit) <= at_limit * width();
     CriticalPoint last = end == curve.hits.end() ? curve.hits.back().point : end->point;
-    decides_ = end == curve.hits.end() ? curve.stop_detail : std::string{to_string(end->kind)};
+    decides_ =
+        end == curve.hits.end() ? curve.stop_detail : name_of_degeneracy(end->kind, bad.kind);
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
     const std::optional<double> clear = clear_before(mu, last.mu, at_range);
     is_clear_ = clear.has_value();
@@ -187,6 +189,18 @@ class Threshold {
     return nearest;
   }
 
+  /// Limits of the study that move with the parameter may end the path before it comes to the point: which one, in words.
+  std::string limit_beyond(double clear, const FollowedCurve& followed) const {
+    const double beyond = clear + towards_ * traced_beside * std::max(std::abs(clear), 1e-3);
+    const auto point = point_of_curve(curves_, followed.start, followed.growing, beyond, 0);
+    const Member* member = curves_.at(beyond);
+    if (point && member != nullptr)
+      if (const auto passed = limit_passed(member->study, member->evaluator(), member->quantities(),
+                                           CaseCurves::point_of(*point, followed.start.piece)))
+        return *passed + " before it";
+    return "the path from the start no longer comes to it";
+  }
+
   /// @param last  becomes the curve's last point
   void end_where_clear(double clear, FollowedCurve& followed, CriticalPoint& last) {
     CriticalCurve& curve = followed.growing;
@@ -195,8 +209,8 @@ class Threshold {
              hit.kind != continuation::Degeneracy::extremum &&
              std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
-    decides_ = near != curve.hits.end() ? std::string{to_string(near->kind)}
-                                        : "the path from the start no longer comes to it";
+    decides_ = near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
+                                        : limit_beyond(clear, followed);
     // Where branches cross the point is singular: the nearest one that is known stands for it.
     last = point_of_curve(curves_, followed.start, curve, clear, 0)
                .value_or(nearest_before(curve, clear));
