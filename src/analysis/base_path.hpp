@@ -67,8 +67,8 @@ std::vector<continuation::CriticalStart> critical_starts(const CaseCurves& curve
                                                          const SpecialPoint& point,
                                                          std::string& why);
 
-/// A start on a critical curve of other curves, at its place and at the first value of these: the same kind of point. More than
-/// one as above.
+/// A start on a critical curve of other curves, at its place and at the first value of these: the same kind of
+/// point. More than one as above.
 /// @param member, point  what that curve is one of, with the member on whose path it lies
 std::vector<continuation::CriticalStart> critical_starts_again(const CaseCurves& curves,
                                                                const Member& member,

@@ -59,7 +59,8 @@ class CaseCurves {
   /// @param parameter  its number in study.critical.cases
   /// @param lambda_unit  in that which the response at the case's own start asks for
   CaseCurves(const Study& study, std::size_t parameter, double lambda_unit = 1);
-  /// The same, begun at a member of other curves of the same study: with its scales, and with the start that belongs to its own.
+  /// The same, begun at a member of other curves of the same study: with its scales, and with the start that
+  /// belongs to its own.
   /// @param held  parameters that have its values, not the case's own: their names and values
   CaseCurves(const Study& study, std::size_t parameter, const Member& from,
              std::vector<std::pair<std::string, double>> held);

@@ -112,8 +112,8 @@ const CriticalHit* hit_of(const FollowedCurve& piece, const CriticalPoint* point
   return is_start && piece.at_start ? &*piece.at_start : nullptr;
 }
 
-/// Degeneracies are those of the equilibrium at its load, whatever the parameter; only where the load is stationary along the
-/// curve depends on that.
+/// Degeneracies are those of the equilibrium at its load, whatever the parameter; only where the load is
+/// stationary along the curve depends on that.
 std::optional<CriticalHit> degeneracy_of(const LabelledRow& row) {
   using continuation::Degeneracy;
   if (row.hit == nullptr || row.hit->kind == Degeneracy::user ||

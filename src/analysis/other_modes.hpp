@@ -7,9 +7,9 @@
 
 namespace springfold::analysis {
 
-/// Counts of unstable modes in a row of a critical curve. Where modes vanish the sign of their eigenvalues is rounding: they are
-/// not counted. Where a spring switches there is a count on either side: the smaller one are the modes that are unstable whatever
-/// the spring does.
+/// Counts of unstable modes in a row of a critical curve. Where modes vanish the sign of their eigenvalues is
+/// rounding: they are not counted. Where a spring switches there is a count on either side: the smaller one are
+/// the modes that are unstable whatever the spring does.
 /// @param of  what is followed
 void count_other_modes(const Member& member, const continuation::CriticalStart& of,
                        const continuation::CurvePoint& point, std::vector<double>& values);

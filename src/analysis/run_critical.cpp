@@ -99,8 +99,9 @@ CurveRun begin_critical_curve(const Study& study, const Observer& observer) {
   return run;
 }
 
-/// Ends that are asked for are kept, and it is told where the case may not be given before them. A curve may also have no range
-/// but that in which the case may be given: where it has been behind its end, it is followed again.
+/// Ends that are asked for are kept, and it is told where the case may not be given before them. A curve may
+/// also have no range but that in which the case may be given: where it has been behind its end, it is followed
+/// again.
 void follow_within_rules(CurveRun& run, const Observer& observer) {
   CaseCurves& curves = *run.curves;
   const Study& study = run.study;

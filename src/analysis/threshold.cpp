@@ -189,7 +189,8 @@ class Threshold {
     return nearest;
   }
 
-  /// Limits of the study that move with the parameter may end the path before it comes to the point: which one, in words.
+  /// Limits of the study that move with the parameter may end the path before it comes to the point: which one,
+  /// in words.
   std::string limit_beyond(double clear, const FollowedCurve& followed) const {
     const double beyond = clear + towards_ * traced_beside * std::max(std::abs(clear), 1e-3);
     const auto point = point_of_curve(curves_, followed.start, followed.growing, beyond, 0);

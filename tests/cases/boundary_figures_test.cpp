@@ -204,7 +204,7 @@ TEST(BoundaryFigure, BreaksItsLinesAtRunsWithoutAnAnswer) {
 TEST(ShadedLoads, EndAtTheFirstCriticalLoadAndNowhereBeyondTheCusp) {
   const Figure figure = only_figure(run(linear));
   EXPECT_EQ(figure.x_title.text, "Kv");
-  EXPECT_FALSE(figure.tells_stability);
+  EXPECT_TRUE(figure.is_of_points);
   ASSERT_THAT(figure.regions, SizeIs(1));
   ASSERT_THAT(figure.regions[0].parts, SizeIs(2));
   // Truths: the force at Kv = 0, and the cusp.
@@ -287,7 +287,8 @@ class CornerOfAToggle : public testing::Test {
   }();
 };
 
-/// In front of the stop the toggle is unstable beyond its fold, on the stop between the places where the corner has no reversal.
+/// In front of the stop the toggle is unstable beyond its fold, on the stop between the places where the corner
+/// has no reversal.
 TEST_F(CornerOfAToggle, HasAnotherUnstableModeWhereBothSidesAreUnstable) {
   const analysis::Branch& branch = result.branches.at(0);
   std::size_t rows = 0;

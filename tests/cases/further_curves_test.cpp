@@ -333,7 +333,8 @@ TEST(FurtherCurves, OfBranchPointsKeepTheBranchOrBreakItAsTheSecondParameterDoes
               2.5 * (1 + std::sqrt(1 - 3.6 / 5)), 1e-9);
 }
 
-/// Moments of the strut: c (a - t0) = lambda h sin a with h = L - lambda cos a / k; at a limit point its rate by a is zero.
+/// Moments of the strut: c (a - t0) = lambda h sin a with h = L - lambda cos a / k; at a limit point its rate
+/// by a is zero.
 TEST(FurtherCurves, OfImperfectVersionsAreTheirLimitPoints) {
   const StudyResult result =
       run(library_case("case-strut.toml") + strut_curves).of("limit points in k");

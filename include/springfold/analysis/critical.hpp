@@ -42,9 +42,10 @@ enum class StabilityOf {
 /// Kind sensitivity: how all special points move with `parameters`.
 /// Kind critical_load: the first `unwanted` point of the path from the start over the whole range.
 struct CriticalPointSettings {
-  std::string point{};                    ///< label on the study's curve: "LP1"
-  std::string parameter{};                ///< its name
-  std::vector<std::string> parameters{};  ///< kind sensitivity; empty: all of the case
+  std::string point{};      ///< label on the study's curve: "LP1"; "STUDY/UZ1": with a History
+  std::string parameter{};  ///< its name
+  std::vector<std::string>
+      parameters{};  ///< kind sensitivity; empty: all. critical_curve: those held
   double low = -std::numeric_limits<double>::infinity();  ///< range of the parameter
   double high = std::numeric_limits<double>::infinity();
   /// true: the start is solved anew for every value, so that commands found for a pose follow the parameter;

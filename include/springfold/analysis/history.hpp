@@ -64,7 +64,9 @@ constexpr bool may_start_after(StudyKind kind) { return kind != StudyKind::works
 /// Kinds that change parameters (those of critical points, maps over parameters): for all values the
 /// earlier studies are run with these, each value once, so that every member has the history that it would
 /// have in a case with these values. Where an earlier study has no such point, that member has no start.
-/// @pre if history.earlier: has_states(kind of that study), may_start_after(study.kind)
+/// @pre if history.earlier: has_states(kind of that study), may_start_after(study.kind); or both kinds are
+/// critical_curve: then the later curve begins at the row `at` of the earlier one, in a parameter of its own,
+/// after the load steps of the first curve
 StudyResult run_study_after(const History& history, const model::Mechanism& mechanism,
                             const Study& study, const ParameterFamily* family = nullptr,
                             const Observer& observer = {}, const RunOptions& options = {});
