@@ -88,26 +88,52 @@ std::string column_of_extremum(const Study& study, const Hit& hit) {
   return {};
 }
 
-/// A column less its value at the special point. @param piece  on which states are taken
+/// The study's marks of a quantity whose value is this one, by their numbers.
+std::vector<std::size_t> marks_at(const Study& study, const QuantityDefinition& quantity,
+                                  double value) {
+  constexpr double same = 1e-9;  // marks are located far better
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < study.marks.size(); ++k)
+    if (study.marks[k].quantity == quantity.name &&
+        std::abs(study.marks[k].value - value) < same * quantity.scale)
+      found.push_back(k);
+  return found;
+}
+
+/// Marks may be formulas of the parameter: do these have one value beside the member, too?
+bool stay_together(const CaseCurves& curves, const Member& member,
+                   const std::vector<std::size_t>& marks) {
+  if (marks.size() < 2) return true;
+  const double value = member.study.marks[marks.front()].value;
+  const Member* beside = curves.equations_at(member.mu + step_of_family);
+  return beside == nullptr || std::all_of(marks.begin(), marks.end(), [&](std::size_t k) {
+           return member.study.marks[k].value == value &&
+                  beside->study.marks[k].value == beside->study.marks[marks.front()].value;
+         });
+}
+
+/// A column less the mark that the special point is, or less its value there. @param piece  on which states are taken
 continuation::StateFunction column_of(const CaseCurves& curves, const Member& member,
                                       const SpecialPoint& point, const Piece& piece) {
   const QuantityDefinition* quantity = member.quantity(point.hit.name);
   if (quantity == nullptr) return {};
   const auto value_at = [name = point.hit.name](const Member& at, const Vector& x, double lambda,
                                                 const Piece& on) {
-    const QuantityDefinition& q = *at.quantity(name);
-    return at.evaluator().value(q, {.x = x, .lambda = lambda, .piece = on}) / q.scale;
+    return at.evaluator().value(*at.quantity(name), {.x = x, .lambda = lambda, .piece = on});
   };
   const CurvePoint& here = point.hit.point;
-  double wanted = value_at(member, here.x, here.lambda, here.piece);
-  for (const Mark& mark : member.study.marks)  // the mark itself, not what was located
-    if (mark.quantity == quantity->name && std::abs(mark.value / quantity->scale - wanted) < 1e-9)
-      wanted = mark.value / quantity->scale;
-  return [&curves, value_at, wanted, piece](const Vector& x, double lambda,
-                                            double mu) -> std::optional<double> {
+  const double located = value_at(member, here.x, here.lambda, here.piece);
+  const std::vector<std::size_t> marks = marks_at(member.study, *quantity, located);
+  if (!stay_together(curves, member, marks)) return {};
+  // The mark itself, as the member has it, not what was located.
+  const auto wanted = [located, marks](const Member& at) {
+    return marks.empty() ? located : at.study.marks[marks.front()].value;
+  };
+  return [&curves, value_at, wanted, piece, scale = quantity->scale](
+             const Vector& x, double lambda, double mu) -> std::optional<double> {
     const Member* at = curves.equations_at(mu);
     if (at == nullptr) return std::nullopt;
-    return value_at(*at, x, lambda, piece) - wanted;
+    return (value_at(*at, x, lambda, piece) - wanted(*at)) / scale;
   };
 }
 
@@ -309,7 +335,10 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       start.kind = CriticalKind::zero;
       start.value = marked_value_on(curves, member, point, hit.point.piece);
       if (start.value) return start;
-      break;
+      if (member.quantity(hit.name) == nullptr) break;
+      why = point.label + ": several marks of " + hit.name +
+            " have one value in the case, and the parameter parts them";
+      return std::nullopt;
     default:
       break;
   }

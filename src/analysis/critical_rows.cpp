@@ -15,11 +15,9 @@ namespace springfold::analysis {
 namespace {
 
 using continuation::CriticalCurve;
-using continuation::CriticalEvent;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 using continuation::Degeneracy;
-using continuation::EventAction;
 
 /// A row to be; `sign`: -1 on the side that is walked backwards.
 struct Row {
@@ -50,22 +48,6 @@ std::string detail_of(const CriticalHit& hit, EventKind of) {
   const std::string kind = name_of_degeneracy(hit.kind, of);
   if (hit.kind == Degeneracy::user) return hit.name;
   return hit.name.empty() ? kind : kind + ": " + hit.name;
-}
-
-CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::string& quantity,
-                       double value, const Piece& piece, EventAction action) {
-  if (quantity == curves.name())
-    return {std::move(name),
-            [mu = value / curves.scale()](const CriticalPoint& p) { return p.mu - mu; }, action,
-            true};
-  return {std::move(name),
-          [&curves, quantity, value, piece](const CriticalPoint& p) {
-            const Member* member = curves.equations_at(p.mu);
-            if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
-            const QuantityDefinition& q = *member->quantity(quantity);
-            return (member->evaluator().value(q, CaseCurves::point_of(p, piece)) - value) / q.scale;
-          },
-          action};
 }
 
 /// Where between two values do starts change their piece? The one nearer to `mu` on the far side, and which switch it is.
@@ -140,50 +122,6 @@ double most_rows(const CaseCurves& curves) {
 }
 
 continuation::TraceOptions critical_options(const Study& study) { return options_of(study.trace); }
-
-std::string end_of_range(const CaseCurves& curves, int sense) {
-  RuledRange side = curves.rules();
-  (sense < 0 ? side.above : side.below).clear();
-  std::string text = std::string{"reaches its "} + (sense < 0 ? "lower" : "upper") + " limit";
-  for (const std::string& words : words_of_beyond(side, curves.name())) text += "; " + words;
-  return text;
-}
-
-std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study& study,
-                                           const Piece& piece) {
-  std::vector<CriticalEvent> events;
-  const auto end = [&](const std::string& quantity, const std::string& what, double value,
-                       int inside) {
-    if (!std::isfinite(value)) return;
-    events.push_back(
-        at_value(curves, quantity + " " + what, quantity, value, piece, EventAction::stop));
-    events.back().inside = inside;
-  };
-  end(curves.name(), end_of_range(curves, -1), study.critical.low, 1);
-  end(curves.name(), end_of_range(curves, 1), study.critical.high, -1);
-  for (const Limit& until : study.until) {
-    end(until.quantity, "reaches its lower limit", until.low, 1);
-    end(until.quantity, "reaches its upper limit", until.high, -1);
-  }
-  for (const Mark& mark : study.marks)
-    events.push_back(
-        at_value(curves, mark.quantity, mark.quantity, mark.value, piece, EventAction::record));
-  return events;
-}
-
-std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const Study& study,
-                                              const Piece& piece) {
-  std::vector<CriticalEvent> events = critical_events(curves, study, piece);
-  events.push_back({"it reaches the start of the path",
-                    [&curves](const CriticalPoint& p) {
-                      const Member* member = curves.equations_at(p.mu);
-                      if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
-                      return p.lambda - member->start().lambda;
-                    },
-                    EventAction::stop, true});
-  events.back().inside = 1;
-  return events;
-}
 
 FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const std::vector<continuation::CriticalStart>& starts, EventKind of,
