@@ -180,7 +180,7 @@ class Design {
       for (const std::size_t i : found.limiting)
         if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
     }
-    doubt_unstable_start(found);
+    doubt_unstable_start(found, climbs && !jumps);
     doubt_broken_rule(found);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
@@ -189,10 +189,13 @@ class Design {
                                cause(climbs && !jumps, rows_fit));
   }
 
-  /// A path that begins unstable has no first critical load, and meets what is wanted of it in words only.
-  void doubt_unstable_start(const FoundDesign& found) {
-    if (study_.design.critical.empty()) return;
-    const DesignPath path(search_.requirements().designs(), search_.values(found.changes));
+  /// A path that begins unstable has no first critical load, and is reached by no load from its start: what is wanted of
+  /// it is met in words only. Where limit points merge at the start itself its stability on the limit is rounding.
+  void doubt_unstable_start(const FoundDesign& found, bool is_birth) {
+    if (!search_.requirements().needs_path()) return;
+    const Vector inside =
+        is_birth ? search_.inwards(found, one_point) : Vector(Vector::Zero(count()));
+    const DesignPath path(search_.requirements().designs(), search_.values(found.changes + inside));
     const auto modes =
         path.has_start() ? unstable_at_start(path.base(), study_.critical) : std::optional<Index>{};
     if (modes && *modes > 0)

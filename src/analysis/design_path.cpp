@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "analysis/undefined.hpp"
-#include "path_slope.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -60,7 +59,8 @@ std::shared_ptr<const CaseFamily> neighbours(const DesignCase& of, const Vector&
 
 }  // namespace
 
-DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose) {
+DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose)
+    : slope_units_{of.slope_units} {
   Study study = of.study;
   study.critical.cases = neighbours(of, values, pose);
   for (std::size_t i = 0; i < of.numbers.size(); ++i) {
@@ -129,7 +129,7 @@ std::optional<Measure> DesignPath::at_value(const std::string& name, const std::
 }
 
 std::optional<Measure> DesignPath::least_slope(const std::string& quantity, double end) const {
-  const auto least = analysis::least_slope(base(), path_, quantity, end);
+  const auto least = analysis::least_slope(base(), path_, quantity, end, slope_units_);
   if (!least) return std::nullopt;
   return with_rates(least->value, [&](const CaseCurves& curves) -> std::optional<Vector> {
     const auto rate = rate_of(curves, curves.base(), *least);

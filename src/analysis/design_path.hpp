@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base_path.hpp"
+#include "path_slope.hpp"
 
 namespace springfold::analysis {
 
@@ -22,6 +23,7 @@ struct DesignCase {
   Study study{};                       ///< marks are those that the requirements need
   std::vector<std::size_t> numbers{};  ///< of the design's parameters among those of the case
   std::vector<double> sizes{};         ///< on which the case varies with each of them
+  SlopeUnits slope_units{};            ///< of the case itself
 };
 
 /// The curves of one design, one family for every parameter. The case must outlive it.
@@ -45,7 +47,7 @@ class DesignPath {
   std::optional<Measure> at_point(const SpecialPoint& point, const std::string& column) const;
 
   /// The least slope of the path before `quantity` passes `end`: d(lambda)/ds, under displacement control that of the
-  /// force, dimensionless. The path turns back where it is negative.
+  /// force, in the units of the case. The path turns back where it is negative.
   std::optional<Measure> least_slope(const std::string& quantity, double end) const;
 
  private:
@@ -53,6 +55,7 @@ class DesignPath {
   Measure with_rates(double value,
                      const std::function<std::optional<Vector>(const CaseCurves&)>& of) const;
 
+  SlopeUnits slope_units_{};
   std::vector<std::unique_ptr<CaseCurves>> families_{};
   BasePath path_{};
 };

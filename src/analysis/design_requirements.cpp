@@ -82,6 +82,10 @@ Requirements::Requirements(const Study& study) : settings_{study.design} {
     const double width = parameter.high - parameter.low;
     case_.sizes.push_back(value > 0 ? std::min(value, width) : width);
   }
+  if (!settings_.critical.empty()) {
+    const CaseCurves own(case_.study, case_.numbers.front());
+    case_.slope_units = {own.base().setup.lambda_scale, own.base().setup.scales.force};
+  }
   auto& marks = case_.study.marks;
   if (settings_.curve)
     for (const auto& [x, y] : settings_.curve->points) marks.push_back({settings_.curve->x, x});

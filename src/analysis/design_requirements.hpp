@@ -35,6 +35,8 @@ class Requirements {
   /// @returns nothing where it cannot be judged: `why` says it
   std::optional<Assessment> assess(const Vector& values, const std::vector<Way>& ways,
                                    const Observer& observer, std::string& why) const;
+  /// Is anything asked of the path, and not of starts alone?
+  bool needs_path() const { return needs_path_; }
   /// Names and wanted values, nothing reached.
   std::vector<FoundRequirement> unknown() const;
 

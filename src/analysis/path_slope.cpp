@@ -1,8 +1,10 @@
 #include "path_slope.hpp"
 
+#include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
+#include "first_unwanted.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -43,6 +45,10 @@ std::vector<Stretch> stretches_of(const continuation::Curve& curve) {
   return all;
 }
 
+Direction in_sense(double sense, const Direction& tangent) {
+  return {sense * tangent.dx, sense * tangent.dlambda};
+}
+
 /// The point of the curve between two others, at this part of the way.
 std::optional<CurvePoint> between(const Member& member, const CurvePoint& a, const CurvePoint& b,
                                   double part) {
@@ -59,49 +65,77 @@ std::optional<CurvePoint> between(const Member& member, const CurvePoint& a, con
 }
 
 /// The least slope between three neighbours of a stretch; the middle one need not be below the others.
-void look_between(const Member& member, const CurvePoint& a, const CurvePoint& b,
+void look_between(const Member& member, const CurvePoint& a, const CurvePoint& b, double sense,
                   LeastSlope& least) {
+  const auto point_at = [&](double part) {
+    auto point = between(member, a, b, part);
+    if (point) point->tangent = in_sense(sense, point->tangent);
+    return point;
+  };
   const auto slope = [&](double part) {
-    const auto point = between(member, a, b, part);
-    const auto value = point ? slope_at(member, *point, point->tangent) : std::nullopt;
+    const auto point = point_at(part);
+    const auto value = point ? slope_at(member, *point, point->tangent, least.units) : std::nullopt;
     return value.value_or(HUGE_VAL);
   };
   const auto [part, value] = boost::math::tools::brent_find_minima(slope, 0.0, 1.0, bits);
   if (!(value < least.value)) return;
-  least = {value, *between(member, a, b, part), std::nullopt, false};
+  least = {value, least.units, *point_at(part), std::nullopt, false};
+}
+
+bool is_of_force(const Member& member) {
+  const ControlMode control = member.study.control;
+  return control == ControlMode::pose || control == ControlMode::mixed;
+}
+
+/// In which sense the slope of a path is told: -1 against its own. With an odd number of unstable modes at the start
+/// lambda grows along the path where it falls along the one that leaves a stable start.
+double sense_of(const Member& member, const BasePath& path) {
+  const bool turns = std::any_of(path.points.begin(), path.points.end(), [](const auto& point) {
+    return point.kind == EventKind::limit_point || point.kind == EventKind::corner_limit_point;
+  });
+  if (is_of_force(member) || !turns) return 1;
+  const auto modes = unstable_at_start(member, CriticalPointSettings{});
+  return modes && *modes % 2 != 0 ? -1 : 1;
 }
 
 }  // namespace
 
 std::optional<double> slope_at(const Member& member, const CurvePoint& point,
-                               const Direction& reference) {
+                               const Direction& reference, const SlopeUnits& units) {
   const PathProblem& problem = *member.problem;
   continuation::Linearisation at;
   if (!continuation::linearise_densely(problem, point.x, point.lambda, point.piece, at))
     return std::nullopt;
   const auto tangent = continuation::tangent_at(at, problem.metric(), reference);
   if (!tangent) return std::nullopt;
-  const ControlMode control = member.study.control;
-  if (control != ControlMode::pose && control != ControlMode::mixed) return tangent->dlambda;
+  const double dlambda = member.setup.lambda_scale / units.lambda * tangent->dlambda;
+  const double ds =
+      std::sqrt(problem.metric().dot(tangent->dx.cwiseAbs2().eval()) + dlambda * dlambda);
+  if (!is_of_force(member)) return dlambda / ds;
   CurvePoint along = point;
   along.tangent = *tangent;
-  return member.evaluator().force_rate(along).told();
+  const double force = member.setup.scales.force / units.force;
+  return force * member.evaluator().force_rate(along).told() / ds;
 }
 
 std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path,
-                                      const std::string& quantity, double end) {
-  LeastSlope least{.value = HUGE_VAL};
+                                      const std::string& quantity, double end,
+                                      const SlopeUnits& units) {
+  LeastSlope least{.value = HUGE_VAL, .units = units};
   const QuantityDefinition* column = member.quantity(quantity);
   const auto beyond = [&](const CurvePoint& point) {
     return std::isfinite(end) && column != nullptr &&
            member.evaluator().value(*column, point) > end;
   };
+  const double sense = sense_of(member, path);
+  bool is_first = true;
   for (const Stretch& stretch : stretches_of(path.forward)) {
     const auto& points = stretch.points;
     std::size_t last = 0, lowest = 0;
     std::vector<double> slopes;
     for (; last < points.size(); ++last) {
-      const auto slope = slope_at(member, points[last], points[last].tangent);
+      const auto slope =
+          slope_at(member, points[last], in_sense(sense, points[last].tangent), units);
       if (!slope) return std::nullopt;
       slopes.push_back(*slope);
       if (*slope < slopes[lowest]) lowest = last;
@@ -109,18 +143,21 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
     }
     const std::size_t count = slopes.size();
     if (slopes[lowest] < least.value) {
-      least = {slopes[lowest], points[lowest], std::nullopt, false};
+      least = {slopes[lowest], units, points[lowest], std::nullopt, false};
+      least.point.tangent = in_sense(sense, least.point.tangent);
       const Hit* hit = lowest == 0                   ? stretch.from
                        : lowest + 1 == points.size() ? stretch.to
                                                      : nullptr;
       for (const SpecialPoint& point : path.points)
         if (hit != nullptr && point.hit.point.s == hit->point.s) least.switching = point;
       least.behind = lowest == 0;
+      least.at_start = is_first && lowest == 0;
     }
     if (count > 1)
       look_between(member, points[lowest > 0 ? lowest - 1 : 0],
-                   points[std::min(lowest + 1, count - 1)], least);
+                   points[std::min(lowest + 1, count - 1)], sense, least);
     if (last < points.size()) break;
+    is_first = false;
   }
   if (!std::isfinite(least.value)) return std::nullopt;
   return least;
@@ -135,10 +172,19 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
                             const CurvePoint& point) -> std::optional<Vector> {
       CurvePoint there = point;
       there.piece = piece;
-      const auto slope = slope_at(member, there, reference);
+      const auto slope = slope_at(member, there, reference, least.units);
       return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
     };
     const auto rate = rates_at_special(curves, base, *least.switching, values);
+    return rate ? std::optional<double>{(*rate)[0]} : std::nullopt;
+  }
+  if (least.at_start) {
+    const auto values = [&](const Member& member, CurvePoint point) -> std::optional<Vector> {
+      point.piece = least.point.piece;
+      const auto slope = slope_at(member, point, reference, least.units);
+      return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
+    };
+    const auto rate = rates_at_start(curves, values);
     return rate ? std::optional<double>{(*rate)[0]} : std::nullopt;
   }
   // The slope is stationary along the path: where exactly its point moves to does not matter.
@@ -152,7 +198,7 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
     CurvePoint there = least.point;
     there.x = found.x;
     there.lambda = found.lambda;
-    const auto slope = slope_at(*member, there, reference);
+    const auto slope = slope_at(*member, there, reference, least.units);
     return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
   };
   const auto rate = six_point_derivative(along, 0, slope_step);

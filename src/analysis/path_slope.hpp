@@ -5,22 +5,33 @@
 
 namespace springfold::analysis {
 
+/// Slopes of all designs are told in the units of the case, so that they can be compared: curves have units that suit
+/// the response at their own start.
+struct SlopeUnits {
+  double lambda = 1, force = 1;  ///< physical
+};
+
 /// Where the slope of a path is least.
 struct LeastSlope {
-  double value = 0;                  ///< dimensionless
+  double value = 0;  ///< in `units`
+  SlopeUnits units{};
   continuation::CurvePoint point{};  ///< on its piece, with its tangent
   std::optional<SpecialPoint>
       switching{};  ///< at a switching spring: there; `behind`: on the leaving side
   bool behind = false;
+  bool at_start = false;  ///< at the start of the path, an edge: it moves as that does
 };
 
-/// d(lambda)/ds of the path through a point along `reference`, under control of poses d(force)/ds; dimensionless.
+/// d(lambda)/ds of the path through a point along `reference`, under control of poses d(force)/ds.
 std::optional<double> slope_at(const Member& member, const continuation::CurvePoint& point,
-                               const continuation::Direction& reference);
+                               const continuation::Direction& reference, const SlopeUnits& units);
 
-/// The least one on the traced path before `quantity` passes `end`.
+/// The least one on the traced path before `quantity` passes `end`. Towards growing lambda a path leaves an unstable
+/// start the other way than a stable one: if it turns back, its slope is told in the sense of the latter, and grows
+/// through zero where the start becomes stable.
 std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path,
-                                      const std::string& quantity, double end);
+                                      const std::string& quantity, double end,
+                                      const SlopeUnits& units);
 
 /// How it moves with the parameter of `curves`.
 std::optional<double> rate_of(const CaseCurves& curves, const Member& base,

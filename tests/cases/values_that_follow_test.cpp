@@ -1,5 +1,6 @@
-// Limits and marks that are formulas of the parameter in which special points are looked at. A toggle of two links of length 1
-// with a spring of stiffness 1, drawn at the angle alpha: P = 4 (cos t - cos alpha) tan t, largest where cos^3 t = cos alpha.
+// Limits and marks that are formulas of the parameter in which special points are looked at. A toggle of two links of
+// length 1 with a spring of stiffness 1, drawn at the angle alpha: P = 4 (cos t - cos alpha) tan t, largest where
+// cos^3 t = cos alpha.
 #include <gtest/gtest.h>
 
 #include <cmath>
