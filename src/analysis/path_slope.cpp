@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "first_unwanted.hpp"
+#include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -28,10 +29,11 @@ struct Stretch {
   const Hit *from = nullptr, *to = nullptr;  ///< switchings at its ends
 };
 
+/// To the limit that ends the curve, which lies behind its last point.
 std::vector<Stretch> stretches_of(const continuation::Curve& curve) {
   std::vector<Stretch> all(1);
   std::size_t h = 0;
-  for (const CurvePoint& point : curve.points) {
+  const auto add = [&](const CurvePoint& point) {
     for (; h < curve.hits.size() && curve.hits[h].point.s <= point.s; ++h) {
       const Hit& hit = curve.hits[h];
       if (!switches_there(hit)) continue;
@@ -41,7 +43,11 @@ std::vector<Stretch> stretches_of(const continuation::Curve& curve) {
     }
     if (all.back().points.empty() || point.s > all.back().points.back().s)
       all.back().points.push_back(point);
-  }
+  };
+  for (const CurvePoint& point : curve.points) add(point);
+  if (curve.stop == continuation::StopReason::event && !curve.hits.empty() &&
+      curve.hits.back().stops)
+    add(curve.hits.back().point);
   return all;
 }
 
@@ -98,6 +104,35 @@ double sense_of(const Member& member, const BasePath& path) {
   return modes && *modes % 2 != 0 ? -1 : 1;
 }
 
+/// The limit that the point lies on.
+std::optional<EndLimit> limit_at(const Member& member, const CurvePoint& point) {
+  for (const Limit& limit : member.study.until)
+    for (double Limit::*side : {&Limit::low, &Limit::high}) {
+      Study one = member.study;
+      one.until = {Limit{.quantity = limit.quantity}};
+      one.until.front().*side = limit.*side;
+      if (is_on_limit(one, member.evaluator(), member.quantities(), point))
+        return EndLimit{limit.quantity, side};
+    }
+  return std::nullopt;
+}
+
+/// How far a state is from the limit that a member has.
+continuation::StateFunction distance_from(const CaseCurves& curves, const EndLimit& end,
+                                          const Piece& piece) {
+  return [&curves, end, piece](const Vector& x, double lambda, double mu) -> std::optional<double> {
+    const Member* member = curves.equations_at(mu);
+    if (member == nullptr) return std::nullopt;
+    const QuantityDefinition& q = *member->quantity(end.quantity);
+    for (const Limit& limit : member->study.until)
+      if (limit.quantity == end.quantity)
+        return (member->evaluator().value(q, {.x = x, .lambda = lambda, .piece = piece}) -
+                limit.*end.side) /
+               q.scale;
+    return std::nullopt;
+  };
+}
+
 }  // namespace
 
 std::optional<double> slope_at(const Member& member, const CurvePoint& point,
@@ -152,6 +187,8 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
         if (hit != nullptr && point.hit.point.s == hit->point.s) least.switching = point;
       least.behind = lowest == 0;
       least.at_start = is_first && lowest == 0;
+      if (stretch.to == nullptr && lowest + 1 == points.size())
+        least.end = limit_at(member, points[lowest]);
     }
     if (count > 1)
       look_between(member, points[lowest > 0 ? lowest - 1 : 0],
@@ -166,26 +203,30 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
 std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
                               const LeastSlope& least) {
   const Direction reference = least.point.tangent;
+  const auto values = [&](const Member& member, CurvePoint there) -> std::optional<Vector> {
+    there.piece = least.point.piece;
+    const auto slope = slope_at(member, there, reference, least.units);
+    return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
+  };
   if (least.switching) {
-    const Piece piece = least.point.piece;
-    const auto values = [&](const Member& member,
-                            const CurvePoint& point) -> std::optional<Vector> {
-      CurvePoint there = point;
-      there.piece = piece;
-      const auto slope = slope_at(member, there, reference, least.units);
-      return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
-    };
     const auto rate = rates_at_special(curves, base, *least.switching, values);
     return rate ? std::optional<double>{(*rate)[0]} : std::nullopt;
   }
   if (least.at_start) {
-    const auto values = [&](const Member& member, CurvePoint point) -> std::optional<Vector> {
-      point.piece = least.point.piece;
-      const auto slope = slope_at(member, point, reference, least.units);
-      return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
-    };
     const auto rate = rates_at_start(curves, values);
     return rate ? std::optional<double>{(*rate)[0]} : std::nullopt;
+  }
+  if (least.end) {
+    const auto rate =
+        rates_at_followed(curves, base,
+                          {.kind = continuation::CriticalKind::zero,
+                           .x = least.point.x,
+                           .lambda = least.point.lambda,
+                           .mu = base.mu,
+                           .piece = least.point.piece,
+                           .value = distance_from(curves, *least.end, least.point.piece)},
+                          values);
+    if (rate) return (*rate)[0];
   }
   // The slope is stationary along the path: where exactly its point moves to does not matter.
   const auto along = [&](double t) -> std::optional<Vector> {
@@ -198,8 +239,7 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
     CurvePoint there = least.point;
     there.x = found.x;
     there.lambda = found.lambda;
-    const auto slope = slope_at(*member, there, reference, least.units);
-    return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
+    return values(*member, there);
   };
   const auto rate = six_point_derivative(along, 0, slope_step);
   return rate ? std::optional<double>{(*rate)[0] / curves.scale()} : std::nullopt;

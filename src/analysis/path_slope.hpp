@@ -11,6 +11,12 @@ struct SlopeUnits {
   double lambda = 1, force = 1;  ///< physical
 };
 
+/// The limit that ends a path.
+struct EndLimit {
+  std::string quantity{};
+  double Limit::*side = &Limit::high;
+};
+
 /// Where the slope of a path is least.
 struct LeastSlope {
   double value = 0;  ///< in `units`
@@ -19,7 +25,8 @@ struct LeastSlope {
   std::optional<SpecialPoint>
       switching{};  ///< at a switching spring: there; `behind`: on the leaving side
   bool behind = false;
-  bool at_start = false;  ///< at the start of the path, an edge: it moves as that does
+  bool at_start = false;          ///< at the start of the path, an edge: it moves as that does
+  std::optional<EndLimit> end{};  ///< at the path's end, another edge: on this limit
 };
 
 /// d(lambda)/ds of the path through a point along `reference`, under control of poses d(force)/ds.

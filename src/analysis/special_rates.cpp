@@ -21,18 +21,23 @@ std::optional<Vector> rates_at_special(const CaseCurves& curves, const Member& b
                                        const SpecialPoint& point, const StateValues& values) {
   std::string why;
   const auto start = critical_start(curves, base, point, why);
-  if (!start) return std::nullopt;
-  const auto rate = critical_rate(curves.family(), *start);
+  return start ? rates_at_followed(curves, base, *start, values) : std::nullopt;
+}
+
+std::optional<Vector> rates_at_followed(const CaseCurves& curves, const Member& base,
+                                        const continuation::CriticalStart& start,
+                                        const StateValues& values) {
+  const auto rate = critical_rate(curves.family(), start);
   if (!rate) return std::nullopt;
   const int sheet = base.sheet;
   bool same_sheet = true;
   const auto along = [&](double t) -> std::optional<Vector> {
-    const Member* member = curves.at(start->mu + t);
+    const Member* member = curves.at(start.mu + t);
     if (member == nullptr) return std::nullopt;
     same_sheet = same_sheet && member->sheet == sheet;
     return values(*member, {.x = rate->x + t * rate->dx,
                             .lambda = rate->lambda + t * rate->dlambda,
-                            .piece = start->piece});
+                            .piece = start.piece});
   };
   const double size = std::max({1.0, rate->dx.lpNorm<Eigen::Infinity>(), std::abs(rate->dlambda)});
   std::optional<Vector> found;

@@ -9,6 +9,12 @@ namespace springfold::analysis {
 using StateValues = std::function<std::optional<Vector>(const Member& member,
                                                         const continuation::CurvePoint& point)>;
 
+/// Total derivatives of `values` at a point of a followed kind by the parameter of `curves`; nothing where it is
+/// degenerate.
+std::optional<Vector> rates_at_followed(const CaseCurves& curves, const Member& base,
+                                        const continuation::CriticalStart& start,
+                                        const StateValues& values);
+
 /// Total derivatives of `values` at a special point by the parameter of `curves`, the point being kept special; nothing
 /// where it is degenerate or of a kind that is not followed.
 std::optional<Vector> rates_at_special(const CaseCurves& curves, const Member& base,

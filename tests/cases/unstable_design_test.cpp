@@ -1,6 +1,6 @@
-// Designs whose path begins unstable. A mass on a slide with a spring kv along it, between two springs of stiffness 1
-// and free length l0 across it, fixed at a distance of 1: F(x) = kv x + 2 x (1 - l0/sqrt(1 + x^2)), so that
-// F'(0) = kv - 2 (l0 - 1) is the least stiffness.
+// Designs whose path begins unstable, or is least steep at one of its ends. A mass on a slide with a spring kv along
+// it, between two springs of stiffness 1 and free length l0 across it, fixed at a distance of 1:
+// F(x) = kv x + 2 x (1 - l0/sqrt(1 + x^2)), so that F'(0) = kv - 2 (l0 - 1) is the least stiffness.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,6 +89,49 @@ TEST(UnstableDesign, TheNearestMissLiesAtTheBoundsThatLimitIt) {
   EXPECT_NEAR(slide_value(result, "l0"), 1.4, 1e-9);
   EXPECT_EQ(slide_value(result, "limits.kv"), 1);
   EXPECT_EQ(slide_value(result, "limits.l0"), -1);
+}
+
+TEST(UnstableDesign, ALimitPointThatLeavesThePathDoesSoAtItsLimit) {
+  // F = kv x - b x^3/3 turns back at x^2 = kv/b, behind 1.2 where kv = 1.44 b.
+  const std::string slide = R"toml(
+[parameters]
+kv = 1
+b = 1
+far = "1.2*b"
+[[body]]
+name = "mass"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "straight"
+elements = [
+  { joint = "prismatic", axis = "x", name = "spring", role = "virtual", spring = { law = "polynomial", coefficients = [0, "kv", 0, "-b/3"], falling = true } },
+  { joint = "prismatic", axis = "y", name = "guide" },
+]
+[[chain]]
+name = "side"
+elements = [
+  { joint = "prismatic", axis = "x", name = "guide" },
+  { joint = "prismatic", axis = "y", name = "spring", role = "virtual", stiffness = 1 },
+]
+[[study]]
+name = "s"
+kind = "design"
+control = "load"
+direction = [1, 0]
+)toml";
+  const auto one = run(slide +
+                       "until = { mass.x = [-1.2, 1.2] }\ndesign = { parameters = { kv = "
+                       "[0.1, 3] }, no_limit_point = {}, starts = 1 }\n")
+                       .of("s");
+  EXPECT_NEAR(slide_value(one, "kv"), 1.44, 1e-8);
+  EXPECT_TRUE(one.design->verified);
+  // A limit that follows: kv = b (1.2 b)^2.
+  const auto other = run(slide +
+                         "until = { mass.x = [-1.2, \"far\"] }\ndesign = { parameters = { "
+                         "b = [0.5, 2] }, no_limit_point = {}, starts = 1 }\n")
+                         .of("s");
+  EXPECT_NEAR(slide_value(other, "b"), std::cbrt(1 / 1.44), 1e-8);
 }
 
 TEST(UnstableDesign, PointsOfACurveThatBeginsUnstableAreMetWithADoubt) {
