@@ -44,4 +44,15 @@ void end_curve_at(const CriticalPoint& last, const std::string& why,
   curve.stop_detail = why;
 }
 
+void mark_jump(Branch& branch, bool last, const std::string& text) {
+  const std::size_t row = last ? branch.samples.size() - 1 : 0;
+  auto at = std::find_if(branch.events.begin(), branch.events.end(),
+                         [&](const Event& event) { return event.row == row; });
+  if (at == branch.events.end()) return;
+  if (at->kind != EventKind::end_of_range)
+    at = branch.events.insert(last ? branch.events.end() : at + 1, *at);
+  at->kind = EventKind::jump;
+  at->detail = text;
+}
+
 }  // namespace springfold::analysis

@@ -19,4 +19,7 @@ std::optional<continuation::CriticalPoint> point_of_curve(const CaseCurves& curv
 void end_curve_at(const continuation::CriticalPoint& last, const std::string& why,
                   continuation::CriticalCurve& curve);
 
+/// The event of a jump in the last or the first row; there is one already where something else is located.
+void mark_jump(Branch& branch, bool last, const std::string& text);
+
 }  // namespace springfold::analysis

@@ -48,6 +48,7 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
   FirstUnwanted first;
   if (member == nullptr) {
     first.why = "there is no start";
+    first.has_start = false;
     return first;
   }
   // Stability that is not there cannot be lost.
@@ -90,6 +91,11 @@ void DoubtedValues::add(double value, const std::string& why) {
     same->second.push_back(value);
 }
 
+void DoubtedValues::forget(const std::function<bool(double)>& known) {
+  for (auto& one : by_reason_) std::erase_if(one.second, known);
+  std::erase_if(by_reason_, [](const auto& one) { return one.second.empty(); });
+}
+
 std::vector<std::string> DoubtedValues::told(const std::string& parameter) const {
   std::vector<std::string> doubts;
   for (const auto& [why, values] : by_reason_) {
@@ -105,7 +111,7 @@ std::vector<std::string> DoubtedValues::told(const std::string& parameter) const
 FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
                              const CriticalPointSettings& settings, const Observer& observer) {
   const Member* member = curves.at(mu);
-  if (member == nullptr) return {.why = curves.why_none(mu)};
+  if (member == nullptr) return {.why = curves.why_none(mu), .has_start = false};
   return first_unwanted(member, settings, observer);
 }
 

@@ -1,6 +1,7 @@
 // The first unwanted point on the path from the start. Private to analysis.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ namespace springfold::analysis {
 struct FirstUnwanted {
   std::optional<SpecialPoint> point{};  ///< nothing: the path has none, unless `why` says otherwise
   std::string why{};                    ///< why it is not known; empty: it is known
+  bool has_start = true;
 };
 
 /// Follows the curve from the start in the direction in which lambda grows. Where stability counts and the start has none,
@@ -35,6 +37,7 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
 class DoubtedValues {
  public:
   void add(double value, const std::string& why);
+  void forget(const std::function<bool(double)>& known);
   /// "at p = -1 to -0.2, 9 values: why"
   std::vector<std::string> told(const std::string& parameter) const;
 

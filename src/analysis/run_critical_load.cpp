@@ -1,6 +1,7 @@
 // The study kind `critical_load`: the first critical load on the path from the start, over a parameter.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -69,7 +70,7 @@ class LoadsOverParameter {
       if (first.point)
         piece = piece_of(*first.point, mu, done, high_);
       else if (!first.why.empty())
-        doubt(mu, first.why);
+        (first.has_start ? doubted_ : lacks_start_).add(mu * curves_.scale(), first.why);
       fill(done, piece ? piece->falling.end : mu);
       if (piece) {
         fill_back(pieces_.empty() ? done : std::max(done, pieces_.back().growing.end),
@@ -322,9 +323,21 @@ class LoadsOverParameter {
     }
   }
 
+  /// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
+  bool ends_at_start(double value) const {
+    const double mu = value / curves_.scale();
+    const auto behind = std::find_if(pieces_.begin(), pieces_.end(),
+                                     [&](const LoadPiece& p) { return p.falling.end >= mu; });
+    const auto comes = [](const Side& side) { return side.curve.stop_detail == reaches_start; };
+    return (behind != pieces_.end() && comes(behind->falling)) ||
+           (behind != pieces_.begin() && comes(std::prev(behind)->growing));
+  }
+
   void finish() {
-    for (std::string& text : doubted_.told(curves_.name()))
-      result_.doubts.push_back(std::move(text));
+    lacks_start_.forget([this](double value) { return ends_at_start(value); });
+    for (const DoubtedValues& doubted : {lacks_start_, doubted_})
+      for (std::string& text : doubted.told(curves_.name()))
+        result_.doubts.push_back(std::move(text));
     leave_out_points();
     say_what_goes_on();
     for (const LoadPiece& piece : pieces_) {
@@ -341,11 +354,11 @@ class LoadsOverParameter {
       if (meets)
         say_jump(i);
       else if (pieces_[i].growing.jumps)
-        mark(result_.branches[i], true, "ends: there is no critical point behind");
+        mark_jump(result_.branches[i], true, "ends: there is no critical point behind");
       const bool met = i > 0 && std::abs(pieces_[i].falling.end - pieces_[i - 1].growing.end) <=
                                     at_degeneracy * width_;
       if (!met && pieces_[i].falling.jumps)
-        mark(result_.branches[i], false, "begins: there is no critical point before");
+        mark_jump(result_.branches[i], false, "begins: there is no critical point before");
     }
     label_critical(result_.branches);
   }
@@ -362,20 +375,8 @@ class LoadsOverParameter {
                               : end.decides ? std::string{to_string(*end.decides)}
                                             : "another critical point comes first";
     const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
-    mark(before, true, text);
-    mark(behind, false, text);
-  }
-
-  /// The event of a jump in the last or the first row; there is one already where something else is located.
-  static void mark(Branch& branch, bool last, const std::string& text) {
-    const std::size_t row = last ? branch.samples.size() - 1 : 0;
-    auto at = std::find_if(branch.events.begin(), branch.events.end(),
-                           [&](const Event& event) { return event.row == row; });
-    if (at == branch.events.end()) return;
-    if (at->kind != EventKind::end_of_range)
-      at = branch.events.insert(last ? branch.events.end() : at + 1, *at);
-    at->kind = EventKind::jump;
-    at->detail = text;
+    mark_jump(before, true, text);
+    mark_jump(behind, false, text);
   }
 
   const CaseCurves& curves_;
@@ -385,7 +386,7 @@ class LoadsOverParameter {
   double low_ = 0, high_ = 0, width_ = 1;
   std::vector<double> grid_{};  ///< of the parameter, dimensionless
   std::map<double, FirstUnwanted> known_{};
-  DoubtedValues doubted_{};
+  DoubtedValues doubted_{}, lacks_start_{};
   std::vector<LoadPiece> pieces_{};
 };
 

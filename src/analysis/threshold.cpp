@@ -34,6 +34,12 @@ constexpr double at_limit = 1e-9;
 /// Pieces of the boundary that are followed one after the other.
 constexpr int most_boundary_pieces = 40;
 
+std::string at_start_of_path(EventKind kind) {
+  const bool turns = kind == EventKind::limit_point || kind == EventKind::corner_limit_point;
+  return std::string{"the "} + (turns ? "limit" : "unwanted") +
+         " point reaches the start of the path";
+}
+
 class Threshold {
  public:
   Threshold(const CaseCurves& curves, const Study& study, const Observer& observer,
@@ -52,6 +58,7 @@ class Threshold {
     double mu = begin;
     bool any = false;
     for (int piece = 0; piece < most_boundary_pieces; ++piece) {
+      if (any && lacks_start(mu)) return found(last_, true);
       if (towards_ * (mu - end) > 0) return is_clear_ ? found(last_, true) : none("");
       const auto bad = unwanted_at(mu);
       if (!why_.empty()) return doubt(mu);
@@ -79,6 +86,18 @@ class Threshold {
     else if (!first.why.empty())
       why_ = first.why;
     return first.point;
+  }
+
+  /// Where an unwanted limit point has reached the start, the start is one: beyond there may be none.
+  bool lacks_start(double mu) const { return at_start_ && curves_.at(mu) == nullptr; }
+
+  /// Does the start vanish there? Another point of the path may have the start's load, too.
+  bool loses_start(double mu) const {
+    const double side = towards_ * traced_beside * std::max(std::abs(mu), 1e-3);
+    const Member* before = curves_.at(mu - side);
+    const int sheet = before != nullptr ? before->sheet : 0;
+    const Member* behind = curves_.at(mu + side);
+    return before != nullptr && (behind == nullptr || behind->sheet != sheet);
   }
 
   /// Follows an unwanted point to where it is gone. @returns false where the search is over
@@ -124,8 +143,13 @@ class Threshold {
     decides_ =
         end == curve.hits.end() ? curve.stop_detail : name_of_degeneracy(end->kind, bad.kind);
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
-    const std::optional<double> clear = clear_before(mu, last.mu, at_range);
+    const bool at_its_load = end == curve.hits.end() && curve.stop_detail == reaches_start;
+    at_start_ = at_its_load && loses_start(last.mu);
+    if (at_start_) decides_ = at_start_of_path(bad.kind);
+    const std::optional<double> clear =
+        clear_before(mu, last.mu, at_range || (at_its_load && !at_start_));
     is_clear_ = clear.has_value();
+    at_start_ = at_start_ && !is_clear_;
     if (clear) end_where_clear(*clear, followed, last);
     followed.falling.points = {curve.points.front()};
     followed.falling.stop = continuation::StopReason::event;
@@ -250,11 +274,13 @@ class Threshold {
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;
     if (any) {
+      if (lacks_start(mu + towards_ * traced_beside * std::max(std::abs(mu), 1e-3)))
+        report_.message += ", beyond which there is no start";
       for (const double distance : distances_traced) {
         why_.clear();
         const double side = towards_ * distance * std::max(std::abs(mu), 1e-3);
-        report_.verified =
-            unwanted_at(mu - side).has_value() && !unwanted_at(mu + side) && why_.empty();
+        report_.verified = unwanted_at(mu - side).has_value() &&
+                           (lacks_start(mu + side) || (!unwanted_at(mu + side) && why_.empty()));
         if (!report_.verified) continue;
         if (distance > traced_beside)
           report_.message += ", confirmed at a relative distance of " + rounded(distance);
@@ -293,6 +319,7 @@ class Threshold {
   double towards_ = 1;
   double last_ = 0;        ///< where the last piece ended
   bool is_clear_ = false;  ///< there the path no longer came to its point
+  bool at_start_ = false;  ///< its point is the start there
   std::string decides_{}, why_{};
   std::optional<SpecialPoint> ended_on_{};
 };
