@@ -39,14 +39,13 @@ struct SixPoints {
   double expected_error = 0;
 };
 
-std::optional<SixPoints> six_points(const std::function<std::optional<Vector>(double)>& f,
-                                    double h) {
+/// @param quotient  the central difference over [-t, t]; its error is even in t, of the first derivative as of the second
+std::optional<SixPoints> six_points(const SampledFunction& quotient, double h) {
   std::array<Vector, 3> slopes;
   for (std::size_t k = 0; k < slopes.size(); ++k) {
-    const double t = static_cast<double>(k + 1) * h;
-    auto above = f(t), below = f(-t);
-    if (!above || !below) return std::nullopt;
-    slopes[k] = (*above - *below) / (2 * t);
+    auto slope = quotient(static_cast<double>(k + 1) * h);
+    if (!slope) return std::nullopt;
+    slopes[k] = std::move(*slope);
   }
   const Vector by_four = (4 * slopes[0] - slopes[1]) / 3;
   SixPoints found{.value = 1.5 * slopes[0] - 0.6 * slopes[1] + 0.1 * slopes[2]};
@@ -56,19 +55,38 @@ std::optional<SixPoints> six_points(const std::function<std::optional<Vector>(do
   return found;
 }
 
-}  // namespace
-
-std::optional<Vector> derivative_at_zero(const std::function<std::optional<Vector>(double)>& f,
-                                         double step) {
+std::optional<Vector> limit_of(const SampledFunction& quotient, double step) {
   std::optional<SixPoints> best;
   for (double h = step; h >= narrowest * step; h /= wider) {
-    auto found = six_points(f, h);
+    auto found = six_points(quotient, h);
     if (!found) break;
     const double left = found->expected_error;
     if (!best || left < best->expected_error) best = std::move(found);
     if (left <= one_place * std::max(1.0, best->value.lpNorm<Eigen::Infinity>())) break;
   }
   return best ? std::optional<Vector>(std::move(best->value)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step) {
+  const auto quotient = [&](double t) -> std::optional<Vector> {
+    const auto above = f(t), below = f(-t);
+    if (!above || !below) return std::nullopt;
+    return Vector((*above - *below) / (2 * t));
+  };
+  return limit_of(quotient, step);
+}
+
+std::optional<Vector> second_derivative_at_zero(const SampledFunction& f, double step) {
+  const auto middle = f(0);
+  if (!middle) return std::nullopt;
+  const auto quotient = [&](double t) -> std::optional<Vector> {
+    const auto above = f(t), below = f(-t);
+    if (!above || !below) return std::nullopt;
+    return Vector((*above - 2 * *middle + *below) / (t * t));
+  };
+  return limit_of(quotient, step);
 }
 
 bool base_terms(const Family& family, const Vector& x, double lambda, double mu, const Piece& piece,

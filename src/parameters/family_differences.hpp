@@ -26,10 +26,14 @@ bool base_terms(const Family& family, const Vector& x, double lambda, double mu,
 /// Rough: a few digits, at less than half of the cost.
 enum class Exactness { exact, rough };
 
+/// Of a distance; nothing outside of its domain.
+using SampledFunction = std::function<std::optional<Vector>(double)>;
+
 /// Derivative at zero by six-point differences, with shorter steps where the function bends so much that the first ones do not
 /// resolve it: the orders of one step's places disagree. Nothing where f has no value at one of them.
-std::optional<Vector> derivative_at_zero(const std::function<std::optional<Vector>(double)>& f,
-                                         double step);
+std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step);
+/// The same for the second derivative.
+std::optional<Vector> second_derivative_at_zero(const SampledFunction& f, double step);
 
 /// w^T D^2F [V, .] by (x, lambda), n + 1 entries: differences of J along V. @param V  n + 1 entries
 std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "parameters/augmented.hpp"
+#include "parameters/family_differences.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/differences.hpp"
@@ -16,9 +17,6 @@ namespace {
 /// error, at most 1e-10 (the engine's contract), and the root of rounding lies two digits above. Two points whose
 /// values are both below lie so near that the located one stands for both.
 const double vanishing = std::sqrt(rounding_unit);
-/// Largest entry of the nearest points of differences along directions: first and second derivatives of dF/dx.
-constexpr double first_step = 0x1p-8;
-constexpr double second_step = 0x1p-8;
 
 /// A singular point of one member of the family.
 class ReducedPlace {
@@ -43,25 +41,18 @@ class ReducedPlace {
 
   /// D^2F[along, columns], n x (columns).
   std::optional<Matrix> second(const Vector& along, const Matrix& columns) const {
-    const auto rate = six_point_derivative([&](double t) { return moved(along, t, columns); }, 0,
-                                           first_step / size_of(along));
+    const auto rate = derivative_at_zero([&](double t) { return moved(along, t, columns); },
+                                         directional_step / size_of(along));
     if (!rate) return std::nullopt;
     return Matrix(rate->reshaped(at_.x.size(), columns.cols()));
   }
 
-  /// D^3F[along, along, columns] by the central seven-point formula of order 6.
+  /// D^3F[along, along, columns].
   std::optional<Matrix> third(const Vector& along, const Matrix& columns) const {
-    const double h = second_step / size_of(along);
-    const auto middle = moved(along, 0, columns);
-    if (!middle) return std::nullopt;
-    constexpr double weights[]{270, -27, 2};
-    Vector sum = -490 * *middle;
-    for (int k = 1; k <= 3; ++k) {
-      const auto above = moved(along, k * h, columns), below = moved(along, -k * h, columns);
-      if (!above || !below) return std::nullopt;
-      sum += weights[k - 1] * (*above + *below);
-    }
-    return Matrix((sum / (180 * h * h)).reshaped(at_.x.size(), columns.cols()));
+    const auto rate = second_derivative_at_zero([&](double t) { return moved(along, t, columns); },
+                                                directional_step / size_of(along));
+    if (!rate) return std::nullopt;
+    return Matrix(rate->reshaped(at_.x.size(), columns.cols()));
   }
 
  private:

@@ -42,6 +42,23 @@ TEST(ImperfectionLaws, ASymmetricBranchThatFallsLosesTheTwoThirdsPowerOfTheImper
   EXPECT_EQ(law->sign, 0);
 }
 
+TEST(ImperfectionLaws, DoNotDependOnTheUnitOfTheLoad) {
+  // x^2 - sin(u l)^2 - m: branches x = sin(u l) and x = -sin(u l) cross; folds at m = -sin(u l)^2.
+  for (const double u : {1.0, 16.0, 256.0}) {
+    const Family family = family_of<ScalarProblem>([=](double m) {
+      return ScalarProblem{
+          [=](double x, double l) { return x * x - std::pow(std::sin(u * l), 2) - m; },
+          [](double x, double) { return 2 * x; },
+          [=](double, double l) { return -u * std::sin(2 * u * l); }};
+    });
+    const auto law =
+        law_at(family, at_branch_point(Vector::Zero(1), 0), {Vector::Constant(1, 1), 1 / u});
+    ASSERT_TRUE(law) << u;
+    EXPECT_EQ(law->exponent, 0.5) << u;
+    EXPECT_NEAR(u * law->coefficient, 1, 1e-9) << u;
+  }
+}
+
 TEST(ImperfectionLaws, WhatIsZeroButForRoundingBreaksNoBranch) {
   // sqrt((3 + m)^2 + 16) is the length from (3 + m, 0) to (0, 4), written in two ways: their difference is zero.
   const auto nothing = [](double m) {
