@@ -124,10 +124,13 @@ continuation::StateFunction column_of(const CaseCurves& curves, const Member& me
   const CurvePoint& here = point.hit.point;
   const double located = value_at(member, here.x, here.lambda, here.piece);
   const std::vector<std::size_t> marks = marks_at(member.study, *quantity, located);
-  if (!stay_together(curves, member, marks)) return {};
-  // The mark itself, as the member has it, not what was located.
-  const auto wanted = [located, marks](const Member& at) {
-    return marks.empty() ? located : at.study.marks[marks.front()].value;
+  // The mark itself, as the member has it, not what was located; that of an earlier study is a number.
+  const bool is_own = member.study.name == curves.base().study.name;
+  if (is_own && !stay_together(curves, member, marks)) return {};
+  const auto wanted = [is_own, marks,
+                       value = marks.empty() ? located : member.study.marks[marks.front()].value](
+                          const Member& at) {
+    return is_own && !marks.empty() ? at.study.marks[marks.front()].value : value;
   };
   return [&curves, value_at, wanted, piece, scale = quantity->scale](
              const Vector& x, double lambda, double mu) -> std::optional<double> {

@@ -93,7 +93,7 @@ std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study
 std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const Study& study,
                                               const Piece& piece) {
   std::vector<CriticalEvent> events = critical_events(curves, study, piece);
-  events.push_back({"it reaches the start of the path",
+  events.push_back({reaches_start,
                     [&curves](const CriticalPoint& p) {
                       const Member* member = curves.equations_at(p.mu);
                       if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();

@@ -20,6 +20,9 @@ std::string end_of_range(const CaseCurves& curves, int sense);
 std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curves,
                                                          const Study& study, const Piece& piece);
 
+/// How the end is called at which the first point of the path is its start.
+inline constexpr const char* reaches_start = "it reaches the start of the path";
+
 /// The same for the first point on paths along which lambda grows: it may come to the start, and goes no farther.
 std::vector<continuation::CriticalEvent> first_point_events(const CaseCurves& curves,
                                                             const Study& study, const Piece& piece);

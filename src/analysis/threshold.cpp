@@ -213,19 +213,6 @@ class Threshold {
     return nearest;
   }
 
-  /// Limits of the study that move with the parameter may end the path before it comes to the point: which one,
-  /// in words.
-  std::string limit_beyond(double clear, const FollowedCurve& followed) const {
-    const double beyond = clear + towards_ * traced_beside * std::max(std::abs(clear), 1e-3);
-    const auto point = point_of_curve(curves_, followed.start, followed.growing, beyond, 0);
-    const Member* member = curves_.at(beyond);
-    if (point && member != nullptr)
-      if (const auto passed = limit_passed(member->study, member->evaluator(), member->quantities(),
-                                           CaseCurves::point_of(*point, followed.start.piece)))
-        return *passed + " before it";
-    return "the path from the start no longer comes to it";
-  }
-
   /// @param last  becomes the curve's last point
   void end_where_clear(double clear, FollowedCurve& followed, CriticalPoint& last) {
     CriticalCurve& curve = followed.growing;
@@ -235,7 +222,7 @@ class Threshold {
              std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
     decides_ = near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
-                                        : limit_beyond(clear, followed);
+                                        : "the path from the start no longer comes to it";
     // Where branches cross the point is singular: the nearest one that is known stands for it.
     last = point_of_curve(curves_, followed.start, curve, clear, 0)
                .value_or(nearest_before(curve, clear));

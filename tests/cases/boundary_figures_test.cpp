@@ -266,7 +266,7 @@ TEST(NamedDegeneracies, AThresholdThatAMovingLimitDecidesNamesTheLimit) {
                        "}\n"))
           .of("s");
   ASSERT_TRUE(result.threshold && result.threshold->found);
-  EXPECT_EQ(result.threshold->decides, "deflection reaches its upper limit before it");
+  EXPECT_EQ(result.threshold->decides, "deflection reaches its upper limit");
   EXPECT_TRUE(result.threshold->verified);
   // Force along the diagonal, commands that balance (p, p): the limit point lies on the limit.
   const double Kv = result.threshold->value, p = 0.454;
