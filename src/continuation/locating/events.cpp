@@ -193,8 +193,8 @@ bool add_between_special(const TestedStep& arc, Samples samples, const Event& ev
   const SampledFunction value = value_on(arc, event, ends);
   std::vector<Hit> more;
   for (std::size_t i = 1; i < known.size(); ++i) {
-    const auto [a, before] = known[i - 1];
-    const auto [b, after] = known[i];
+    const double a = known[i - 1].ds, before = known[i - 1].value;
+    const double b = known[i].ds, after = known[i].value;
     const bool changes = std::min(std::abs(before), std::abs(after)) > clear && before * after < 0;
     const bool told = std::any_of(found.begin(), found.end(), [&](const Hit& hit) {
       const double ds = hit.point.s - from.s;
