@@ -27,8 +27,8 @@ Matrix matrix_at(const PathProblem& problem, const Vector& z, const Piece& piece
 }
 
 /// Motions of the chain's joints that its end and its energy do not feel, to second order.
-Index free_motions(const PathProblem& problem, const FoundEquilibrium& found,
-                   const statics::ChainSlice& slice) {
+Index motions_left_free(const PathProblem& problem, const FoundEquilibrium& found,
+                        const statics::ChainSlice& slice) {
   const auto own = [&](const Matrix& A) -> Matrix {
     return A.block(slice.x, slice.x, slice.x_count, slice.x_count);
   };
@@ -77,7 +77,7 @@ std::string locked_chains(const PathProblem& problem, const Evaluator& evaluator
   std::string names;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const statics::ChainSlice& slice = system.chain_slices[i];
-    if (ranks[i] >= full[i] || free_motions(problem, found, slice) <= slice.x_count - full[i])
+    if (ranks[i] >= full[i] || motions_left_free(problem, found, slice) <= slice.x_count - full[i])
       continue;
     names += (names.empty() ? "" : ", ") + system.mechanism.chains[i].name;
   }

@@ -35,12 +35,12 @@ void count_other_modes(const Member& member, const continuation::CriticalStart& 
     count = count && behind ? std::optional{std::min(*count, *behind)} : std::nullopt;
   }
   if (!count) return;
-  using Kind = QuantityDefinition::Kind;
   const std::vector<QuantityDefinition>& quantities = member.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const Kind kind = quantities[i].kind;
-    const bool same = kind == Kind::index_force && member.study.control == ControlMode::load;
-    if (kind == Kind::index || same) values[i] = *count;
+    const QuantityDefinition::Kind kind = quantities[i].kind;
+    const bool same =
+        kind == QuantityDefinition::Kind::index_force && member.study.control == ControlMode::load;
+    if (kind == QuantityDefinition::Kind::index || same) values[i] = *count;
   }
 }
 

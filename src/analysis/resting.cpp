@@ -63,7 +63,8 @@ std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
 }
 
 /// What switches that are zero within rounding are within, and rates that are none.
-constexpr double at_zero = continuation::promised_place, no_rate = continuation::flat_rate;
+constexpr double zero_switch = continuation::promised_place,
+                 zero_switch_rate = continuation::flat_rate;
 
 /// The switches at the point of the curve that is so far ahead that it can be told from this one. Beside a singular point the
 /// tangent is as uncertain as the state: a state that is off by e, at a distance d from it, has a tangent that is off by e/d.
@@ -84,23 +85,24 @@ std::vector<std::size_t> resting_switches(const PathProblem& problem,
                                           const continuation::CurvePoint& point) {
   Vector g;
   if (problem.switch_count() == 0 || !problem.switches(point.x, point.lambda, g)) return {};
-  if (!(g.cwiseAbs().minCoeff() <= at_zero)) return {};
+  if (!(g.cwiseAbs().minCoeff() <= zero_switch)) return {};
   Matrix dg;
   Vector dg_dlambda;
   const bool has_tangent = point.tangent.dx.size() == point.x.size();
   if (has_tangent && !problem.switch_gradients(point.x, point.lambda, dg, dg_dlambda)) return {};
   std::vector<std::size_t> list, moving;
   for (Index j = 0; j < g.size(); ++j) {
-    if (std::abs(g[j]) > at_zero) continue;
+    if (std::abs(g[j]) > zero_switch) continue;
     const double rate =
         has_tangent ? dg.row(j).dot(point.tangent.dx) + dg_dlambda[j] * point.tangent.dlambda : 0;
-    (std::abs(rate) <= no_rate ? list : moving).push_back(static_cast<std::size_t>(j));
+    (std::abs(rate) <= zero_switch_rate ? list : moving).push_back(static_cast<std::size_t>(j));
   }
   if (moving.empty()) return list;
   if (const auto ahead = switches_ahead(problem, point))
     for (const std::size_t j : moving) {
       const auto i = static_cast<Index>(j);
-      if (std::abs((*ahead)[i] - g[i]) <= no_rate * continuation::told_apart) list.push_back(j);
+      if (std::abs((*ahead)[i] - g[i]) <= zero_switch_rate * continuation::told_apart)
+        list.push_back(j);
     }
   std::sort(list.begin(), list.end());
   return list;

@@ -4,7 +4,7 @@ namespace springfold::cli {
 namespace {
 
 /// With what is written then it makes less than a second.
-constexpr std::chrono::milliseconds patience{700};
+constexpr std::chrono::milliseconds longest_wait{700};
 
 }  // namespace
 
@@ -12,7 +12,7 @@ bool Patience::is_over() {
   if (!stop_requested_ || !stop_requested_()) return false;
   const auto now = std::chrono::steady_clock::now();
   if (!since_) since_ = now;
-  return now - *since_ > patience;
+  return now - *since_ > longest_wait;
 }
 
 }  // namespace springfold::cli

@@ -16,7 +16,7 @@ namespace {
 using analysis::EventKind;
 using analysis::StudyResult;
 
-constexpr double foot = 0.05;
+constexpr double foot_spring = 0.05;
 
 /// A mast of length 1 on a universal joint with springs, and n cables of stiffness 1 from a circle of radius 1 to its top. Where
 /// it leans by w the cables with w . u < 0 act, each with 1/2 of its stiffness across: for even n > 2 together n/8 in all
@@ -30,7 +30,7 @@ pose = [0, 0, 1]
 name = "mast"
 elements = [
   { joint = "universal", axes = ["x", "y"], role = "preloaded", spring = { law = "linear", stiffness = )" +
-                     number(foot) + R"( } },
+                     number(foot_spring) + R"( } },
   { rigid = [0, 0, 1] },
 ]
 )";
@@ -72,7 +72,7 @@ TEST(RingsAtRest, BranchesLeaveAlongEachCableAndHalfWayBetween) {
     EXPECT_TRUE(complete(result));
     const auto loads = lambdas(result, EventKind::branching_kink);
     ASSERT_EQ(loads.size(), 1u);
-    EXPECT_NEAR(loads[0], foot + n / 8.0, 1e-10);
+    EXPECT_NEAR(loads[0], foot_spring + n / 8.0, 1e-10);
     const auto off = off_directions(result, "KB1", first, std::numbers::pi / n);
     EXPECT_EQ(off.size(), 2u * static_cast<std::size_t>(n));
     for (const double angle : off) EXPECT_NEAR(angle, 0, 0.1);
@@ -87,8 +87,8 @@ TEST(RingsAtRest, BetweenTwoCablesTheMastLeansAcrossThemFirst) {
     std::vector<double> loads = lambdas(result, EventKind::branching_kink);
     for (const double load : lambdas(result, EventKind::branch_point)) loads.push_back(load);
     ASSERT_EQ(loads.size(), 2u);
-    EXPECT_NEAR(loads[0], foot, 1e-10);
-    EXPECT_NEAR(loads[1], foot + 0.5, 1e-10);
+    EXPECT_NEAR(loads[0], foot_spring, 1e-10);
+    EXPECT_NEAR(loads[1], foot_spring + 0.5, 1e-10);
     for (const std::string label : {"KB1", "KB2"}) {
       const double along = label == "KB1" ? first + std::numbers::pi / 2 : first;
       const auto off = off_directions(result, label, along, std::numbers::pi);
