@@ -44,9 +44,8 @@ continuation::Event stop_at(double lambda) {
 
 int main() {
   const LeaningStrut strut;
-  const auto diagram =
-      continuation::trace_diagram(strut, {{.x = Vector::Zero(1), .lambda = 0.5, .piece = {-1}}},
-                                  {stop_at(0.1), stop_at(2)}, {});
+  const auto diagram = continuation::trace_diagram(
+      strut, {{.x = Vector::Zero(1), .lambda = 0.5, .piece = {-1}}}, {stop_at(0.1), stop_at(2)}, {});
   for (const auto& junction : diagram.junctions)
     std::printf("lambda = %.9f: %zu ways\n", junction.point.lambda, junction.ways.size());
   for (const auto& branch : diagram.branches) {

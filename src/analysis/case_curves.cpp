@@ -180,7 +180,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   }
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(member->study.body - 1)];
   const Vector pose = member->first.z.segment(body.t, body.count);
-  if (near != nullptr && member->study.control == ControlMode::load) {
+  if (near != nullptr && counts_from_one_origin(member->study)) {
     // The origin of the pose's unknowns is the same for all: a start that vanishes moves at any rate before.
     setup.rule.t_start = (base_ ? *base_ : *near).setup.rule.t_start;
     setup.rule.t_counted =

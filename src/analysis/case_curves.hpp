@@ -97,6 +97,7 @@ class CaseCurves {
   bool go_without_start(Member& member, const Member& near) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
   bool keeps_commands(const Study& study) const;
+  static bool counts_from_one_origin(const Study& study);
   StartOptions start_beside(const Study& study) const;
   statics::Foresight foresight(double mu, const Member& near) const;
 

@@ -19,6 +19,11 @@ bool CaseCurves::keeps_commands(const Study& study) const {
   return !study_.critical.tied && study.start.solve == StartSolve::actuators;
 }
 
+/// Under a load, or where a parameter of the case is driven, the start enters the equations as the origin of the pose alone.
+bool CaseCurves::counts_from_one_origin(const Study& study) {
+  return study.control == ControlMode::load || study.control == ControlMode::parameter;
+}
+
 /// How starts of members other than the first are found.
 StartOptions CaseCurves::start_beside(const Study& study) const {
   StartOptions how = study.start;
@@ -76,13 +81,13 @@ bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
   return member.report.found;
 }
 
-/// Under a load, with commands that are given, nothing of the start enters the equations: special points of the curve may exist
-/// where the path has no start, as behind a start that meets its own limit point.
+/// With commands that are given nothing of the start enters the equations of a load or a driven parameter: special points of
+/// the curve may exist where the path has no start, as behind a start that meets its own limit point.
 /// @param near  gives the place from which starts beside this one are looked for
 /// @returns false where the equations need a start
 bool CaseCurves::go_without_start(Member& member, const Member& near) const {
   const Study& study = member.study;
-  if (study.control != ControlMode::load || study.start.solve != StartSolve::pose) return false;
+  if (!counts_from_one_origin(study) || study.start.solve != StartSolve::pose) return false;
   const auto problem = start_problem(member.setup, study.body, start_beside(study));
   member.first = near.first;
   member.first.inputs = problem.inputs;
