@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "equal_sizes.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 #include "springfold/core/inertia.hpp"
@@ -34,6 +35,11 @@ double brought_to_one(double size) {
   return size > 0 && std::isfinite(size) ? 1 / power_of_two_near(size) : 1;
 }
 
+/// Is this size near enough to that of rows which were brought to one size?
+bool is_alike(double size) {
+  return size == 0 || (size * equal_sizes::alike >= 1 && size <= equal_sizes::alike);
+}
+
 }  // namespace
 
 void BorderedFactors::begin(const Linearisation& at, bool symmetric) {
@@ -62,8 +68,8 @@ bool BorderedFactors::factorise_symmetric() {
 ///     | R      y_2                      |
 ///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
 ///
-/// The rows of S K S are of one size; y and z are brought to one size as wholes: stiff members beside soft ones make nothing
-/// singular by that alone, and what rounding leaves of R stays small.
+/// The rows of S K S are of one size. Where that looks singular y and z are brought to one size as wholes: stiff members beside
+/// soft ones make nothing singular by that alone, and what rounding leaves of R stays small.
 bool BorderedFactors::border_symmetric() {
   SideBySide<2> borders, carried;
   for (Index i = 0; i < n_; ++i) {
@@ -94,26 +100,39 @@ bool BorderedFactors::border_symmetric() {
     last_ = corner;
     return std::abs(corner) > least_pivot * size;
   }
+  const auto factorise_front = [&](double z_factor, double y_factor) {
+    BorderedRest front(rest + 1, rest + 1);
+    for (Index j = 0; j < rest; ++j) {
+      for (Index i = 0; i < rest; ++i) front(i, j) = K_.rest(i, j);
+      front(rest, j) = z_factor * z_[static_cast<std::size_t>(done + j)];
+      front(j, rest) = y_factor * b_[static_cast<std::size_t>(done + j)];
+    }
+    front(rest, rest) = z_factor * y_factor * corner;
+    front_factors_ = {z_factor, y_factor};
+    front_.emplace(front);
+    return front_->smallest_pivot() >
+           least_pivot * std::max(front_->largest_pivot(), z_factor * y_factor * size);
+  };
+  if (factorise_front(1, 1)) return true;
+  if (is_alike(y_size) && is_alike(z_size)) return false;
   // The corner's own size counts in its row: it may be what is left of far larger parts.
   const double y_factor = brought_to_one(y_size);
-  const double z_factor = brought_to_one(std::max(z_size, y_factor * size));
-  BorderedRest front(rest + 1, rest + 1);
-  for (Index j = 0; j < rest; ++j) {
-    for (Index i = 0; i < rest; ++i) front(i, j) = K_.rest(i, j);
-    front(rest, j) = z_factor * z_[static_cast<std::size_t>(done + j)];
-    front(j, rest) = y_factor * b_[static_cast<std::size_t>(done + j)];
-  }
-  front(rest, rest) = z_factor * y_factor * corner;
-  front_factors_ = {z_factor, y_factor};
-  front_.emplace(front);
-  return front_->smallest_pivot() > least_pivot * front_->largest_pivot();
+  return factorise_front(brought_to_one(std::max(z_size, y_factor * size)), y_factor);
 }
 
 bool BorderedFactors::border_general() {
   storage_.resize(n_ + 1, n_ + 1);
   storage_ << at_->dF_dx, at_->dF_dlambda, row_.transpose(), corner_;
-  row_factors_ = row_sizes_of(storage_).unaryExpr(&brought_to_one);
+  row_factors_ = Vector::Ones(n_ + 1);
+  if (factorise_whole()) return true;
+  const Vector sizes = row_sizes_of(storage_);
+  if (sizes.minCoeff() * equal_sizes::alike >= sizes.maxCoeff()) return false;
+  row_factors_ = sizes.unaryExpr(&brought_to_one);
   storage_.array().colwise() *= row_factors_.array();
+  return factorise_whole();
+}
+
+bool BorderedFactors::factorise_whole() {
   if (way_ == Way::small) {
     front_.emplace(storage_);
     return front_->smallest_pivot() > least_pivot * front_->largest_pivot();

@@ -55,6 +55,7 @@ class BorderedFactors {
   bool factorise_symmetric();
   bool border_symmetric();
   bool border_general();
+  bool factorise_whole();
   template <int width>
   void solve_symmetric(double* x, bool only_last) const;
 
