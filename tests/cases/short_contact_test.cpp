@@ -117,18 +117,20 @@ TEST(ShortContact, LimitsOfTheForceAndMarksWithinItAreFound) {
               "until = { n.x = [-1, 1] }\nmark = { force = [0.71], s.force = [-20] }\n"))
           .of("push");
   EXPECT_TRUE(complete(result));
-  const auto slope = [&slider](double x) {
+  const auto rate_of_force = [&slider](double x) {
     return slider.force(x + 1e-7) - slider.force(x - 1e-7);
   };
-  const double top = bisected(slope, -0.0009, -0.0002), bottom = bisected(slope, 0.0002, 0.0009);
+  const double upper_turn = bisected(rate_of_force, -0.0009, -0.0002),
+               lower_turn = bisected(rate_of_force, 0.0002, 0.0009);
   const auto turns = values_at_events(result, EventKind::limit_point, "n.x");
   ASSERT_EQ(turns.size(), 2u);
-  EXPECT_NEAR(turns[0], top, 1e-8);
-  EXPECT_NEAR(turns[1], bottom, 1e-8);
-  const auto force = [&slider](double x) { return slider.force(x) - 0.71; };
-  const auto push = [&slider](double x) { return slider.push(x) + 20; };
-  const std::vector<double> expected{bisected(force, -0.001, top), bisected(push, -0.001, 0),
-                                     bisected(force, top, bottom), bisected(push, 0, 0.001), 0.01};
+  EXPECT_NEAR(turns[0], upper_turn, 1e-8);
+  EXPECT_NEAR(turns[1], lower_turn, 1e-8);
+  const auto less_mark = [&slider](double x) { return slider.force(x) - 0.71; };
+  const auto more_push = [&slider](double x) { return slider.push(x) + 20; };
+  const std::vector<double> expected{
+      bisected(less_mark, -0.001, upper_turn), bisected(more_push, -0.001, 0),
+      bisected(less_mark, upper_turn, lower_turn), bisected(more_push, 0, 0.001), 0.01};
   const auto marks = values_at_events(result, EventKind::user_value, "n.x");
   ASSERT_EQ(marks.size(), expected.size());
   for (std::size_t i = 0; i < marks.size(); ++i) EXPECT_NEAR(marks[i], expected[i], 1e-9) << i;
