@@ -148,6 +148,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   auto member = again ? std::move(spare) : std::make_unique<Member>();
   member->forget_columns();
   member->mu = mu;
+  member->start_is_open = false;
   member->columns_of = base_.get();
   Setup& setup = member->setup;
   model::Mechanism mechanism;
@@ -171,22 +172,19 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
       if (!set_up_anew(*member, near, again, mechanism, along, way)) return nullptr;
       if (!pattern_ && !way) keep_pattern(*member, std::move(mechanism));
     }
-    if (!recall_start(*member) &&
+    if (!recall_start(*member) && (way || !leave_start_open(*member, *near)) &&
         !(way ? solve_in_state(*member, *way) : solve_near(*member, *near)) &&
         !go_without_start(*member, *near)) {
       why_none_.clear();
       return nullptr;
     }
   }
-  const auto& body = setup.system.body_slices[static_cast<std::size_t>(member->study.body - 1)];
-  const Vector pose = member->first.z.segment(body.t, body.count);
   if (near != nullptr && counts_from_one_origin(member->study)) {
     // The origin of the pose's unknowns is the same for all: a start that vanishes moves at any rate before.
     setup.rule.t_start = (base_ ? *base_ : *near).setup.rule.t_start;
-    setup.rule.t_counted =
-        member->report.found ? pose : Vector(Vector::Constant(pose.size(), undefined));
+    setup.rule.t_counted = member->counted_from();
   } else {
-    setup.rule.t_start = pose;
+    setup.rule.t_start = member->start_pose();
   }
   setup.rule.rho_start = member->first.inputs.rho;
   hold_free_part(member->study, member->first, setup);
@@ -222,30 +220,46 @@ const Member* CaseCurves::at(double mu) const {
 }
 
 const Member* CaseCurves::equations_at(double mu) const {
+  Member* const member = member_at(mu);
+  if (member != nullptr && member->start_is_open) settle_start(*member);
+  return member;
+}
+
+/// Of those whose start is known the one that is nearest to mu.
+const Member& CaseCurves::nearest(double mu) const {
+  const Member* near = base_.get();
+  const auto is_nearer = [&](const Recent& other) {
+    return std::abs(other.member->mu - mu) < std::abs(near->mu - mu);
+  };
+  const auto middle = recent_.lower_bound(mu);
+  const auto is_known = [](const auto& entry) { return entry.second.member->report.found; };
+  const auto above = std::find_if(middle, recent_.end(), is_known);
+  if (above != recent_.end() && is_nearer(above->second)) near = above->second.member.get();
+  const auto below = std::find_if(std::make_reverse_iterator(middle), recent_.rend(), is_known);
+  if (below != recent_.rend() && is_nearer(below->second)) near = below->second.member.get();
+  return *near;
+}
+
+Member* CaseCurves::member_at(double mu) const {
   if (!base_ || !(base_->report.found || begins_at_member_) || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
-  const auto above = recent_.lower_bound(mu);
-  if (above != recent_.end() && above->first == mu) {
-    calls_.splice(calls_.begin(), calls_, above->second.call);
-    return above->second.member.get();
+  const auto known = recent_.find(mu);
+  if (known != recent_.end()) {
+    calls_.splice(calls_.begin(), calls_, known->second.call);
+    return known->second.member.get();
   }
   if (without_start_.contains(mu)) return nullptr;
-  const Member* near = base_.get();
-  const auto take_nearer = [&](const Member* other) {
-    if (other->report.found && std::abs(other->mu - mu) < std::abs(near->mu - mu)) near = other;
-  };
-  if (above != recent_.end()) take_nearer(above->second.member.get());
-  if (above != recent_.begin()) take_nearer(std::prev(above)->second.member.get());
+  const Member& near = nearest(mu);
   std::unique_ptr<Member> oldest;
   if (recent_.size() >= members_kept) {
-    const bool is_needed = calls_.back() == near->mu;
+    const bool is_needed = calls_.back() == near.mu;
     const auto old = recent_.find(is_needed ? *std::prev(calls_.end(), 2) : calls_.back());
     oldest = std::move(old->second.member);
     keep_start(*oldest);
     calls_.erase(old->second.call);
     recent_.erase(old);
   }
-  auto made = make(mu, near, std::move(oldest));
+  auto made = make(mu, &near, std::move(oldest));
   if (!made) {
     if (without_start_.size() >= members_kept) without_start_.clear();
     without_start_.emplace(mu, why_none_);
@@ -263,7 +277,7 @@ std::string CaseCurves::why_none(double mu) const {
 
 continuation::Family CaseCurves::family() const {
   return {.at = [this](double mu) -> std::optional<continuation::ProblemView> {
-            const Member* member = equations_at(mu);
+            const Member* member = member_at(mu);
             if (member == nullptr) return std::nullopt;
             return continuation::ProblemView(*member->problem);
           },

@@ -25,9 +25,13 @@ struct Member {
   Setup setup{};
   StartReport report{};
   statics::FirstEquilibrium first{};
+  bool start_is_open = false;  ///< not looked for: of `first` the inputs alone are given
   std::unique_ptr<PathProblem> problem{};
 
   continuation::CurvePoint start() const;
+  Vector start_pose() const;  ///< of the study's body
+  Vector counted_from()
+      const;  ///< the pose that deflections are counted from; undefined without a start
   /// Columns and what evaluates them: made when they are asked for, which most members never are.
   const std::vector<QuantityDefinition>& quantities() const;
   const Evaluator& evaluator() const;
@@ -87,6 +91,9 @@ class CaseCurves {
                                            const Piece& piece);
 
  private:
+  Member* member_at(double mu) const;
+  const Member& nearest(double mu) const;
+  void settle_start(Member& member) const;
   std::unique_ptr<Member> make(double mu, const Member* near,
                                std::unique_ptr<Member> spare = nullptr) const;
   bool set_up_anew(Member& member, const Member* near, bool again, model::Mechanism& mechanism,
@@ -94,6 +101,9 @@ class CaseCurves {
   bool put_numbers(Member& member, bool again) const;
   bool solve_near(Member& member, const Member& near) const;
   bool solve_in_state(Member& member, const std::string& way) const;
+  std::optional<statics::Inputs> inputs_without_start(const Member& member,
+                                                      const Member& near) const;
+  bool leave_start_open(Member& member, const Member& near) const;
   bool go_without_start(Member& member, const Member& near) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
   bool keeps_commands(const Study& study) const;

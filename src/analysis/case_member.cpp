@@ -1,5 +1,6 @@
 // One value of the parameter: its start, and what is made of it when it is asked for.
 #include "case_curves.hpp"
+#include "undefined.hpp"
 
 namespace springfold::analysis {
 
@@ -10,6 +11,16 @@ continuation::CurvePoint Member::start() const {
   start.piece = first.piece;
   count_negative(*problem, start);
   return start;
+}
+
+Vector Member::start_pose() const {
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  return first.z.segment(body.t, body.count);
+}
+
+Vector Member::counted_from() const {
+  const auto& body = setup.system.body_slices[static_cast<std::size_t>(study.body - 1)];
+  return report.found ? start_pose() : Vector(Vector::Constant(body.count, undefined));
 }
 
 const std::vector<QuantityDefinition>& Member::quantities() const {

@@ -81,19 +81,47 @@ bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
   return member.report.found;
 }
 
-/// With commands that are given nothing of the start enters the equations of a load or a driven parameter: special points of
-/// the curve may exist where the path has no start, as behind a start that meets its own limit point.
+/// With commands that are given or kept nothing of the start enters the equations of a load or a driven parameter.
+std::optional<statics::Inputs> CaseCurves::inputs_without_start(const Member& member,
+                                                                const Member& near) const {
+  const StartOptions how = start_beside(member.study);
+  if (!counts_from_one_origin(member.study) || how.solve != StartSolve::pose) return std::nullopt;
+  statics::Inputs inputs = start_problem(member.setup, member.study.body, how).inputs;
+  if (keeps_commands(member.study)) inputs.rho = (base_ ? *base_ : near).first.inputs.rho;
+  return inputs;
+}
+
+/// Most members are asked for their equations alone: where these need no start it is left open.
+bool CaseCurves::leave_start_open(Member& member, const Member& near) const {
+  auto inputs = base_ ? inputs_without_start(member, near) : std::nullopt;
+  if (!inputs) return false;
+  member.first = {};
+  member.first.inputs = std::move(*inputs);
+  member.report.found = false;
+  member.start_is_open = true;
+  return true;
+}
+
+/// Special points of the curve may exist where the path has no start, as behind a start that meets its own limit point.
 /// @param near  gives the place from which starts beside this one are looked for
 /// @returns false where the equations need a start
 bool CaseCurves::go_without_start(Member& member, const Member& near) const {
-  const Study& study = member.study;
-  if (!counts_from_one_origin(study) || study.start.solve != StartSolve::pose) return false;
-  const auto problem = start_problem(member.setup, study.body, start_beside(study));
+  auto inputs = inputs_without_start(member, near);
+  if (!inputs) return false;
   member.first = near.first;
-  member.first.inputs = problem.inputs;
+  member.first.inputs = std::move(*inputs);
   member.report.found = false;
   member.sheet = ++sheets_;
   return true;
+}
+
+/// The start that was left open, or that there is none.
+void CaseCurves::settle_start(Member& member) const {
+  const Member& near = nearest(member.mu);
+  member.start_is_open = false;
+  if (!solve_near(member, near)) go_without_start(member, near);
+  member.setup.rule.t_counted = member.counted_from();
+  member.problem->count_from(member.setup.rule.t_counted);
 }
 
 /// What neighbours are compared with. Long chains have none.
@@ -113,7 +141,7 @@ statics::Foresight CaseCurves::foresight(double mu, const Member& near) const {
   nodes.push_back(&near);
   const auto take = [&](const Member& member) {
     const double away = std::abs(member.mu - mu);
-    if (member.sheet != near.sheet) return;
+    if (!member.report.found || member.sheet != near.sheet) return;
     const bool apart = std::none_of(nodes.begin(), nodes.end(), [&](const Member* other) {
       return std::abs(other->mu - member.mu) <= 0.5 * away;
     });

@@ -97,7 +97,7 @@ std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const St
                     [&curves](const CriticalPoint& p) {
                       const Member* member = curves.equations_at(p.mu);
                       if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
-                      return p.lambda - member->start().lambda;
+                      return p.lambda - member->setup.lambda_start;
                     },
                     EventAction::stop, true});
   events.back().inside = 1;

@@ -65,6 +65,8 @@ class PathProblem {
   PathProblem(std::shared_ptr<const statics::System> system, const PathRule& rule);
   /// The problem anew, in its memory, after its system has been given other numbers.
   void renew(const PathRule& rule);
+  /// Deflections are counted from another pose.
+  void count_from(const Vector& pose) { rule_.t_counted = pose; }
 
   Index size() const { return size_; }
   bool residual(const Vector& y, double lambda, const Piece& piece, Vector& F) const;

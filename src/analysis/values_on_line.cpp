@@ -67,7 +67,7 @@ bool CaseCurves::is_line(double first, double step) const {
   std::array<Vector, places> values;
   Vector pose;  // the unknowns are measured from it
   for (std::size_t i = 0; i < places; ++i) {
-    const Member* member = equations_at(first + static_cast<double>(i) * step);
+    const Member* member = member_at(first + static_cast<double>(i) * step);
     if (member == nullptr) return false;
     if (i == 0) pose = member->setup.rule.t_start;
     if (member->setup.rule.t_start != pose) return false;

@@ -40,5 +40,43 @@ TEST(CriticalCurve, GoesOnWhereTheStartOfThePathVanishes) {
   EXPECT_NEAR(high, 3, 1e-12);
 }
 
+/// A drive with a spring of 1 between command and carriage holds the cubic at x = -2: x^3 - 2 x - rho = b + lambda, rho = -3.
+TEST(CriticalCurve, GoesOnWhereTheStartVanishesUnderCommandsThatAreKept) {
+  const std::string y = "{ joint = \"prismatic\", axis = \"y\", name = ",
+                    drive = "role = \"actuated\", value = 0, stiffness = 1 }";
+  const auto ran = run(
+      "[parameters]\nb = -1\n[[node]]\nname = \"m\"\nat = [-2, 0]\n[[chain]]\nname = \"c\"\nto = "
+      "\"m\"\nelements = [ { joint = \"prismatic\", axis = \"x\", name = \"q\", role = "
+      "\"preloaded\", initial = -2, spring = { law = \"polynomial\", coefficients = [0, -3, 0, 1], "
+      "falling = true } }, " +
+      y +
+      "\"u\" } ]\n[[chain]]\nname = \"d\"\nto = \"m\"\nelements = [ { joint = \"prismatic\", "
+      "axis = \"x\", name = \"a\", " +
+      drive + ", " + y +
+      "\"v\" } ]\n[[chain]]\nname = \"e\"\nto = "
+      "\"m\"\nelements = [ " +
+      y + "\"w\", " + drive +
+      ", { joint = \"prismatic\", axis = \"x\", "
+      "name = \"z\" } ]\n[[study]]\nname = \"s\"\nbody = \"m\"\ncontrol = \"load\"\ndirection = "
+      "[1, 0]\nload = [\"b\", 0]\nstart = { pose = [-2, 0], solve = \"actuators\" }\nuntil = { m.x "
+      "= "
+      "[-3, 3], lambda = [-9, 9] }\nkind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", "
+      "parameter = \"b\", range = [-3, 6], tied = false }\n");
+  const analysis::StudyResult& result = ran.of("s");
+  EXPECT_TRUE(complete(result));
+  const auto& samples = result.branches.at(0).samples;
+  ASSERT_GE(samples.size(), 3u);
+  EXPECT_LT(samples.size(), 100u);
+  const double x = -std::sqrt(2.0 / 3);
+  double high = 0;
+  for (const auto& sample : samples) {
+    const double b = sample.values[column(result, "b")];
+    EXPECT_NEAR(sample.values[column(result, "lambda")], x * x * x - 2 * x + 3 - b, 1e-10);
+    EXPECT_NEAR(sample.values[column(result, "m.x")], x, 1e-9);
+    high = std::max(high, b);
+  }
+  EXPECT_NEAR(high, 6, 1e-12);
+}
+
 }  // namespace
 }  // namespace springfold::io
