@@ -18,8 +18,6 @@ namespace {
 
 constexpr std::size_t most_pieces =
     256;  // beside the curve, whose test functions are looked at on every step
-constexpr double one_point =
-    10 * one_place;  // arc length within which zeros of different pieces are one
 constexpr double located = 10 * located_rank;  // ratio of singular values at a located branch point
 
 /// An eigenvalue of some piece is zero here.
@@ -30,12 +28,15 @@ struct ZeroBeside {
   bool crosses = false;         ///< of some piece it changes sign
 };
 
+/// Arc length within which zeros of different pieces are one: they are located as well as crossings are, touches less.
+double one_point(bool crosses) { return crosses ? promised_place : 10 * one_place; }
+
 bool singular_kind(HitKind kind) { return kind == HitKind::branch_point || kind == HitKind::touch; }
 
 void add_place(Hit hit, const Piece& piece, bool own, std::vector<ZeroBeside>& places) {
   const bool crosses = hit.kind == HitKind::branch_point;
   for (ZeroBeside& place : places)
-    if (std::abs(place.hit.point.s - hit.point.s) <= one_point) {
+    if (std::abs(place.hit.point.s - hit.point.s) <= one_point(crosses && place.crosses)) {
       place.crosses = place.crosses || crosses;
       place.pieces.push_back(piece);
       return;
