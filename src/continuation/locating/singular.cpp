@@ -131,7 +131,7 @@ TestedZeros turns_on(const TestedStep& arc, Samples samples) {
   ZeroSearch found{.resolved = false};
   if (std::max(first, last) > noise)
     found = find_zeros([&](double ds) { return arc.rate(ds); }, 0, arc.high(), noise, same_point,
-                       NoiseIs::bound);
+                       NoiseIs::bound, arc.error_of_rate());
   if (clear && found.resolved && stand_alone(found.zeros)) return {found.zeros, true};
   if (auto turns = turns_on_widened(arc.walker(), arc.from(), *samples.back(), arc.high(), noise))
     return {std::move(*turns), true};

@@ -207,6 +207,16 @@ std::optional<CurvePoint> TestedStep::exact_point(double ds) const {
   return point;
 }
 
+double TestedStep::error_of_rate() const {
+  double error = 0;
+  for (const double share : places_of_comparison) {
+    const auto own = exact_point(share * length_);
+    const auto better = own ? corrected(share * length_) : std::nullopt;
+    if (better) error = std::max(error, std::abs(own->tangent.dlambda - better->tangent.dlambda));
+  }
+  return error;
+}
+
 std::optional<CurvePoint> TestedStep::find(double ds) const {
   if (!settled_) settle_model();
   if (model_.empty()) return point_at(walker_, from_, ds);

@@ -57,6 +57,8 @@ class TestedStep {
     const auto& p = point(ds);
     return p ? std::optional<double>(p->tangent.dlambda) : std::nullopt;
   }
+  /// What the model's error makes of rate() at the model's own points: how far it is off at points that are corrected.
+  double error_of_rate() const;
   /// Of lambda, as the polynomial through the step's samples, or a better one, has it; nothing where there is none.
   std::optional<double> rate_of_model(double ds) const {
     if (model_.empty() && (settled_ || !model_of_samples())) return std::nullopt;

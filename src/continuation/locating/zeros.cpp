@@ -100,8 +100,14 @@ std::vector<double> extrema_of(const Interpolant& p, double a, double b, double 
 class ZeroFinder {
  public:
   ZeroFinder(const SampledFunction& f, double a, double b, double noise, double apart,
-             NoiseIs noise_is)
-      : f_{f}, low_{a}, high_{b}, noise_{noise}, resolution_{apart}, noise_is_{noise_is} {}
+             NoiseIs noise_is, double smooth_error)
+      : f_{f},
+        low_{a},
+        high_{b},
+        noise_{std::max(noise, smooth_error)},
+        resolution_{apart},
+        noise_is_{noise_is},
+        smooth_error_{smooth_error} {}
 
   ZeroSearch result{};
 
@@ -248,9 +254,12 @@ class ZeroFinder {
     }
     const double bound = std::max(noise_, 30 * fit.error);
     fit.measured =
-        as_good ? std::clamp(sure * worst,
-                             std::min(bound, few_roundings * p.values.cwiseAbs().maxCoeff()), bound)
-                : bound;
+        as_good
+            ? std::clamp(sure * worst,
+                         std::min(bound, std::max(smooth_error_,
+                                                  few_roundings * p.values.cwiseAbs().maxCoeff())),
+                         bound)
+            : bound;
     return fit.measured;
   }
 
@@ -325,6 +334,7 @@ class ZeroFinder {
   const SampledFunction& f_;
   double low_, high_, noise_, resolution_;
   NoiseIs noise_is_;
+  double smooth_error_;
   int examined_ = 0;
 };
 
@@ -337,8 +347,8 @@ bool within_reach(std::span<const double> values) {
 }
 
 ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double apart,
-                      NoiseIs noise_is) {
-  ZeroFinder search(f, a, b, noise, apart, noise_is);
+                      NoiseIs noise_is, double smooth_error) {
+  ZeroFinder search(f, a, b, noise, apart, noise_is, smooth_error);
   search.examine(a, b, 0);
   auto& zeros = search.result.zeros;
   std::sort(zeros.begin(), zeros.end(), [](const auto& l, const auto& r) { return l.at < r.at; });

@@ -40,7 +40,8 @@ enum class NoiseIs { threshold, bound, doubt };
 /// `resolution`. A single feature is interpolated once more on a window of its own and located there:
 /// f is never asked for its value exactly at its zero, where it may be ill-conditioned.
 /// @param noise  values below this are not told from zero
+/// @param smooth_error  of f, the same at neighbouring places, so that no samples show it
 ZeroSearch find_zeros(const SampledFunction& f, double a, double b, double noise, double resolution,
-                      NoiseIs noise_is = NoiseIs::threshold);
+                      NoiseIs noise_is = NoiseIs::threshold, double smooth_error = 0);
 
 }  // namespace springfold::continuation
