@@ -6,6 +6,7 @@
 
 #include "families.hpp"
 #include "one_unknown.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::known_answers {
 namespace {
@@ -95,8 +96,12 @@ void add_axis(Draw& draw, Index axis, double stiffness, const Lengths& lengths, 
   limit_unknown(draw, axis, -end, end);
   const double L_fold = std::cbrt(L0);
   draw.size = 2 * std::max({end, std::abs(load(std::sqrt(L_fold * L_fold - 1))), -load(end)});
-  // Beside points that nearly coincide rounding alone moves a point off the axis by some 1e-7.
-  draw.on_curve = [=](const Vector& z, double) { return z.head(axis).norm() < 1e-6; };
+  // Beside points that nearly coincide rounding alone moves a point off the axis, by some 1e-7 and more: as far as the point
+  // of the axis satisfies the equations under its load as well as a traced one has to.
+  draw.on_curve = [=](const Vector& z, double lambda) {
+    return z.head(axis).norm() < 1e-6 ||
+           std::abs(load(z[axis]) - lambda) <= continuation::residual_level;
+  };
   draw.parameter = [=](const Vector& z, double) { return z[axis]; };
   complete(draw);
   // A pair of complex singular points, to first order in their distance, is as near to its neighbours as real ones are.
