@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
@@ -93,6 +95,12 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
   rays.rays.push_back({at.piece, way.tangent, std::move(resting), way.start, way.beyond});
 }
 
+Vector gradient_of(const Surfaces& surfaces, Index j) {
+  Vector gradient(surfaces.dg_dx.cols() + 1);
+  gradient << surfaces.dg_dx.row(j).transpose(), surfaces.dg_dlambda[j];
+  return gradient;
+}
+
 Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {
   for (std::size_t k = 0; k < active.size(); ++k)
     piece[static_cast<std::size_t>(active[k])] = (pattern >> k) & 1u ? 1 : -1;
@@ -115,6 +123,23 @@ void sort_by_piece(const std::vector<Index>& active, std::vector<Ray>& rays) {
 
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
+}
+
+/// By the condition of the equilibrated matrix J = D_r [dF/dx dF/dlambda] D_c, whose kernel is y, tangent = D_c y: stiff
+/// members beside soft ones make nothing uncertain by that alone.
+double error_of_rate(const Walker& walker, const CurvePoint& at, const Vector& gradient,
+                     const Direction& tangent) {
+  if (walker.problem.structured()) return infinity;
+  const auto own = equilibrated_jacobian(walker, at);
+  if (!own) return infinity;
+  const Index n = own->J.rows();
+  const Vector pivots = pivoted_qr(own->J.transpose()).pivots;
+  const double share = n > 0 ? pivots[n - 1] / std::max(pivots[0], 1.0) : 1.0;
+  Vector along(n + 1);
+  along << tangent.dx, tangent.dlambda;
+  const double size =
+      gradient.cwiseProduct(own->columns).norm() * along.cwiseQuotient(own->columns).norm();
+  return share > 0 && std::isfinite(size) ? 2 * exact_model / share * size : infinity;
 }
 
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
@@ -151,10 +176,16 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
     const bool arrives = along && ray.piece == at.piece;
     PieceWays ways =
         arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, active.empty());
-    if (along && active.size() == 1 &&
-        ways.conditioning > 0)  // the point lies on the surface to rounding
-      for (PieceWay& way : ways.list)
-        way.accuracy = std::min(way.accuracy, 2 * exact_model / ways.conditioning);
+    if (along && active.size() == 1 && !ways.list.empty()) {
+      // The point lies on the surface to rounding.
+      const double off = error_of_rate(walker, ray, gradient_of(surfaces, active.front()),
+                                       ways.list.front().tangent);
+      for (PieceWay& way : ways.list) {
+        if (ways.conditioning > 0)
+          way.accuracy = std::min(way.accuracy, 2 * exact_model / ways.conditioning);
+        way.accuracy = std::min(way.accuracy, off);
+      }
+    }
     if (ways.singular) singular.push_back(pattern);
     add(ways);
   }

@@ -72,6 +72,10 @@ struct KinkSearch {
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);
 
+/// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both are, not
+/// as the place along the curve. What does not settle stays as it is.
+void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);
+
 /// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
 /// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
 ///               equations look singular; nullptr: not known
@@ -80,6 +84,11 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
 
 /// Rate of g_j along a direction.
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
+
+/// What a place that is off by rounding makes of a switch's rate along the tangent of a regular piece. Infinity where that is not
+/// known. @param gradient  of the switch by (x, lambda), n + 1
+double error_of_rate(const Walker& walker, const CurvePoint& at, const Vector& gradient,
+                     const Direction& tangent);
 
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {

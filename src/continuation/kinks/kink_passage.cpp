@@ -9,6 +9,7 @@
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/equilibration.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -93,6 +94,26 @@ bool fits(const KinkSearch& kink, const Hit& hit, int before, int after) {
   return (before != after) == (std::abs(*last - *first) % 2 == 1);
 }
 
+bool is_surely_counted(const Walker& walker, const CurvePoint& p) {
+  Linearisation at;
+  return p.negative && linearise_densely(walker.problem, p.x, p.lambda, p.piece, at) &&
+         corank(at.dF_dx) == 0;
+}
+
+/// Does lambda turn at a kink beside which it seems to stand still, as the identity of fits() has it? In a large unit of
+/// lambda soft pieces look level; the numbers of negative eigenvalues are as sure as ever, where dF/dx is regular.
+std::optional<bool> turns_by_counts(const Walker& walker, const KinkSearch& kink,
+                                    const std::vector<Ray>& rays) {
+  if (kink.active.size() != 1 || kink.singular || rays.size() != 1 || walker.problem.structured() ||
+      !walker.problem.symmetric())
+    return std::nullopt;
+  const CurvePoint before =
+                       point_on_ray(walker, kink.point, {kink.point.piece, kink.point.tangent}),
+                   after = point_on_ray(walker, kink.point, rays.front());
+  if (!is_surely_counted(walker, before) || !is_surely_counted(walker, after)) return std::nullopt;
+  return std::abs(*after.negative - *before.negative) % 2 == 1;
+}
+
 /// Why the trace ends at this kink, if it does; labels the hit.
 std::optional<StopReason> dead_end(const KinkSearch& kink, const Rays& rays, Hit& hit) {
   if (hit.leaving.empty() && kink.active.size() <= most_active) return StopReason::no_way_out;
@@ -154,9 +175,11 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
                       : told_from_zero(progress.here) ? sense_of(progress.here)
                                                       : progress.sense;
   const Beside& next = after.front();
-  if (arrived * next.sense < 0) hit.kind = HitKind::corner;
-  progress.sense = next.sense != 0 ? next.sense : arrived;
-  progress.flat = next.sense == 0;
+  const auto turns = before.sense * next.sense == 0 ? turns_by_counts(walker, kink, rays.rays)
+                                                    : std::optional<bool>{};
+  if (turns.value_or(arrived * next.sense < 0)) hit.kind = HitKind::corner;
+  progress.sense = next.sense != 0 ? next.sense : turns.value_or(false) ? -arrived : arrived;
+  progress.flat = next.sense == 0 && !turns;
   progress.clear_of = next.moved ? next.point.s : -1;
   progress.here = hit.leaving.front();
   progress.left = kink.active;

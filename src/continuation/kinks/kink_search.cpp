@@ -301,6 +301,16 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
   return active;
 }
 
+/// Is the switch's rate at a point of the curve clear of what rounding makes of it?
+bool moves_off(const Walker& walker, const Workspace::Switches& at, Index j, const CurvePoint& p) {
+  const double rate = std::abs(rate_along(at, j, p));
+  if (rate > one_place) return true;
+  if (!(rate > 0)) return false;
+  Vector gradient(p.x.size() + 1);
+  gradient << at.dg_dx.row(j).transpose(), at.dg_dlambda[j];
+  return rate > error_of_rate(walker, p, gradient, p.tangent);
+}
+
 }  // namespace
 
 std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
@@ -318,9 +328,7 @@ std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from
   if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
     return resting;
   for (const Index j : candidates) {
-    if (std::max(std::abs(rate_along(first, j, from)), std::abs(rate_along(last, j, to))) >
-        one_place)
-      continue;
+    if (moves_off(walker, first, j, from) || moves_off(walker, last, j, to)) continue;
     bool stays = true;
     for (const double share : uneven_shares<2>()) {
       const auto point = point_at(walker, from, share * (to.s - from.s));
@@ -367,6 +375,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   if (result.status != KinkSearch::Status::found) return result;
   settle_on_branch_point(walker, from, result);
   result.active = acting_at(walker, from, result.point);
+  settle_on_surface(walker, from, result);
   return result;
 }
 
