@@ -53,6 +53,7 @@
 // do not count: exact places and counts within such clusters. With --named the draws of that file are
 // followed too and judged apart: none may break a requirement. --failures keeps what fails as such a file.
 #include <CLI/CLI.hpp>
+#include <Eigen/SVD>
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -88,7 +89,19 @@ struct Result {
   std::optional<Invariance> invariance{};
 };
 
-/// What the rounding of dF/dq, a few units in the last place of its norm, means for dlambda/dz.
+/// dlambda/dz of a curve in one unknown z, as the derivatives at q tell it.
+double slope_at(const Embedded& problem, const Vector& q, double lambda) {
+  Matrix dF_dq;
+  Vector dF_dlambda;
+  problem.derivatives(q, lambda, {}, dF_dq, dF_dlambda);
+  Matrix A(dF_dq.rows(), dF_dq.cols() + 1);
+  A << dF_dq, dF_dlambda;
+  const Vector tangent = Eigen::JacobiSVD<Matrix>(A, Eigen::ComputeFullV).matrixV().rightCols(1);
+  return tangent.tail(1)[0] / problem.base_point(tangent.head(q.size()))[0];
+}
+
+/// What the rounding of dF/dq, a few units in the last place of its norm, means for dlambda/dz; and what it is seen to make of
+/// it where it is zero, at the answers, since entries are sums of larger terms.
 double slope_error(const Embedded& problem, const Draw& draw) {
   constexpr double step = 1e-6;
   const Vector q = problem.embed(draw.z_start);
@@ -97,7 +110,11 @@ double slope_error(const Embedded& problem, const Draw& draw) {
   Matrix dF_dq;
   Vector dF_dlambda;
   problem.derivatives(q, draw.lambda_start, {}, dF_dq, dF_dlambda);
-  return 4 * std::numeric_limits<double>::epsilon() * dF_dq.norm() * stretch * stretch;
+  double seen = 0;
+  for (const Answer& answer : draw.answers)
+    seen = std::max(seen, std::abs(slope_at(problem, problem.embed(answer.z), answer.lambda)));
+  return 4 *
+         std::max(seen, std::numeric_limits<double>::epsilon() * dF_dq.norm() * stretch * stretch);
 }
 
 std::optional<Result> run(const Settings& settings, long number) {

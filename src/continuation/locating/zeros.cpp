@@ -104,10 +104,10 @@ class ZeroFinder {
       : f_{f},
         low_{a},
         high_{b},
-        noise_{std::max(noise, smooth_error)},
+        noise_{std::max(noise, sure * smooth_error)},
         resolution_{apart},
         noise_is_{noise_is},
-        smooth_error_{smooth_error} {}
+        smooth_error_{sure * smooth_error} {}
 
   ZeroSearch result{};
 
