@@ -152,6 +152,20 @@ double Augmented::unfolding(const Vector& X) const {
   return k_ == 0 ? 0 : X.tail(k_).lpNorm<Eigen::Infinity>();
 }
 
+double Augmented::parting(const Vector& X, double mu) const {
+  if (k_ < 2) return 0;
+  const auto here = place(X, mu);
+  return here ? here->G.lpNorm<Eigen::Infinity>() : infinity;
+}
+
+double Augmented::rate_of_parting(const Vector& X, double mu, const Vector& rate) const {
+  if (k_ < 2) return 0;
+  const double h = 2 * family_.step;
+  const auto near = place(X + h * rate, mu + h), far = place(X + 2 * h * rate, mu + 2 * h);
+  if (!near || !far) return infinity;
+  return ((4 * near->G - far->G) / (2 * h)).lpNorm<Eigen::Infinity>();  // without the second order
+}
+
 Vector Augmented::start_unknowns() const {
   Vector X = Vector::Zero(size());
   X.head(n_) = start_.x;

@@ -140,7 +140,7 @@ class Follower {
                         .action = watches[i].action,
                         .tag = static_cast<int>(i),
                         .of_place = watches[i].of_place});
-    bool renew = false, lost = false;
+    bool renew = false, lost = false, parted = false;
     ReturnToStart back{
         system, options_, first_, length_, {.x = X, .lambda = mu, .tangent = ray.tangent}};
     const auto observe = [&](const CurvePoint& point) {
@@ -151,7 +151,8 @@ class Follower {
         now.s += length_;
         if (!observer_(now)) return false;
       }
-      lost = system.unfolding(point.x) > kept_within;
+      parted = system.parting(point.x, point.lambda) > kept_within;
+      lost = parted || system.unfolding(point.x) > kept_within;
       if (lost || accepted_ >= options_.maximum_points) return false;
       if (system.borders().left.cols() == 0) return true;
       const auto place = system.place(point.x, point.lambda);
@@ -160,6 +161,7 @@ class Follower {
     };
     std::vector<CurvePoint> middles;
     Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
+    if (parted) leave_out_last(curve);
     if (back.found()) close(*back.found(), curve);
     for (auto* points : {&curve.points, &middles})
       for (CurvePoint& point : *points) point.s += length_;
@@ -167,13 +169,24 @@ class Follower {
     add(curve, further_points(system, curve, middles), watches, n);
     if (lost) {
       curve_.kept = false;
-      curve_.stop_detail = "the second parameter does not keep the branch";
+      curve_.stop_detail =
+          parted ? "the second parameter parts the modes of this multiple branch point: "
+                   "each has a curve of its own, from values beside this one"
+                 : "the second parameter does not keep the branch";
     } else if (accepted_ >= options_.maximum_points) {
       curve_.stop = StopReason::max_points;
       curve_.stop_detail = std::string{to_string(StopReason::max_points)};
     }
     last_ = curve.points.back();
     return renew && curve.stop == StopReason::observer;
+  }
+
+  /// Where modes have parted no eigenvalue is zero.
+  static void leave_out_last(Curve& curve) {
+    if (curve.points.size() < 2) return;
+    curve.points.pop_back();
+    std::erase_if(curve.hits,
+                  [end = curve.points.back().s](const Hit& hit) { return hit.point.s > end; });
   }
 
   static std::string name_of(const Watch& watch) {
@@ -340,7 +353,9 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
   if (!lu.is_invertible()) return std::nullopt;
   const Vector rate = -lu.solve(by_mu);
   const double size = std::max(1.0, rate.lpNorm<Eigen::Infinity>());
-  if (!rate.allFinite() || system->unfolding(rate) > kept_within * size) return std::nullopt;
+  if (!rate.allFinite() || system->unfolding(rate) > kept_within * size ||
+      system->rate_of_parting(*X, start.mu, rate) > poor * size)
+    return std::nullopt;
   return CriticalPoint{.x = system->state(*X),
                        .lambda = system->lambda(*X),
                        .mu = start.mu,
