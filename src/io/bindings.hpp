@@ -18,6 +18,7 @@ struct WrittenPart {
   Place place{};
   std::string key{};   ///< empty: that of the number that is made of it
   std::string need{};  ///< what it must be; empty: as the number
+  bool is_angle = false;
 };
 
 struct Binding {

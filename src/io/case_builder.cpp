@@ -159,7 +159,10 @@ class Builder {
       planned.plan.critical.cases = cases_of(draft_, i, run, parameters);
     planned.places = places_of(study, draft_->mechanism);
     if (!check(planned, of_mechanism, i)) return;
-    if (run == 1) add_hints(*draft_, i, of_mechanism, numbers, planned.mechanism, result_.hints);
+    if (run == 1) {
+      const RunValues values{parameters, of_mechanism, numbers};
+      add_hints(*draft_, i, values, planned.mechanism, result_.hints);
+    }
     result_.runs.push_back(std::move(planned));
     if (study.vary) add_columns(i, parameters);
   }

@@ -37,10 +37,32 @@ void add_angle_hint(const Definition& at, double value, std::vector<std::string>
                       " full turns; if degrees are meant write \"" + number + "*deg\"");
 }
 
+/// Angles that a number is made of, as those of a pattern: their sum says nothing. Of all copies the first is named.
+/// @returns whether there are any
+bool add_part_hints(const Definition& of, const FormulaBook& book, const Values& parameters,
+                    std::vector<std::string>& hints) {
+  bool any = false;
+  for (const DefinitionPart& part : of.parts) {
+    if (!part.is_angle) continue;
+    any = true;
+    const auto stands_there = [at = place_text(part.place, "") + ": "](const std::string& hint) {
+      return hint.starts_with(at);
+    };
+    if (std::any_of(hints.begin(), hints.end(), stands_there)) continue;
+    add_angle_hint({.shown = part.shown, .place = part.place, .key = part.key},
+                   book.value(part.formula, parameters.values), hints);
+  }
+  return any;
+}
+
 void add_angle_hints(const NumberTable& table, const std::vector<double>& values,
+                     const FormulaBook& book, const Values& parameters,
                      std::vector<std::string>& hints) {
-  for (NumberId id = 0; id < table.size() && id < values.size(); ++id)
-    if (table.rule(id).unit == "rad") add_angle_hint(table.definition(id), values[id], hints);
+  for (NumberId id = 0; id < table.size() && id < values.size(); ++id) {
+    const Definition& definition = table.definition(id);
+    if (add_part_hints(definition, book, parameters, hints)) continue;
+    if (table.rule(id).unit == "rad") add_angle_hint(definition, values[id], hints);
+  }
 }
 
 /// Quantities of a study that are angles: coordinates of joints and bodies, commands.
@@ -57,14 +79,15 @@ std::set<std::string> angles_of(const model::Mechanism& mechanism) {
 /// What limits and marks are in is known from the mechanism only.
 void add_range_hints(const StudyDraft& study, const std::vector<double>& values,
                      const model::Mechanism& mechanism, std::vector<std::string>& hints) {
-  if (study.until.empty() && study.marks.empty()) return;
+  if (study.until.empty() && study.box.empty() && study.marks.empty()) return;
   const std::set<std::string> angles = angles_of(mechanism);
   const auto look = [&](const NamedPlace& quantity, NumberId id) {
     if (angles.contains(quantity.name))
       add_angle_hint(study.numbers.definition(id), values[id], hints);
   };
-  for (const LimitDraft& limit : study.until)
-    for (const NumberId id : {limit.low, limit.high}) look(limit.quantity, id);
+  for (const std::vector<LimitDraft>* limits : {&study.until, &study.box})
+    for (const LimitDraft& limit : *limits)
+      for (const NumberId id : {limit.low, limit.high}) look(limit.quantity, id);
   for (const MarkDraft& mark : study.marks) look(mark.quantity, mark.value);
 }
 
@@ -129,11 +152,11 @@ bool lies_in_plane(const model::Mechanism& mechanism, const model::Chain& chain)
 
 }  // namespace
 
-void add_hints(const CaseDraft& draft, std::size_t study, const std::vector<double>& of_mechanism,
-               const std::vector<double>& of_study, const model::Mechanism& mechanism,
-               std::vector<std::string>& hints) {
-  add_angle_hints(draft.mechanism.numbers, of_mechanism, hints);
-  add_angle_hints(draft.studies[study].numbers, of_study, hints);
+void add_hints(const CaseDraft& draft, std::size_t study, const RunValues& values,
+               const model::Mechanism& mechanism, std::vector<std::string>& hints) {
+  const auto& [parameters, of_mechanism, of_study] = values;
+  add_angle_hints(draft.mechanism.numbers, of_mechanism, draft.book, parameters, hints);
+  add_angle_hints(draft.studies[study].numbers, of_study, draft.book, parameters, hints);
   add_range_hints(draft.studies[study], of_study, mechanism, hints);
   for (std::size_t i = 0; i < draft.mechanism.chains.size(); ++i)
     add_line_hints(draft.mechanism.chains[i], mechanism.chains[i], of_mechanism, hints);

@@ -8,12 +8,16 @@
 
 namespace springfold::io {
 
+/// What a run makes of the parameters and of the two number tables.
+struct RunValues {
+  const Values& parameters;
+  const std::vector<double>&of_mechanism, &of_study;
+};
+
 /// Angles of more than a turn that are written as plain numbers (degrees, probably), and joints of a
 /// chain that turn about one line. Each hint stands once.
-/// @param of_mechanism, of_study  values of the two number tables
-void add_hints(const CaseDraft& draft, std::size_t study, const std::vector<double>& of_mechanism,
-               const std::vector<double>& of_study, const model::Mechanism& mechanism,
-               std::vector<std::string>& hints);
+void add_hints(const CaseDraft& draft, std::size_t study, const RunValues& values,
+               const model::Mechanism& mechanism, std::vector<std::string>& hints);
 
 /// Joints of chains between bodies in the plane whose axes lead out of it, with their places.
 void check_planes(const MechanismDraft& draft, const std::vector<double>& numbers,

@@ -157,8 +157,9 @@ void NumberTable::check(const Values& values, const std::string& when, Problems&
     if (reported[id] || !values.usable[id] || (holds(rule.range, value) && !too_large)) continue;
     reported[id] = true;
     if (const auto part = values.part_at_fault.find(id); part != values.part_at_fault.end()) {
-      const auto& [formula, shown, place, key, need] = definition.parts[part->second];
-      problems.add(place, key, "got " + shown + ", which has no finite value, need " + need, when);
+      const DefinitionPart& at = definition.parts[part->second];
+      problems.add(at.place, at.key,
+                   "got " + at.shown + ", which has no finite value, need " + at.need, when);
       continue;
     }
     problems.add(

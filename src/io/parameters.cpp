@@ -108,7 +108,8 @@ Definition read_definition(const Node& node, const std::string& key, const std::
                    "got " + part.shown + ", need " + part_need + " or a formula: " + added.problem);
       return definition;
     }
-    definition.parts.push_back({*added.id, part.shown, part.place, part_key, part_need});
+    definition.parts.push_back(
+        {*added.id, part.shown, part.place, part_key, part_need, part.is_angle});
   }
   const FormulaBook::Added added =
       book.add(node.bindings ? with_bindings(node.text, *node.bindings) : node.text);

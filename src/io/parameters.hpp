@@ -18,6 +18,7 @@ struct DefinitionPart {
   Place place{};
   std::string key{};
   std::string need{};
+  bool is_angle = false;
 };
 
 /// The right-hand side of a number: a constant or a formula.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "text.hpp"
 
@@ -23,6 +24,17 @@ void add_part(Parts& parts, const Node& node, const Bindings& bindings, const st
   if (node.parts) return;
   parts.push_back({with_bindings(node.text, node.bindings ? *node.bindings : bindings),
                    described(node), node.place, key, need});
+}
+
+/// The same of an angle, which may be a plain number: then it is looked at whether it is in degrees.
+void add_angle(Parts& parts, const Node& node, const Bindings& bindings, const std::string& key,
+               const std::string& need) {
+  const bool is_number = node.kind == Node::Kind::number && std::isfinite(node.number);
+  if (is_number)
+    parts.push_back({formula_of(node, bindings), described(node), node.place, key, need});
+  else
+    add_part(parts, node, bindings, key, need);
+  if (is_number || (node.kind == Node::Kind::text && !node.parts)) parts.back().is_angle = true;
 }
 
 Node made_of(Parts parts, std::string text, const Place& place) {
@@ -55,7 +67,7 @@ class Turner {
              (angle ? "got " + described(*angle) : std::string{"missing"}) +
                  ", need the angle from one copy to the next [rad]");
     else
-      add_part(parts_, *angle, bindings_, key_ + ".pattern.angle", "a finite number [rad]");
+      add_angle(parts_, *angle, bindings_, key_ + ".pattern.angle", "a finite number [rad]");
     const Binding* number = bindings_.find(copy.index);
     turn_.angle = each + "*(" + (number ? number->text : "0") + ")";
     is_zero_copy_ = number != nullptr && number->whole == 0;
@@ -153,7 +165,7 @@ class Turner {
                     "got " + described(*own) + ", need \"" + axis +
                         "\", the axis of the pattern: other turns belong into the elements");
     Parts parts = parts_;
-    add_part(parts, *angle, bindings_, "", "");
+    add_angle(parts, *angle, bindings_, "", "");
     *angle =
         made_of(std::move(parts), formula_of(*angle, bindings_) + "+" + turn.angle, angle->place);
   }
@@ -174,7 +186,7 @@ class Turner {
     turn_vector(place, "pose", in_base());
     const Node& own = pose->items[2];
     Parts parts = parts_;
-    add_part(parts, own, bindings_, "", "");
+    add_angle(parts, own, bindings_, "", "");
     place.items.push_back(made_of(
         std::move(parts),
         formula_of(own, bindings_) + (turn_.axis.negative ? "-" : "+") + turn_.angle, own.place));

@@ -92,6 +92,37 @@ TEST_F(PlainWords, HintAtDegreesForRadiansAndAtCranksWithoutLength) {
               ElementsAre(HasSubstr("joints \"knee\" and \"pin\" turn about one line")));
 }
 
+TEST_F(PlainWords, HintOnceAtThePatternWhoseAngleLooksLikeDegrees) {
+  const auto wheel = [](const std::string& angle, const std::string& pose) {
+    return "[parameters]\nstep = 120\n[[body]]\npattern = { i = [0, 4], angle = " + angle +
+           " }\nname = \"b{i}\"\ntask_space = \"planar\"\npose = [1, 0.5, " + pose +
+           "]\n[[spring]]\npattern = { i = [0, 4], angle = " + angle +
+           " }\nname = \"s{i}\"\nfrom_at = [3, 0.4]\nto = \"b{i}\"\nto_at = [0.5, 0.1]\n"
+           "stiffness = 3\n[[study]]\nname = \"a\"\nkind = \"equilibrium\"\nbody = \"b0\"\n";
+  };
+  const auto more = [](const std::string& part) {
+    return HasSubstr(part +
+                     ".pattern.angle: 120 rad is more than 19 full turns; if degrees are "
+                     "meant write \"120*deg\"");
+  };
+  for (const char* angle : {"120", "\"120\"", "\"step\""})
+    EXPECT_THAT(load(wheel(angle, "0")).hints,
+                ElementsAre(more("body[1, i = 0]"), more("spring[1, i = 0]")));
+  EXPECT_THAT(load(wheel("\"120*deg\"", "0")).hints, IsEmpty());
+  EXPECT_THAT(load(wheel("2", "0")).hints, IsEmpty()) << "copy 4 is turned by 8, as it is meant";
+  EXPECT_THAT(load(wheel("2", "30")).hints,
+              ElementsAre(HasSubstr("body[1, i = 0].pose[3]: 30 rad is more than 4 full turns")));
+}
+
+TEST_F(PlainWords, HintAtDegreesInTheBoxOfASearch) {
+  const Case found = load(
+      "[[body]]\nname = \"b\"\ntask_space = \"planar\"\n[[spring]]\nfrom_at = [3, 0.4]\nto = "
+      "\"b\"\n"
+      "to_at = [0.5, 0.1]\nstiffness = 3\n[[study]]\nname = \"a\"\nkind = \"equilibria\"\nbody = "
+      "\"b\"\nbox = { b.x = [-90, 90], b.phi = [-90, \"90*deg\"] }\n");
+  EXPECT_THAT(found.hints, ElementsAre(HasSubstr("b.phi[1]: -90 rad is more than 14 full turns")));
+}
+
 TEST_F(PlainWords, SayHowANeighbouringFileOfExpectedValuesIsLeftOut) {
   write("expected.toml",
         "value = [{ name = \"a\", study = \"other\", quantity = \"force\", expected = 1, "
