@@ -1,9 +1,11 @@
 // Special points in a second parameter do not depend on where on its path a study begins, be it just beside a limit point.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <vector>
 
 #include "case_runs.hpp"
 
@@ -14,8 +16,9 @@ namespace {
 /// P(y) = 2 y (L / sqrt(1 + y^2) - 1) has dP/dy = 0 at 1 + y^2 = L^(2/3), and P = 2 y^3 there.
 const double height = std::sqrt(std::cbrt(1.25) - 1), limit_load = 2 * height * height * height;
 
-/// The truss loaded up to `remaining` below its limit load, with one more study.
-std::string truss(double remaining, const std::string& kind, const std::string& settings) {
+/// The truss under a load that it carries at the height y, with one more study.
+std::string loaded_truss(double load, double y, const std::string& kind,
+                         const std::string& settings) {
   std::ostringstream text;
   text << std::setprecision(17)
        << "[parameters]\nk = 1\n"
@@ -26,10 +29,14 @@ std::string truss(double remaining, const std::string& kind, const std::string& 
           "[[bar]]\nfrom = \"R\"\nto = \"apex\"\nstiffness = 1\n"
           "[[study]]\nname = \"s\"\nkind = \""
        << kind << "\"\nbody = \"apex\"\ncontrol = \"load\"\ndirection = [0, -1]\nload = [0, "
-       << remaining - limit_load << "]\nuntil = { apex.y = [-0.8, 0.8] }\nstart = { pose = [0, "
-       << height + std::sqrt(remaining / 3) << "] }\n"
+       << -load << "]\nuntil = { apex.y = [-0.8, 0.8] }\nstart = { pose = [0, " << y << "] }\n"
        << settings << "\n";
   return text.str();
+}
+
+/// The same, loaded up to `remaining` below its limit load.
+std::string truss(double remaining, const std::string& kind, const std::string& settings) {
+  return loaded_truss(limit_load - remaining, height + std::sqrt(remaining / 3), kind, settings);
 }
 
 const std::vector<double> loads_remaining{1e-2, 1e-4, 1e-5, 3e-6, 1e-6};
@@ -50,6 +57,26 @@ TEST(BesideALimitPoint, RatesOfTheLimitLoadsAreTheirs) {
     }
     EXPECT_EQ(found, 2) << remaining;
   }
+}
+
+// The unit of lambda in the arc length does not come from the slope there, which is next to none.
+TEST(BesideALimitPoint, ACurveHasNoMorePointsThanFromAfarAndBothLimitLoads) {
+  for (const double distance : {0.1, 1e-2, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6, 3e-7, 1e-7, 1e-8, 1e-9})
+    for (const double y : {height + distance, height - distance}) {
+      const double load = 2 * y * (std::sqrt(1.25) / std::sqrt(1 + y * y) - 1);
+      const auto ran = run(loaded_truss(load, y, "force_deflection", ""));
+      const analysis::Branch& branch = ran.of("s").branches.at(0);
+      EXPECT_TRUE(branch.forward.complete && branch.backward.complete) << distance;
+      EXPECT_LT(branch.samples.size(), 60u) << distance;
+      std::vector<double> limits;
+      for (const analysis::Event& event : branch.events)
+        if (event.kind == analysis::EventKind::limit_point)
+          limits.push_back(value(ran.of("s"), event.row, "lambda") + load);
+      std::sort(limits.begin(), limits.end());
+      ASSERT_EQ(limits.size(), 2u) << distance;
+      EXPECT_NEAR(limits[0], -limit_load, 1e-10) << distance;
+      EXPECT_NEAR(limits[1], limit_load, 1e-10) << distance;
+    }
 }
 
 TEST(BesideALimitPoint, ItsCriticalCurveIsThatFromAfar) {

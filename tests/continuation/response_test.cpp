@@ -71,6 +71,18 @@ TEST(Response, OfABarThatHardlyGivesWayIsTheFirstCriticalLoadToo) {
   EXPECT_NEAR(*soft->lambda, 16, 1e-9);
 }
 
+/// 3 x - x^3 has the bend 3 x, and a limit point at 1.
+TEST(Response, OfACurveThatTurnsJustBesideIsItsBend) {
+  const ScalarProblem cubic =
+      graph([](double x) { return 3 * x - x * x * x; }, [](double x) { return 3 - 3 * x * x; });
+  for (const double off : {1e-2, -1e-3, 1e-4, 1e-5, -1e-6, 1e-7, 1e-8}) {
+    const double x = 1 - off;
+    const auto response = response_at(cubic, Vector::Constant(1, x), 3 * x - x * x * x, {});
+    ASSERT_TRUE(response && response->lambda) << off;
+    EXPECT_NEAR(*response->lambda, 16 * 3 * x, 1e-6) << off;
+  }
+}
+
 TEST(Response, HasNoUnitWhereNothingMovesNorChanges) {
   const ScalarProblem rest{[](double x, double) { return x; }, [](double, double) { return 1.0; },
                            [](double, double) { return 0.0; }};

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "springfold/continuation/entry_checks.hpp"
+#include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/bordered_factors.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -140,6 +141,24 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
   return way < farther * d ? way : infinity;
 }
 
+/// |dlambda| for |dx| = 1 along the parabola of a curve that turns just beside the point: through it and a corrected point
+/// `clear_motion` away on both sides. Where its vertex lies within twice that, what the tangent says holds nowhere else.
+/// @returns nothing where the curve goes on straight
+std::optional<double> bend_beside(ProblemView problem, const Vector& x, double lambda,
+                                  const Piece& piece, const Vector& dx, double moved) {
+  const Vector weights = problem.metric();
+  const Direction along{dx / moved, 0};
+  double change = 0;
+  for (const double side : {-clear_motion, clear_motion}) {
+    const NewtonResult there = correct(problem, weights, x + side * along.dx, lambda, piece, along,
+                                       NewtonOptions{.maximum_iterations = 12});
+    if (!converged(there)) return std::nullopt;
+    change += 0.5 * (there.lambda - lambda);
+  }
+  const double bend = std::abs(change) / (clear_motion * clear_motion);
+  return 2 * bend * moved * 2 * clear_motion >= 1 ? std::optional(bend) : std::nullopt;
+}
+
 /// Is dF/dx singular, to what special points are located to? Its entries count beside what they are a little aside: a row or
 /// column that vanishes at the point would otherwise look like one in a small unit.
 bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
@@ -177,6 +196,11 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   if (moved > 0 && way * moved >= clear_motion) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * change;
+  } else if (const auto bend = moved > 0 && std::isfinite(way)
+                                   ? bend_beside(problem, x, lambda, piece, dx, moved)
+                                   : std::nullopt) {
+    change = 1 / moved;
+    response.lambda = slopes_in_a_unit * *bend;
   } else if (std::isfinite(way)) {
     // At a special point the next one is this one, which is no unit of anything.
     if (way < tiny_share && is_singular(problem, x, lambda, piece)) return std::nullopt;
