@@ -8,6 +8,7 @@
 #include "continuation/points/chebyshev.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
@@ -58,6 +59,19 @@ bool has_corank(const TestedStep& arc, const CurvePoint& point, Index m) {
   if (!E) return false;
   const Vector values = least_singular_values(*E, m + 1);
   return values[m - 1] <= small_share * values[m];
+}
+
+/// Several modes of soft springs beside a stiff member are all small against it, also where one of them alone has lost its
+/// stiffness. Do m of them vanish beside the others, to what is told apart, after rows and columns have been brought to one
+/// size?
+bool vanish_together(const TestedStep& arc, const CurvePoint& point, Index m) {
+  if (m < 2 || arc.walker().problem.structured()) return true;
+  const auto own = equilibrated_jacobian(arc.walker(), point);
+  if (!own) return false;
+  const Vector values = divided_svd(own->J).values;
+  const Index kept = values.size() - m;
+  const double others = kept > 0 ? values[kept - 1] : 1;  // entries a little away are of size 1
+  return values[kept] <= told_apart * others;
 }
 
 /// How far another place is from an interpolated one, along the interpolated curve and aside of it.
@@ -183,7 +197,8 @@ std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& 
   result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;
-  if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m))
+  if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m) ||
+      !vanish_together(arc, result.point, m))
     return std::nullopt;
   result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
   if (m > 1 && has_company(arc, result, m)) return std::nullopt;
