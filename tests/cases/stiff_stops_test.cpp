@@ -24,20 +24,20 @@ struct BrokenFoot {
   }
 };
 
-std::string list(const std::vector<double>& values) {
+std::string list_of_numbers(const std::vector<double>& values) {
   std::string text;
   for (const double v : values) text += (text.empty() ? "[" : ", ") + number(v);
   return text + "]";
 }
 
-StudyResult pressed(const BrokenFoot& foot) {
+StudyResult pressed_foot(const BrokenFoot& foot) {
   const std::string f = number(foot.crooked);
   return run("[parameters]\nf = " + f +
              "\n[[body]]\nname = \"n\"\ntask_space = \"xy\"\npose = [\"-sin(f)\", \"cos(f)\"]\n"
              "[[chain]]\nname = \"mast\"\nto = \"n\"\nelements = [{ joint = \"revolute\", axis = "
              "\"z\", name = \"foot\", role = \"preloaded\", initial = \"f\", spring = { law = "
              "\"piecewise_linear\", breakpoints = " +
-             list(foot.at) + ", stiffnesses = " + list(foot.stiffness) +
+             list_of_numbers(foot.at) + ", stiffnesses = " + list_of_numbers(foot.stiffness) +
              ", free = \"f\" } }, { rigid = [0, 1] }]\n[[study]]\nname = \"press\"\nbody = \"n\"\n"
              "control = \"load\"\ndirection = [0, -1]\nstart = { pose = [\"-sin(f)\", \"cos(f)\"] "
              "}\n"
@@ -58,7 +58,7 @@ TEST(StiffStops, CriticalForcesAtTheirCornersAreExact) {
                              {0.00332, {0.0034, 0.00347, 0.203}, {0.016, 1.66e4, 0.0551, 0.00617}},
                              {0.0422, {0.04224, 0.043, 0.0447}, {0.0179, 1.05e5, 59.7, 6.13e-6}}};
   for (const BrokenFoot& foot : feet) {
-    const StudyResult result = pressed(foot);
+    const StudyResult result = pressed_foot(foot);
     EXPECT_TRUE(complete(result));
     const auto corners = lambdas(result, EventKind::corner_limit_point);
     ASSERT_EQ(corners.size(), 1u);
@@ -71,7 +71,7 @@ TEST(StiffStops, BeforeThemASoftSpringTurnsTheForceAtItsCorners) {
   // Behind the soft pieces the force rises a billion times as steeply: in its unit they look level.
   const BrokenFoot foot{
       0.000392, {0.962295, 0.963139, 0.963846}, {0.000403, 1.99e-5, 12.8, 1.69e5}};
-  const StudyResult result = pressed(foot);
+  const StudyResult result = pressed_foot(foot);
   EXPECT_TRUE(complete(result));
   EXPECT_THAT(kinds_at_breakpoints(result),
               testing::ElementsAre(EventKind::corner_limit_point, EventKind::corner_limit_point,
