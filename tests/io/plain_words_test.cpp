@@ -116,10 +116,11 @@ TEST_F(PlainWords, HintOnceAtThePatternWhoseAngleLooksLikeDegrees) {
 
 TEST_F(PlainWords, HintAtDegreesInTheBoxOfASearch) {
   const Case found = load(
-      "[[body]]\nname = \"b\"\ntask_space = \"planar\"\n[[spring]]\nfrom_at = [3, 0.4]\nto = "
+      "[[body]]\nname = \"b\"\ntask_space = \"planar\"\n[[spring]]\nname = \"s\"\nfrom_at = [3, "
+      "0.4]\nto = "
       "\"b\"\n"
       "to_at = [0.5, 0.1]\nstiffness = 3\n[[study]]\nname = \"a\"\nkind = \"equilibria\"\nbody = "
-      "\"b\"\nbox = { b.x = [-90, 90], b.phi = [-90, \"90*deg\"] }\n");
+      "\"b\"\nsearch = { box = { b.x = [-90, 90], b.phi = [-90, \"90*deg\"] } }\n");
   EXPECT_THAT(found.hints, ElementsAre(HasSubstr("b.phi[1]: -90 rad is more than 14 full turns")));
 }
 
