@@ -95,12 +95,6 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
   rays.rays.push_back({at.piece, way.tangent, std::move(resting), way.start, way.beyond});
 }
 
-Vector gradient_of(const Surfaces& surfaces, Index j) {
-  Vector gradient(surfaces.dg_dx.cols() + 1);
-  gradient << surfaces.dg_dx.row(j).transpose(), surfaces.dg_dlambda[j];
-  return gradient;
-}
-
 Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {
   for (std::size_t k = 0; k < active.size(); ++k)
     piece[static_cast<std::size_t>(active[k])] = (pattern >> k) & 1u ? 1 : -1;
@@ -127,15 +121,16 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
 
 /// By the condition of the equilibrated matrix J = D_r [dF/dx dF/dlambda] D_c, whose kernel is y, tangent = D_c y: stiff
 /// members beside soft ones make nothing uncertain by that alone.
-double error_of_rate(const Walker& walker, const CurvePoint& at, const Vector& gradient,
-                     const Direction& tangent) {
+double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                     const Vector& dg_dlambda, Index j, const Direction& tangent) {
   if (walker.problem.structured()) return infinity;
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return infinity;
   const Index n = own->J.rows();
   const Vector pivots = pivoted_qr(own->J.transpose()).pivots;
   const double share = n > 0 ? pivots[n - 1] / std::max(pivots[0], 1.0) : 1.0;
-  Vector along(n + 1);
+  Vector gradient(n + 1), along(n + 1);
+  gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
   along << tangent.dx, tangent.dlambda;
   const double size =
       gradient.cwiseProduct(own->columns).norm() * along.cwiseQuotient(own->columns).norm();
@@ -178,8 +173,8 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
         arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, active.empty());
     if (along && active.size() == 1 && !ways.list.empty()) {
       // The point lies on the surface to rounding.
-      const double off = error_of_rate(walker, ray, gradient_of(surfaces, active.front()),
-                                       ways.list.front().tangent);
+      const double off = error_of_rate(walker, ray, surfaces.dg_dx, surfaces.dg_dlambda,
+                                       active.front(), ways.list.front().tangent);
       for (PieceWay& way : ways.list) {
         if (ways.conditioning > 0)
           way.accuracy = std::min(way.accuracy, 2 * exact_model / ways.conditioning);

@@ -85,10 +85,10 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
 /// Rate of g_j along a direction.
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
 
-/// What a place that is off by rounding makes of a switch's rate along the tangent of a regular piece. Infinity where that is not
-/// known. @param gradient  of the switch by (x, lambda), n + 1
-double error_of_rate(const Walker& walker, const CurvePoint& at, const Vector& gradient,
-                     const Direction& tangent);
+/// What a place that is off by rounding makes of switch_rate() along the tangent of a regular piece. Infinity where that is not
+/// known.
+double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                     const Vector& dg_dlambda, Index j, const Direction& tangent);
 
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {

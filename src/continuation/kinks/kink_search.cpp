@@ -306,9 +306,7 @@ bool moves_off(const Walker& walker, const Workspace::Switches& at, Index j, con
   const double rate = std::abs(rate_along(at, j, p));
   if (rate > one_place) return true;
   if (!(rate > 0)) return false;
-  Vector gradient(p.x.size() + 1);
-  gradient << at.dg_dx.row(j).transpose(), at.dg_dlambda[j];
-  return rate > error_of_rate(walker, p, gradient, p.tangent);
+  return rate > error_of_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
 }
 
 }  // namespace
