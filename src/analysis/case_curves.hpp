@@ -100,6 +100,7 @@ class CaseCurves {
                    std::optional<ParameterFamily>& along, std::optional<std::string>& way) const;
   bool put_numbers(Member& member, bool again) const;
   bool solve_near(Member& member, const Member& near) const;
+  bool solve_by_itself(Member& member) const;
   bool solve_in_state(Member& member, const std::string& way) const;
   std::optional<statics::Inputs> inputs_without_start(const Member& member,
                                                       const Member& near) const;
@@ -132,6 +133,7 @@ class CaseCurves {
   RuledRange rules_{};
   std::vector<std::pair<std::string, double>> held_{};
   bool begins_at_member_ = false;  ///< whose case need have no start
+  bool starts_move_freely_ = false;  ///< neutral equilibria: which one it is, the guess says
   std::unique_ptr<Member> base_{};
   mutable std::optional<Pattern> pattern_{};
   struct Recent {

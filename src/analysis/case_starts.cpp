@@ -32,10 +32,24 @@ StartOptions CaseCurves::start_beside(const Study& study) const {
   return how;
 }
 
+/// As the case with this value begins, whatever the neighbours are. Commands that are not tied are those of the first member.
+bool CaseCurves::solve_by_itself(Member& member) const {
+  statics::StartProblem problem =
+      start_problem(member.setup, member.study.body, start_beside(member.study));
+  if (keeps_commands(member.study) && base_) problem.inputs.rho = base_->first.inputs.rho;
+  member.first = first_equilibrium(member.setup.system, problem, start_work_);
+  member.report.found = member.first.status == statics::StartStatus::found;
+  return member.report.found;
+}
+
 /// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
-/// vanishes, the member begins as the case with this value does, whatever the neighbours are; and where that finds nothing,
-/// at whatever start is found from the neighbour's. Commands that are not tied are those of the first member.
+/// vanishes, the member begins as the case with this value does; and where that finds nothing, at whatever start is found
+/// from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
+  if (starts_move_freely_ && solve_by_itself(member)) {
+    member.sheet = near.sheet;
+    return true;
+  }
   const StartOptions how = start_beside(member.study);
   const bool keeps = keeps_commands(member.study);
   statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
@@ -66,8 +80,7 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   if (member.report.found) return true;
   member.sheet = ++sheets_;
   problem.is_neighbour = false;
-  const auto own = [&] { return start_problem(member.setup, member.study.body, how); };
-  member.report.found = (!keeps && is_found(own())) || is_found(problem);
+  member.report.found = (!keeps && solve_by_itself(member)) || is_found(problem);
   if (member.report.found) member.first.factors = start_factors(member);
   return member.report.found;
 }
