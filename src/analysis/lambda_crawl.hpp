@@ -26,6 +26,12 @@ inline constexpr const char* grows_without_bound =
     "lambda grows without bound while hardly anything moves: a limit of lambda in until says how "
     "far it is to be followed";
 
+/// Does the curve end there?
+inline bool ends_without_bound(const continuation::Curve& curve) {
+  return curve.stop == continuation::StopReason::observer &&
+         curve.stop_detail == grows_without_bound;
+}
+
 class LambdaCrawl {
  public:
   /// @param largest  factor that is still allowed

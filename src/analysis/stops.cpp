@@ -1,5 +1,6 @@
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
+#include "lambda_crawl.hpp"
 #include "neutral_motions.hpp"
 #include "vanishing_lengths.hpp"
 #include "zero_lengths.hpp"
@@ -21,8 +22,9 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
   if (const auto why = nears_kinematic_singularity(problem, end, other))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, end, other))
-    stop = legs->is_end_of_reach ? Stop{"end of the reach: " + legs->text, true}
-                                 : Stop{stop.reason + "; " + legs->text, false};
+    stop = legs->is_end_of_reach || ends_without_bound(curve)
+               ? Stop{"end of the reach: " + legs->text, true}
+               : Stop{stop.reason + "; " + legs->text, false};
   else if (const auto names = neutral_motion(problem, end))
     stop.reason += "; nothing resists a motion of " + *names + " there";
   return stop;

@@ -73,6 +73,40 @@ TEST(ALoadWithoutBound, LeavesThresholdsTheirPath) {
   EXPECT_NEAR(ran.of("s").threshold->value, 0.00317277115398, 1e-12);
 }
 
+/// Stiffness at which the limit points of the diagonal merge: F = F0 + kv G has F' = 0 where kv = -F0'/G', at most at the cusp.
+double cusp_of_diagonal(double p) {
+  const double cp = std::sqrt(1 - p * p), preload = std::asin(p) / (cp - p);
+  const auto stiffness = [&](double x) {
+    const double c = std::sqrt(1 - x * x), t = x / c;
+    const double dF0 = (1 - t) * (1 - t) - (x + c - p - cp) / (c * c * c);
+    const double dG = 1 / (c * c) + (std::asin(x) * x + preload) / (c * c * c);
+    return -dF0 / dG;
+  };
+  double low = p, high = std::sqrt(0.5);
+  for (int i = 0; i < 200; ++i) {
+    const double third = (high - low) / 3;
+    if (stiffness(low + third) < stiffness(high - third))
+      low += third;
+    else
+      high -= third;
+  }
+  return stiffness(0.5 * (low + high));
+}
+
+TEST(ALoadWithoutBound, LeavesThresholdsTheirPathHoweverNearTheStretchedLegsAre) {
+  for (const char* p : {"0.6", "0.68", "0.7"}) {
+    const auto ran = run(
+        diagonal(p, "0.05",
+                 "kind = \"threshold\"\nuntil = { deflection = [-0.05, 0.6] }\n"
+                 "threshold = { of = \"limit_point\", parameter = \"kv\", range = [0, 0.5] }\n"));
+    const StudyResult& result = ran.of("s");
+    ASSERT_TRUE(result.threshold);
+    EXPECT_TRUE(complete(result)) << p;
+    const double cusp = cusp_of_diagonal(std::stod(p));
+    EXPECT_NEAR(result.threshold->value / cusp, 1, 1e-9) << p;
+  }
+}
+
 /// A bar on a slide whose spring is a law c x / (1 - x): the load is infinite at the end of its way, and no chain is stretched.
 TEST(ALoadWithoutBound, OfALawIsToldWhereNoChainExplainsIt) {
   const auto ran = run(
