@@ -132,7 +132,7 @@ class CaseCurves {
   double value_ = 0, scale_ = 1, lambda_unit_ = 1;
   RuledRange rules_{};
   std::vector<std::pair<std::string, double>> held_{};
-  bool begins_at_member_ = false;  ///< whose case need have no start
+  bool begins_at_member_ = false;    ///< whose case need have no start
   bool starts_move_freely_ = false;  ///< neutral equilibria: which one it is, the guess says
   std::unique_ptr<Member> base_{};
   mutable std::optional<Pattern> pattern_{};

@@ -9,6 +9,7 @@
 #include "critical_runs.hpp"
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
+#include "load_pieces.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -25,26 +26,7 @@ using continuation::Degeneracy;
 constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;
-/// Critical loads that differ by less are the same, relative to 1 + |lambda|.
-constexpr double same_load = 1e-8;
 constexpr int most_pieces = 200;
-constexpr const char* in_next_piece = "goes on in the next piece";
-constexpr const char* another_first = "from here on another critical point comes first, or none";
-
-/// A piece in one sense of the parameter, cut where it ends.
-struct Side {
-  CriticalCurve curve{};
-  double end = 0;
-  std::optional<Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
-  bool stops = false;                   ///< it could not be followed beyond
-  bool jumps = false;  ///< it goes on, but another point comes first, or it is not reached
-};
-
-struct LoadPiece {
-  CriticalStart start{};
-  EventKind of = EventKind::limit_point;
-  Side falling{}, growing{};
-};
 
 class LoadsOverParameter {
  public:
@@ -67,7 +49,9 @@ class LoadsOverParameter {
       if (!pieces_.empty() && mu <= done) continue;
       const FirstUnwanted& first = first_at(mu);
       std::optional<LoadPiece> piece;
-      if (first.point)
+      if (first.point && is_alone(mu))
+        alone_.push_back(mu);
+      else if (first.point)
         piece = piece_of(*first.point, mu, done, high_);
       else if (!first.why.empty())
         (first.has_start ? doubted_ : lacks_start_).add(mu * curves_.scale(), first.why);
@@ -93,6 +77,9 @@ class LoadsOverParameter {
                                 [this](int, double s) { return !observer_ || observer_(0, s); }))
         .first->second;
   }
+
+  /// Of what comes first at the value. A piece is never begun at one: its neighbours come to it.
+  bool is_alone(double mu) { return stands_alone(curves_, *curves_.at(mu), *first_at(mu).point); }
 
   void doubt(double mu, const std::string& why) { doubted_.add(mu * curves_.scale(), why); }
 
@@ -259,14 +246,34 @@ class LoadsOverParameter {
 
   bool is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
     const FirstUnwanted& first = first_at(mu);
-    if (!first.point || first.point->kind != piece.of) return false;
+    if (!first.point || (first.point->kind != piece.of && !is_alone(mu))) return false;
     const auto here = point_of_curve(curves_, piece.start, curve, mu, at_degeneracy * width_);
     const double lambda = first.point->hit.point.lambda;
     return here && std::abs(here->lambda - lambda) <= same_load * (1 + std::abs(lambda));
   }
 
+  /// Does it come first just before a degeneracy of its curve between both values, and just behind not any more? Then it ends
+  /// there, and no bracket has to be halved beside it, where two points of the path are hard to tell apart.
+  bool ends_at_degeneracy(const LoadPiece& piece, Side& side, double good, double bad) {
+    const double room = at_degeneracy * width_;
+    for (std::size_t i = 0; i < side.curve.hits.size(); ++i) {
+      const CriticalHit& hit = side.curve.hits[i];
+      const double mu = hit.point.mu, sense = bad > good ? 1 : -1;
+      if (hit.kind == Degeneracy::user || hit.kind == Degeneracy::extremum ||
+          sense * (mu - good) <= room || sense * (bad - mu) <= room ||
+          !is_first(piece, side.curve, mu - sense * room) ||
+          is_first(piece, side.curve, mu + sense * room))
+        continue;
+      side.decides = hit.kind;
+      end_at(side, piece.of, i);
+      return true;
+    }
+    return false;
+  }
+
   /// The critical point comes first at `good` and does not at `bad`.
   void end_before(const LoadPiece& piece, Side& side, double good, double bad) {
+    if (ends_at_degeneracy(piece, side, good, bad)) return;
     while (std::abs(bad - good) > closest_bracket * width_) {
       const double middle = good + 0.5 * (bad - good);
       (is_first(piece, side.curve, middle) ? good : bad) = middle;
@@ -293,36 +300,6 @@ class LoadsOverParameter {
     side.end = last->mu;
   }
 
-  /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
-  void leave_out_points() {
-    const auto meets = [&](double a, double b) {
-      return std::abs(a - b) <= at_degeneracy * width_;
-    };
-    for (std::size_t i = 0; i < pieces_.size();) {
-      const double from = pieces_[i].falling.end, to = pieces_[i].growing.end;
-      const bool goes_on = (i > 0 && meets(pieces_[i - 1].growing.end, from)) ||
-                           (i + 1 < pieces_.size() && meets(pieces_[i + 1].falling.end, to));
-      if (goes_on && meets(from, to))
-        pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));
-      else
-        ++i;
-    }
-  }
-
-  /// Where one piece meets the next one with the same load, the same point goes on.
-  void say_what_goes_on() {
-    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
-      CriticalCurve &before = pieces_[i].growing.curve, &behind = pieces_[i + 1].falling.curve;
-      const bool meets =
-          std::abs(pieces_[i + 1].falling.end - pieces_[i].growing.end) <= at_degeneracy * width_;
-      if (!meets || before.points.empty() || behind.points.empty()) continue;
-      const double from = before.points.back().lambda, to = behind.points.back().lambda;
-      if (std::abs(to - from) > std::sqrt(same_load) * (1 + std::abs(from))) continue;
-      for (CriticalCurve* curve : {&before, &behind})
-        if (curve->stop_detail == another_first) curve->stop_detail = in_next_piece;
-    }
-  }
-
   /// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
   bool ends_at_start(double value) const {
     const double mu = value / curves_.scale();
@@ -333,13 +310,24 @@ class LoadsOverParameter {
            (behind != pieces_.begin() && comes(std::prev(behind)->growing));
   }
 
+  /// Values at which what comes first stands alone belong to the pieces that come to it with its load.
+  void tell_apart() {
+    for (const double mu : alone_)
+      if (!is_reached(curves_, pieces_, mu, first_at(mu).point->hit.point.lambda,
+                      at_degeneracy * width_))
+        doubt(mu,
+              first_at(mu).point->label +
+                  " does not move with this parameter, and no critical point beside comes to it");
+  }
+
   void finish() {
+    tell_apart();
     lacks_start_.forget([this](double value) { return ends_at_start(value); });
     for (const DoubtedValues& doubted : {lacks_start_, doubted_})
       for (std::string& text : doubted.told(curves_.name()))
         result_.doubts.push_back(std::move(text));
-    leave_out_points();
-    say_what_goes_on();
+    leave_out_points(pieces_, at_degeneracy * width_);
+    say_what_goes_on(pieces_, at_degeneracy * width_);
     for (const LoadPiece& piece : pieces_) {
       const FollowedCurve followed{.start = piece.start,
                                    .of = piece.of,
@@ -386,6 +374,7 @@ class LoadsOverParameter {
   double low_ = 0, high_ = 0, width_ = 1;
   std::vector<double> grid_{};  ///< of the parameter, dimensionless
   std::map<double, FirstUnwanted> known_{};
+  std::vector<double> alone_{};  ///< values at which what comes first stands alone
   DoubtedValues doubted_{}, lacks_start_{};
   std::vector<LoadPiece> pieces_{};
 };

@@ -1,6 +1,9 @@
 // Branch points of several modes at once, and parameters that part them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "case_runs.hpp"
 
 namespace springfold::io {
@@ -45,6 +48,76 @@ TEST(PartedModes, StayTogetherInAParameterThatMovesBoth) {
   ASSERT_GE(samples.size(), 3u);
   for (const auto& sample : samples)
     EXPECT_NEAR(sample.values[column(result, "lambda")], sample.values[column(result, "c")], 1e-10);
+}
+
+TEST(PartedModes, AreOneValueOfTheFirstCriticalLoadThatIsSampledAmongOthers) {
+  const auto ran = run(bar_on_universal_joint(
+      "kind = \"critical_load\"\ncritical_load = { of = \"loss_of_stability\", "
+      "parameter = \"c2\", range = [0.5, 1.5], values = 5 }\n"));
+  const analysis::StudyResult& result = ran.of("s");
+  EXPECT_TRUE(complete(result));
+  ASSERT_EQ(result.branches.size(), 2u);
+  for (const auto& branch : result.branches)
+    for (const auto& sample : branch.samples)
+      EXPECT_NEAR(sample.values[column(result, "lambda")],
+                  std::min(1.0, sample.values[column(result, "c2")]), 1e-10);
+  EXPECT_NEAR(result.branches[0].samples.back().values[column(result, "c2")], 1, 1e-9);
+  EXPECT_NEAR(result.branches[1].samples.front().values[column(result, "c2")], 1, 1e-9);
+}
+
+/// The same with springs c u - 0.3 u^3, pushed under an angle psi: two limit points meet at the branch point of psi = 0.
+TEST(PartedModes, OfThePerfectStructureLieOnTheCurveOfItsImperfectOnes) {
+  const auto ran = run(R"toml(
+[parameters]
+psi = 0
+[[body]]
+name = "tip"
+task_space = "xyz"
+pose = [0, 0, 1]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "x", name = "a", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, -0.3], falling = true } },
+  { joint = "revolute", axis = "y", name = "b", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, -0.3], falling = true } },
+  { rigid = [0, 0, 1] },
+]
+[[study]]
+name = "s"
+kind = "critical_load"
+control = "load"
+direction = ["sin(psi)", 0, "-cos(psi)"]
+until = { lambda = [-0.1, 3], bar.a = [-1.2, 1.2], bar.b = [-1.2, 1.2] }
+critical_load = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 0.3], values = 3 }
+)toml");
+  const analysis::StudyResult& result = ran.of("s");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1u);
+  // In the plane of psi: b - 0.3 b^3 = lambda sin(b + psi), whose load is stationary in b.
+  const auto limit_load = [](double psi) {
+    const auto load = [psi](double b) { return (b - 0.3 * b * b * b) / std::sin(b + psi); };
+    double low = 1e-3, high = 1;
+    for (int i = 0; i < 100; ++i) {
+      const double third = (high - low) / 3;
+      if (load(low + third) < load(high - third))
+        low += third;
+      else
+        high -= third;
+    }
+    return load(low);
+  };
+  bool at_zero = false;
+  for (const auto& event : result.branches[0].events) {
+    const auto& values = result.branches[0].samples[event.row].values;
+    const double psi = values[column(result, "psi")], lambda = values[column(result, "lambda")];
+    if (event.kind == analysis::EventKind::end_of_range) {
+      EXPECT_NEAR(lambda, limit_load(std::abs(psi)), 1e-10);
+    }
+    if (event.kind != analysis::EventKind::extremum) continue;
+    EXPECT_NEAR(psi, 0, 1e-9);
+    EXPECT_NEAR(lambda, 1, 1e-9);
+    at_zero = true;
+  }
+  EXPECT_TRUE(at_zero);
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+// Pieces of the first critical load over a parameter, and what happens between them. Private to analysis.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "case_curves.hpp"
+#include "first_unwanted.hpp"
+#include "springfold/analysis/result.hpp"
+#include "springfold/parameters/two_parameter.hpp"
+
+namespace springfold::analysis {
+
+/// Critical loads that differ by less are the same, relative to 1 + |lambda|.
+inline constexpr double same_load = 1e-8;
+
+inline constexpr const char* another_first =
+    "from here on another critical point comes first, or none";
+
+/// A piece in one sense of the parameter, cut where it ends.
+struct Side {
+  continuation::CriticalCurve curve{};
+  double end = 0;
+  std::optional<continuation::Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
+  bool stops = false;                                 ///< it could not be followed beyond
+  bool jumps = false;  ///< it goes on, but another point comes first, or it is not reached
+};
+
+struct LoadPiece {
+  continuation::CriticalStart start{};
+  EventKind of = EventKind::limit_point;
+  Side falling{}, growing{};
+};
+
+/// Does this value of the parameter alone have the critical point, as where the parameter parts the modes of a multiple branch
+/// point, or makes an imperfect structure of a perfect one? Other points come to it from beside.
+bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
+
+/// Does one of the pieces come to this load at the value? @param room  as far as ends are told apart
+bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,
+                double lambda, double room);
+
+/// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
+void leave_out_points(std::vector<LoadPiece>& pieces, double room);
+
+/// Where one piece meets the next one with the same load, the same point goes on.
+void say_what_goes_on(std::vector<LoadPiece>& pieces, double room);
+
+}  // namespace springfold::analysis
