@@ -7,7 +7,7 @@
 
 #include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
-#include "first_unwanted.hpp"
+#include "design_modes.hpp"
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -19,13 +19,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// What a requirement is measured in.
 double scale_of(double wanted) {
   return std::isfinite(wanted) && wanted != 0 ? std::abs(wanted) : 1;
-}
-
-CriticalPointSettings unwanted_of(const CriticalRequirement& requirement) {
-  CriticalPointSettings settings;
-  settings.unwanted = requirement.unwanted;
-  settings.stability = requirement.stability;
-  return settings;
 }
 
 /// Weights of the places at which a range is judged: rows of its interpolation, those at local maxima moved there.
@@ -130,7 +123,7 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
   }
   if (needs_path_) path.trace(observer);
   Sheet sheet;
-  const bool known = add_critical(path, ways, sheet) && add_curve(path, sheet) &&
+  const bool known = add_critical(path, values, ways, observer, sheet) && add_curve(path, sheet) &&
                      add_constant(path, sheet) && add_stiffness(path, values, sheet);
   if (!known) {
     why = sheet.why;
@@ -151,29 +144,27 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
   return result;
 }
 
-/// Two inequalities for every requirement: the climb, where it is wanted, and the first unwanted point that it does not
-/// rule out. What does not occur is far from its limit.
-bool Requirements::add_critical(const DesignPath& path, const std::vector<Way>& ways,
+/// Inequalities for every requirement: the climb, where it is wanted, and the modes of the first unwanted point that it does
+/// not rule out. What does not occur is far from its limit.
+bool Requirements::add_critical(const DesignPath& path, const Vector& values,
+                                const std::vector<Way>& ways, const Observer& observer,
                                 Sheet& sheet) const {
   const Vector still = Vector::Zero(std::ssize(case_.numbers));
   const auto blank = unknown();
   for (std::size_t i = 0; i < settings_.critical.size(); ++i) {
     const CriticalRequirement& wanted = settings_.critical[i];
-    const CriticalPointSettings settings = unwanted_of(wanted);
-    const SpecialPoint* first = nullptr;
-    for (const SpecialPoint& point : path.path().points)
-      if (first == nullptr && is_unwanted(path.base(), settings, path.path(), point))
-        first = &point;
+    const FirstModes found = first_modes(case_, values, path, wanted, observer);
+    const SpecialPoint* const first = found.first;
     if (first == nullptr && !path.doubt().empty()) {
       sheet.why = path.doubt();
       return false;
     }
-    const auto reached = first ? path.at_point(*first, wanted.quantity) : std::nullopt;
-    if (first != nullptr && !reached) {
+    if (first != nullptr && found.modes.empty()) {
       sheet.why = wanted.quantity + " is not defined at " + first->label;
       return false;
     }
-    sheet.begin(blank[i], reached ? reached->value : infinite);
+    const double reached = first != nullptr ? found.modes.front().value : infinite;
+    sheet.begin(blank[i], reached);
     const bool climbs = ways[i] == Way::climbing;
     const bool turns = first != nullptr && (first->kind == EventKind::limit_point ||
                                             first->kind == EventKind::corner_limit_point);
@@ -187,13 +178,14 @@ bool Requirements::add_critical(const DesignPath& path, const std::vector<Way>& 
     }
     // A limit point is what the climb rules out.
     const double scale = scale_of(wanted.at_least);
-    if (!reached || (climbs && turns) || !std::isfinite(wanted.at_least))
-      sheet.add(reached && !climbs ? 1 : -1, still);
-    else
-      sheet.add((wanted.at_least - reached->value) / scale, -reached->rates / scale);
+    const bool counts = first != nullptr && !(climbs && turns) && std::isfinite(wanted.at_least);
+    for (std::size_t k = 0; k < modes_together; ++k)
+      if (counts && k < found.modes.size())
+        sheet.add((wanted.at_least - found.modes[k].value) / scale, -found.modes[k].rates / scale);
+      else
+        sheet.add(k == 0 && first != nullptr && !climbs && !counts ? 1 : -1, still);
     // With the slope at its limit two limit points merge: whether they are seen is rounding.
-    FoundRequirement& found = sheet.requirements.back();
-    found.holds = !reached || reached->value >= wanted.at_least - design_tolerance * scale;
+    sheet.requirements.back().holds = reached >= wanted.at_least - design_tolerance * scale;
   }
   return true;
 }

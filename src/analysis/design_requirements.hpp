@@ -42,7 +42,8 @@ class Requirements {
 
  private:
   struct Sheet;
-  bool add_critical(const DesignPath& path, const std::vector<Way>& ways, Sheet& sheet) const;
+  bool add_critical(const DesignPath& path, const Vector& values, const std::vector<Way>& ways,
+                    const Observer& observer, Sheet& sheet) const;
   bool add_curve(const DesignPath& path, Sheet& sheet) const;
   bool add_constant(const DesignPath& path, Sheet& sheet) const;
   bool add_stiffness(const DesignPath& path, const Vector& values, Sheet& sheet) const;

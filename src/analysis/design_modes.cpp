@@ -1,0 +1,62 @@
+#include "design_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "first_unwanted.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// How far beside a design its modes are looked at, in the sizes of the parameters: rates are wrong by as much of their own
+/// change, and modes are that far apart.
+constexpr double beside = 0x1p-10;
+
+FirstModes modes_of(const DesignPath& path, const CriticalRequirement& wanted) {
+  CriticalPointSettings settings;
+  settings.unwanted = wanted.unwanted;
+  settings.stability = wanted.stability;
+  FirstModes found;
+  for (const SpecialPoint& point : path.path().points) {
+    if (!is_unwanted(path.base(), settings, path.path(), point)) continue;
+    const bool more = found.first != nullptr;
+    if (more &&
+        (point.kind != EventKind::branch_point || found.first->kind != EventKind::branch_point))
+      break;
+    if (!more) found.first = &point;
+    const auto reached = path.at_point(point, wanted.quantity);
+    if (!reached || (more && !(reached->value >= found.modes.front().value))) break;
+    const int count = std::max(1, point.hit.multiplicity);
+    for (int i = 0; i < count && found.modes.size() < modes_together; ++i)
+      found.modes.push_back(*reached);
+  }
+  return found;
+}
+
+bool knows_rates(const FirstModes& found) {
+  return std::all_of(found.modes.begin(), found.modes.end(),
+                     [](const Measure& mode) { return mode.rates.allFinite(); });
+}
+
+}  // namespace
+
+FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignPath& path,
+                       const CriticalRequirement& wanted, const Observer& observer) {
+  FirstModes found = modes_of(path, wanted);
+  const bool is_multiple = found.first != nullptr && found.first->hit.multiplicity > 1;
+  if (!is_multiple || knows_rates(found)) return found;
+  // Every parameter by another amount: those of a symmetric structure do not move alike.
+  Vector near = values;
+  for (Index i = 0; i < near.size(); ++i)
+    near[i] += beside * of.sizes[static_cast<std::size_t>(i)] / static_cast<double>(i + 1);
+  DesignPath other(of, near);
+  if (!other.has_start()) return found;
+  other.trace(observer);
+  const FirstModes apart = modes_of(other, wanted);
+  for (std::size_t i = 0; i < std::min(found.modes.size(), apart.modes.size()); ++i)
+    found.modes[i].rates = apart.modes[i].rates;
+  return found;
+}
+
+}  // namespace springfold::analysis
