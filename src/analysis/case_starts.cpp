@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "case_curves.hpp"
+#include "springfold/statics/prepare_again.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "start.hpp"
 
