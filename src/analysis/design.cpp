@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "beside_answer.hpp"
 #include "critical_runs.hpp"
 #include "design_search.hpp"
 #include "first_unwanted.hpp"
@@ -16,9 +17,6 @@
 namespace springfold::analysis {
 namespace {
 
-/// How far inside of its limits a design is traced again, if it is bounded by the birth of limit points: on the limit
-/// they are one point to rounding.
-constexpr double one_point = 1e-6;
 /// Rows of the traced path may miss a range by this much, relative: it is known between nodes by interpolation.
 constexpr double between_nodes = 1e-6;
 constexpr int digits = 10;
@@ -79,6 +77,7 @@ class Design {
     say(found);
     const bool is_met =
         found.status == DesignStatus::met || found.status == DesignStatus::met_at_start;
+    report_.message += confirmed_;
     if (is_met && !report_.verified) report_.message += ", not confirmed by tracing it again";
     for (const std::string& text : left_out_) report_.message += "; " + text;
     report_.designs = search_.designs();
@@ -155,7 +154,7 @@ class Design {
     const bool is_open =
         std::any_of(changes.begin(), changes.end(), [](double c) { return c != 0; });
     if (!is_open) return true;
-    Vector inside = search_.inwards(found, one_point);
+    Vector inside = search_.inwards(found, nearest_beside);
     for (Index i = 0; i < inside.size(); ++i)
       if (changes[i] == 0) inside[i] = 0;
     return !holds_at(changes + inside);
@@ -169,17 +168,7 @@ class Design {
         found.limiting.begin(), found.limiting.end(),
         [&](std::size_t i) { return i < found.ways.size() && found.ways[i] == Way::climbing; });
     const bool jumps = found.status == DesignStatus::met && !(found.optimality < 1);
-    if (climbs && !jumps) {
-      const auto inside =
-          search_.assess(found.changes + search_.inwards(found, one_point), search_.first_ways());
-      const auto outside =
-          search_.assess(found.changes - search_.inwards(found, one_point), search_.first_ways());
-      report_.verified =
-          inside && outside && all_hold(inside->requirements) && !all_hold(outside->requirements);
-      // On the limit itself whether the merging points are seen is rounding.
-      for (const std::size_t i : found.limiting)
-        if (report_.verified) report_.requirements[i] = merged(report_.requirements[i], *inside, i);
-    }
+    if (climbs && !jumps) verify_birth(found);
     doubt_unstable_start(found, climbs && !jumps);
     doubt_broken_rule(found);
     const bool rows_fit = check_rows(found);
@@ -189,12 +178,31 @@ class Design {
                                cause(climbs && !jumps, rows_fit));
   }
 
+  /// On the limit itself limit points are one to rounding: what counts is the designs beside it.
+  void verify_birth(const FoundDesign& found) {
+    const auto beside = [&](double inwards) {
+      const Vector way = search_.inwards(found, std::abs(inwards));
+      const Vector changes = found.changes + (inwards < 0 ? Vector(-way) : way);
+      return search_.assess(changes, search_.first_ways());
+    };
+    const auto distance = confirmed_beside([&](double inwards) -> std::optional<bool> {
+      const auto there = beside(inwards);
+      return there ? std::optional{all_hold(there->requirements)} : std::nullopt;
+    });
+    report_.verified = distance.has_value();
+    if (!distance) return;
+    confirmed_ = words_of_distance(*distance);
+    const auto inside = beside(*distance);
+    for (const std::size_t i : found.limiting)
+      report_.requirements[i] = merged(report_.requirements[i], *inside, i);
+  }
+
   /// A path that begins unstable has no first critical load, and is reached by no load from its start: what is wanted of
   /// it is met in words only. Where limit points merge at the start itself its stability on the limit is rounding.
   void doubt_unstable_start(const FoundDesign& found, bool is_birth) {
     if (!search_.requirements().needs_path()) return;
     const Vector inside =
-        is_birth ? search_.inwards(found, one_point) : Vector(Vector::Zero(count()));
+        is_birth ? search_.inwards(found, nearest_beside) : Vector(Vector::Zero(count()));
     const DesignPath path(search_.requirements().designs(), search_.values(found.changes + inside));
     const auto modes =
         path.has_start() ? unstable_at_start(path.base(), study_.critical) : std::optional<Index>{};
@@ -326,6 +334,7 @@ class Design {
   StudyResult& result_;
   DesignSearch search_;
   DesignReport report_{};
+  std::string confirmed_{};  ///< how far beside the answer, where that is not the nearest
 };
 
 }  // namespace

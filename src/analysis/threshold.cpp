@@ -1,9 +1,9 @@
 // The study kind `threshold`: from which value of a parameter on does nothing unwanted happen?
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "beside_answer.hpp"
 #include "branch_rows.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
@@ -19,10 +19,6 @@ using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 
-/// Relative distance at which an answer is traced again, on both sides; farther away where what comes first lies so near to
-/// another point there that a path does not tell them apart.
-constexpr double traced_beside = 1e-6;
-constexpr std::array<double, 3> distances_traced{traced_beside, 1e-5, 1e-4};
 /// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts of it,
 /// the place where that begins is bracketed.
 constexpr int values_between = 8;
@@ -65,7 +61,7 @@ class Threshold {
       if (!bad) return found(any ? last_ : begin, any);
       if (!follow(*bad, mu)) return;
       any = true;
-      mu = last_ + towards_ * traced_beside * std::max(std::abs(last_), 1e-3);
+      mu = last_ + towards_ * nearest_beside * std::max(std::abs(last_), 1e-3);
       // What ends beside where it began is taken up again a little farther on.
     }
     why_ = "the boundary has more pieces than are followed";
@@ -93,7 +89,7 @@ class Threshold {
 
   /// Does the start vanish there? Another point of the path may have the start's load, too.
   bool loses_start(double mu) const {
-    const double side = towards_ * traced_beside * std::max(std::abs(mu), 1e-3);
+    const double side = towards_ * nearest_beside * std::max(std::abs(mu), 1e-3);
     const Member* before = curves_.at(mu - side);
     const int sheet = before != nullptr ? before->sheet : 0;
     const Member* behind = curves_.at(mu + side);
@@ -254,6 +250,15 @@ class Threshold {
     return ", springs at the start " + piece_text(member->setup.system, member->first.piece);
   }
 
+  /// Does nothing unwanted happen at this relative distance on the good side of an answer? Nothing: it is not known.
+  std::optional<bool> is_clear_at(double mu, double inwards) {
+    why_.clear();
+    const double value = mu + towards_ * inwards * std::max(std::abs(mu), 1e-3);
+    if (inwards > 0 && lacks_start(value)) return true;
+    if (unwanted_at(value)) return false;
+    return why_.empty() ? std::optional{true} : std::nullopt;
+  }
+
   void found(double mu, bool any) {
     report_.found = true;
     report_.value = mu * curves_.scale();
@@ -261,18 +266,12 @@ class Threshold {
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;
     if (any) {
-      if (lacks_start(mu + towards_ * traced_beside * std::max(std::abs(mu), 1e-3)))
+      if (lacks_start(mu + towards_ * nearest_beside * std::max(std::abs(mu), 1e-3)))
         report_.message += ", beyond which there is no start";
-      for (const double distance : distances_traced) {
-        why_.clear();
-        const double side = towards_ * distance * std::max(std::abs(mu), 1e-3);
-        report_.verified = unwanted_at(mu - side).has_value() &&
-                           (lacks_start(mu + side) || (!unwanted_at(mu + side) && why_.empty()));
-        if (!report_.verified) continue;
-        if (distance > traced_beside)
-          report_.message += ", confirmed at a relative distance of " + rounded(distance);
-        break;
-      }
+      const auto distance =
+          confirmed_beside([&](double inwards) { return is_clear_at(mu, inwards); });
+      report_.verified = distance.has_value();
+      if (distance) report_.message += words_of_distance(*distance);
       if (!report_.verified)
         result_.doubts.push_back("traced again beside " + study_.critical.parameter + " = " +
                                  rounded(report_.value) + ", the path does not confirm it");

@@ -1,4 +1,5 @@
 // A stop just behind the limit point of a slider: which of the two is told, down to the smallest distance.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "case_runs.hpp"
+#include "springfold/analysis/design.hpp"
 
 namespace springfold::io {
 namespace {
@@ -54,6 +56,25 @@ TEST(FoldAtStop, TheGapAtWhichBucklingEndsIsConfirmedByTracingBesideIt) {
   EXPECT_NEAR(result.threshold->value, -1, 1e-9);
   EXPECT_TRUE(result.threshold->verified);
   EXPECT_TRUE(result.doubts.empty());
+}
+
+TEST(FoldAtStop, ADesignWithThatGapIsConfirmedToo) {
+  // Beside g = -1 the load falls by no more than 3 (g + 1)^2 between the fold and the corner.
+  for (const std::string k : {"3.01", "4", "40"}) {
+    SCOPED_TRACE(k);
+    const auto result =
+        run(slider_with_stop("0.5",
+                             "kind = \"design\"\ndesign = { parameters = { g = [-2, 0.5] }, "
+                             "no_limit_point = {} }\n",
+                             k))
+            .of("s");
+    ASSERT_TRUE(result.design);
+    EXPECT_EQ(result.design->status, analysis::DesignStatus::met);
+    EXPECT_NEAR(result.design->parameters.at(0).after, -1, 1e-7);
+    EXPECT_TRUE(result.design->verified);
+    EXPECT_THAT(result.design->message, testing::HasSubstr("confirmed at a relative distance of"));
+    EXPECT_TRUE(result.doubts.empty());
+  }
 }
 
 /// Over a the first fold, q = -sqrt(a), meets the stop at a = g^2. There it and the corner are born in which the load rises
