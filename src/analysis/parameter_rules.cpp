@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "frozen.hpp"
@@ -13,6 +14,48 @@ namespace springfold::analysis {
 namespace {
 
 constexpr std::size_t most_looks = 256;
+
+/// What a sentence is about that begins with the number of one of these parts; nothing if it does not.
+template <typename Part>
+const Part* part_of(std::string_view& problem, std::string_view kind,
+                    const std::vector<Part>& parts) {
+  if (!problem.starts_with(kind)) return nullptr;
+  const char* const end = problem.data() + problem.size();
+  std::size_t number = 0;
+  const auto [at, error] = std::from_chars(problem.data() + kind.size(), end, number);
+  if (error != std::errc{} || at == end || *at != ']' || number == 0 || number > parts.size())
+    return nullptr;
+  problem = {at + 1, end};
+  return &parts[number - 1];
+}
+
+/// Sentences of problems_in() begin with the number of the part in the mechanism, which a case may have written otherwise: a
+/// bar may be a spring between points. They are told with its name, by which results speak of it.
+std::string with_name(const model::Mechanism& mechanism, const std::string& problem) {
+  std::string_view rest{problem};
+  std::string name;
+  if (const auto* body = part_of(rest, "body[", mechanism.bodies)) name = body->name;
+  if (const auto* load = part_of(rest, "load[", mechanism.loads)) name = load->name;
+  if (const auto* line = part_of(rest, "spring[", mechanism.line_springs)) name = line->name;
+  if (const auto* shape = part_of(rest, "shape[", mechanism.shape_springs)) name = shape->name;
+  if (const auto* chain = part_of(rest, "chain[", mechanism.chains)) {
+    name = chain->name;
+    std::string_view behind = rest;
+    const model::Element* element = part_of(behind, ".elements[", chain->elements);
+    const auto* joint = element != nullptr ? std::get_if<model::Joint>(element) : nullptr;
+    if (joint != nullptr && !joint->name.empty()) {
+      name += "." + joint->name;
+      rest = behind;
+    }
+  }
+  return name.empty() ? problem : name + std::string{rest};
+}
+
+/// The first rule that a mechanism breaks, with the part's name; empty: none.
+std::string first_problem(const model::Mechanism& mechanism) {
+  const std::vector<std::string> problems = model::problems_in(mechanism);
+  return problems.empty() ? "" : with_name(mechanism, problems.front());
+}
 
 /// Values of the parameter in the rows, each once, the nearest to the start first.
 std::vector<double> values_of(const StudyResult& result, std::size_t lambda, double start) {
@@ -49,8 +92,7 @@ class RulesOverParameter {
   std::string broken(double value) {
     if (!in_place_ || !cases_.moving.put(parameter_, value, mechanism_))
       mechanism_ = cases_.at({{parameter_, value}}).mechanism;
-    const std::vector<std::string> problems = model::problems_in(mechanism_);
-    return problems.empty() ? "" : problems.front();
+    return first_problem(mechanism_);
   }
 
  private:
@@ -101,8 +143,8 @@ std::string cut_towards(RulesOverParameter& rules, double& end) {
 }  // namespace
 
 std::string broken_rule(const model::Mechanism& mechanism, const Study& study) {
-  std::vector<std::string> problems = model::problems_in(mechanism);
-  if (problems.empty()) problems = problems_in(study, mechanism);
+  if (std::string problem = first_problem(mechanism); !problem.empty()) return problem;
+  const std::vector<std::string> problems = problems_in(study, mechanism);
   return problems.empty() ? "" : problems.front();
 }
 
@@ -149,11 +191,10 @@ void doubt_broken_rules(const Study& study, const ParameterFamily& family,
   if (!model::problems_in(family.at(family.value).mechanism).empty()) return;
   for (const double value :
        values_of(result, column_of(QuantityDefinition::Kind::lambda, quantities), family.value)) {
-    const auto problems = model::problems_in(family.at(value).mechanism);
-    if (problems.empty()) continue;
-    result.doubts.push_back(
-        "at " + study.parameter + " = " + rounded(value) +
-        " the mechanism breaks a rule, and beyond it may too: " + problems.front());
+    const std::string problem = first_problem(family.at(value).mechanism);
+    if (problem.empty()) continue;
+    result.doubts.push_back("at " + study.parameter + " = " + rounded(value) +
+                            " the mechanism breaks a rule, and beyond it may too: " + problem);
     return;
   }
 }

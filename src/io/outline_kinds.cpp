@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "map_figure.hpp"
 #include "nothing.hpp"
@@ -136,12 +137,9 @@ std::string critical_words(const Case& the_case, const PlannedRun& planned,
   const auto lambda = column_of(result, "lambda"), varied = column_of(result, parameter);
   if (result.branches.empty() || !lambda || !varied) return {};
   std::vector<Sample> samples;
-  std::string points;
-  for (const Branch& branch : result.branches) {
+  for (const Branch& branch : result.branches)
     samples.insert(samples.end(), branch.samples.begin(), branch.samples.end());
-    const std::string some = counted_points(branch);
-    if (!some.empty()) points += (points.empty() ? "" : ", ") + some;
-  }
+  const std::string points = counted_points(std::span{result.branches});
   const Extremes found = extremes_of(samples, *lambda), range = extremes_of(samples, *varied);
   if (found.least == nullptr || range.least == nullptr) return {};
   const auto at = [&](const Sample& sample) {
@@ -208,23 +206,28 @@ std::string state_words(const analysis::TransitionReport& report) {
 
 }  // namespace
 
-std::string counted_points(const Branch& branch) {
+std::string counted_points(std::span<const Branch> branches) {
   std::vector<std::pair<std::string, int>> counts;
-  for (const auto& event : branch.events) {
-    if (event.kind == EventKind::end_of_range || event.kind == EventKind::user_value) continue;
-    const std::string code = analysis::code_of(event.kind);
-    const auto known = std::find_if(counts.begin(), counts.end(),
-                                    [&](const auto& count) { return count.first == code; });
-    if (known == counts.end())
-      counts.emplace_back(code, 1);
-    else
-      ++known->second;
-  }
+  std::set<std::string> seen;  // a point where branches meet stands on all of them
+  for (const Branch& branch : branches)
+    for (const auto& event : branch.events) {
+      if (event.kind == EventKind::end_of_range || event.kind == EventKind::user_value) continue;
+      if (!event.label.empty() && !seen.insert(event.label).second) continue;
+      const std::string code = analysis::code_of(event.kind);
+      const auto known = std::find_if(counts.begin(), counts.end(),
+                                      [&](const auto& count) { return count.first == code; });
+      if (known == counts.end())
+        counts.emplace_back(code, 1);
+      else
+        ++known->second;
+    }
   std::string text;
   for (const auto& [code, count] : counts)
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + code;
   return text;
 }
+
+std::string counted_points(const Branch& branch) { return counted_points(std::span{&branch, 1}); }
 
 std::string equilibrium_words(const StudyResult& result, const Sample& sample) {
   const auto value = [&](const char* name) {

@@ -1,6 +1,7 @@
 // What happened in runs that trace no single curve, in words. Private to io.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,7 @@ std::string jump_words(const Case& the_case, const analysis::StudyResult& result
 
 /// "2 LP, 1 BP": special points of the branch by code, without ends and marked values; empty if there are none.
 std::string counted_points(const analysis::Branch& branch);
+/// The same of several branches together, each kind once.
+std::string counted_points(std::span<const analysis::Branch> branches);
 
 }  // namespace springfold::io

@@ -10,6 +10,7 @@
 
 #include "case_runs.hpp"
 #include "springfold/analysis/design.hpp"
+#include "springfold/io/results.hpp"
 
 namespace springfold::io {
 namespace {
@@ -160,6 +161,23 @@ TEST(FoldAtStop, ALoadThatFallsAndRisesAgainHasBothTurnsOrNone) {
     const auto turns = lambdas(result, EventKind::limit_point);
     EXPECT_EQ(lambdas(result, EventKind::corner_limit_point).size(), turns.size());
     EXPECT_EQ(turns.size(), gap >= 1e-6 ? 1U : turns.size());
+  }
+}
+
+TEST(FoldAtStop, ItsHeadlineNamesEveryKindOfPointOnce) {
+  const auto ran = run(slider_with_stop(
+      "-0.5",
+      "kind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", parameter = \"a\", range = "
+      "[0.05, 2] }\n",
+      "0.6"));
+  ASSERT_EQ(ran.of("s").branches.size(), 3U);
+  const std::string told = summary_table(ran.read, ran.results);
+  const std::string headline = told.substr(0, told.find("curve  "));
+  EXPECT_THAT(headline, testing::ContainsRegex("[0-9] FA"));
+  for (const std::string code : {"FA", "CR", "CP", "EX"}) {
+    const auto first = headline.find(" " + code);
+    if (first == std::string::npos) continue;
+    EXPECT_EQ(headline.find(" " + code, first + 1), std::string::npos) << headline;
   }
 }
 

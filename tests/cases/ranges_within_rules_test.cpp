@@ -88,6 +88,50 @@ TEST(RangesWithinRules, AThresholdIsLookedForWhereTheCaseMayBeGiven) {
   EXPECT_THAT(none.start.message, HasSubstr("stiffness"));
 }
 
+TEST(RangesWithinRules, TheRuleIsToldOfWhatTheCaseCallsByName) {
+  const std::string threshold =
+      "kind = \"threshold\"\nthreshold = { of = \"limit_point\", parameter = \"kv\", range = "
+      "[-1, 2] }\n";
+  const auto told = [](const std::string& text) {
+    const auto result = run(text).of("s");
+    return result.threshold ? result.threshold->message : std::string{};
+  };
+  // A spring of a distance.
+  EXPECT_THAT(told(guided_truss(threshold)), HasSubstr("may not be given there: v: law.stiffness"));
+  // Bars: one that pushes only is a spring of a distance as well, the other one is none.
+  const auto with_stay = [&](const std::string& kind) {
+    std::string text = guided_truss(threshold);
+    const std::string spring = "law = { law = \"linear\", stiffness = \"kv\", free = 0.5 }";
+    text.replace(text.find(spring), spring.size(), "stiffness = 0.05\nfree = 0.5");
+    return text.insert(text.find("[[study]]"),
+                       "[[bar]]\nname = \"stay\"\nfrom = \"base\"\nfrom_at = [0, -1]\nto = "
+                       "\"apex\"\nstiffness = \"kv\"\n" +
+                           kind);
+  };
+  for (const std::string kind : {"", "compression_only = true\n"})
+    EXPECT_THAT(told(with_stay(kind)), HasSubstr("may not be given there: stay: ")) << kind;
+  // A spring of a joint.
+  EXPECT_THAT(told(R"toml(
+[parameters]
+kv = 1
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [ { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "linear", stiffness = "kv" } }, { rigid = [0, 1] } ]
+[[study]]
+name = "s"
+control = "load"
+direction = [0, -1]
+until = { bar.q = [-1, 1], lambda = [-0.1, 1.5] }
+kind = "threshold"
+threshold = { of = "loss_of_stability", parameter = "kv", range = [-1, 2] }
+)toml"),
+              HasSubstr("may not be given there: bar.q: spring.stiffness"));
+}
+
 TEST(RangesWithinRules, BeyondThemIsToldWhereARangeThatWasAskedForEnds) {
   const auto loads =
       run(guided_truss("kind = \"critical_load\"\ncritical_load = { of = \"limit_point\", "
