@@ -218,22 +218,24 @@ void refuse_start(const BasePath& path, StartReport& report) {
 }
 
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit, const continuation::HitObserver& enough) {
+                   double largest_unit, const continuation::HitObserver& enough,
+                   const Study* within) {
   BasePath path;
+  const Study& study = within != nullptr ? *within : member.study;
   const PathProblem& problem = *member.problem;
   const Evaluator& evaluator = member.evaluator();
   const CurvePoint start = member.start();
-  if (const auto outside = outside_start(member.study, evaluator, member.quantities(), start)) {
+  if (const auto outside = outside_start(study, evaluator, member.quantities(), start)) {
     path.problem = outside->text;
     path.where = "until." + outside->quantity;
     path.advice = outside_advice;
     return path;
   }
-  const continuation::TraceOptions options = options_of(member.study.trace);
+  const continuation::TraceOptions options = options_of(study.trace);
   continuation::Rays rays = rays_from(problem, start.x, start.lambda, start.piece, options);
   if (rays.rays.size() != 2 || !rays.complete) {
     path.problem = "the start is not an ordinary point of a curve";
-    if (!holds_twice(problem, member.study, start)) return path;
+    if (!holds_twice(problem, study, start)) return path;
     path.problem = held_twice;
     path.where = "control";
     path.advice = held_twice_advice;
@@ -241,9 +243,9 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   }
   if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
     std::swap(rays.rays[0], rays.rays[1]);
-  const auto events = events_of(member.study, evaluator, member.quantities());
+  const auto events = events_of(study, evaluator, member.quantities());
   int points = 0;
-  LambdaCrawl crawl(problem, largest_unit, range_of_lambda(member.study, member.setup));
+  LambdaCrawl crawl(problem, largest_unit, range_of_lambda(study, member.setup));
   crawl.begin(rays.rays[0].tangent);
   int left = points_behind;
   Crawl seen = Crawl::none;
@@ -256,7 +258,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     path.is_enough = path.is_enough || (enough && enough(hit));
     return true;
   };
-  const Following with{problem, member.study, evaluator, member.quantities()};
+  const Following with{problem, study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
     Curve curve = trace_within_limits(with, start, ray, events, options, observe, at_hit);
     if (seen == Crawl::without_bound) curve.stop_detail = grows_without_bound;

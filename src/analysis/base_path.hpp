@@ -36,8 +36,10 @@ void refuse_start(const BasePath& path, StartReport& report);
 /// are left out.
 /// @param enough  true: nothing far behind this point is asked for
 /// @param largest_unit  by which factor the unit of lambda may grow where it turns out to be too small (LambdaCrawl)
+/// @param within  the study with other limits; nullptr: the member's own
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit = 1, const continuation::HitObserver& enough = {});
+                   double largest_unit = 1, const continuation::HitObserver& enough = {},
+                   const Study* within = nullptr);
 
 /// The curves of a study, and the path of the case's own one.
 struct CurvesWithPath {

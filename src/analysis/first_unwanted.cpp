@@ -115,6 +115,29 @@ FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
   return first_unwanted(member, settings, observer);
 }
 
+std::string limit_before_unwanted(const CaseCurves& curves, double mu, const FirstUnwanted& first,
+                                  const CriticalPointSettings& settings, const Observer& observer) {
+  // Where a path has just begun to end there it passes the limit by next to nothing: by what it moves within the bracket of
+  // the value from which on it does so, 1e-11 of a range. A path that goes another way does not come back for so little.
+  constexpr double a_little = 1e-5;
+  const Member* member = curves.at(mu);
+  if (member == nullptr || first.point || !first.why.empty()) return {};
+  const BasePath within = base_path(*member, true, observer);
+  if (within.forward.stop != continuation::StopReason::event) return {};
+  Study wider = member->study;
+  for (Limit& limit : wider.until) {
+    const double unit = member->quantity(limit.quantity)->scale;
+    const auto more = [&](double edge) { return a_little * std::max(std::abs(edge), unit); };
+    if (std::isfinite(limit.low)) limit.low -= more(limit.low);
+    if (std::isfinite(limit.high)) limit.high += more(limit.high);
+  }
+  const BasePath beyond = base_path(*member, true, observer, 1, {}, &wider);
+  const bool comes =
+      std::any_of(beyond.points.begin(), beyond.points.end(),
+                  [&](const SpecialPoint& p) { return is_unwanted(*member, settings, beyond, p); });
+  return comes ? ", as the path ends first: " + within.forward.stop_detail : "";
+}
+
 bool ends_piece(continuation::Degeneracy kind) {
   using continuation::Degeneracy;
   switch (kind) {

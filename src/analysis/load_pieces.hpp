@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "case_curves.hpp"
@@ -23,7 +24,8 @@ struct Side {
   double end = 0;
   std::optional<continuation::Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
   bool stops = false;                                 ///< it could not be followed beyond
-  bool jumps = false;  ///< it goes on, but another point comes first, or it is not reached
+  bool jumps = false;   ///< it goes on, but another point comes first, or it is not reached
+  std::string limit{};  ///< that ends the path before it, in words
 };
 
 struct LoadPiece {

@@ -69,13 +69,12 @@ class LoadsOverParameter {
 
  private:
   const FirstUnwanted& first_at(double mu) {
-    const auto known = known_.find(mu);
-    if (known != known_.end()) return known->second;
-    return known_
-        .emplace(mu,
-                 first_unwanted(curves_, mu, study_.critical,
-                                [this](int, double s) { return !observer_ || observer_(0, s); }))
-        .first->second;
+    const auto [known, is_new] = known_.try_emplace(mu);
+    if (is_new)
+      known->second = first_unwanted(curves_, mu, study_.critical, [this](int, double s) {
+        return !observer_ || observer_(0, s);
+      });
+    return known->second;
   }
 
   /// Of what comes first at the value. A piece is never begun at one: its neighbours come to it.
@@ -102,8 +101,8 @@ class LoadsOverParameter {
   /// A side without a way: the point is at the edge of the range.
   void stand(const LoadPiece& piece, Side& side, double mu, const std::string& what) const {
     const CriticalStart& at = piece.start;
-    const Vector still = Vector::Zero(at.x.size());
-    side.curve.points = {{.x = at.x, .lambda = at.lambda, .mu = mu, .dx = still}};
+    side.curve.points = {
+        {.x = at.x, .lambda = at.lambda, .mu = mu, .dx = Vector::Zero(at.x.size())}};
     side.curve.stop = continuation::StopReason::event;
     side.curve.stop_detail = curves_.name() + " " + what;
     side.end = mu;
@@ -163,10 +162,8 @@ class LoadsOverParameter {
   Side side_of(const LoadPiece& piece, double mu, double limit, std::string& why) {
     const double sense = limit > mu ? 1 : -1;
     Study within = study_;
-    within.marks.clear();
     (sense > 0 ? within.critical.high : within.critical.low) = limit * curves_.scale();
     (sense > 0 ? within.critical.low : within.critical.high) = -sense * HUGE_VAL;
-    for (const Mark& mark : study_.marks) within.marks.push_back(mark);
     // Beyond its turn a curve runs back: a little of it shows what the turn is.
     constexpr int more = 10;
     int back = 0;
@@ -290,6 +287,7 @@ class LoadsOverParameter {
     }
     side.jumps = true;
     side.decides.reset();
+    side.limit = limit_before_unwanted(curves_, bad, first_at(bad), study_.critical, observer_);
     cut(piece.start, side, good);
   }
 
@@ -299,6 +297,8 @@ class LoadsOverParameter {
     end_curve_at(*last, another_first, side.curve);
     side.end = last->mu;
   }
+
+  bool meet(double a, double b) const { return std::abs(a - b) <= at_degeneracy * width_; }
 
   /// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
   bool ends_at_start(double value) const {
@@ -337,16 +337,16 @@ class LoadsOverParameter {
     }
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const bool meets =
-          i + 1 < pieces_.size() &&
-          std::abs(pieces_[i + 1].falling.end - pieces_[i].growing.end) <= at_degeneracy * width_;
+          i + 1 < pieces_.size() && meet(pieces_[i + 1].falling.end, pieces_[i].growing.end);
       if (meets)
         say_jump(i);
       else if (pieces_[i].growing.jumps)
-        mark_jump(result_.branches[i], true, "ends: there is no critical point behind");
-      const bool met = i > 0 && std::abs(pieces_[i].falling.end - pieces_[i - 1].growing.end) <=
-                                    at_degeneracy * width_;
+        mark_jump(result_.branches[i], true,
+                  "ends: there is no critical point behind" + pieces_[i].growing.limit);
+      const bool met = i > 0 && meet(pieces_[i].falling.end, pieces_[i - 1].growing.end);
       if (!met && pieces_[i].falling.jumps)
-        mark_jump(result_.branches[i], false, "begins: there is no critical point before");
+        mark_jump(result_.branches[i], false,
+                  "begins: there is no critical point before" + pieces_[i].falling.limit);
     }
     label_critical(result_.branches);
   }

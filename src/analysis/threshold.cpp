@@ -217,8 +217,10 @@ class Threshold {
              hit.kind != continuation::Degeneracy::extremum &&
              std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
-    decides_ = near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
-                                        : "the path from the start no longer comes to it";
+    decides_ = near != curve.hits.end()
+                   ? name_of_degeneracy(near->kind, followed.of)
+                   : "the path from the start no longer comes to it" +
+                         limit_before_unwanted(curves_, clear, {}, study_.critical, observer_);
     // Where branches cross the point is singular: the nearest one that is known stands for it.
     last = point_of_curve(curves_, followed.start, curve, clear, 0)
                .value_or(nearest_before(curve, clear));

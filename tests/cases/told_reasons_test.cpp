@@ -1,6 +1,7 @@
 // What is said where a study cannot do what it was asked for.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case_runs.hpp"
@@ -277,6 +278,74 @@ TEST(EndOfTheReach, OfACrankIsItsDeadCentreWhereTheForceHasNoBound) {
     const double t = value(result, row, "c.u");
     EXPECT_NEAR(value(result, row, "force"), (1 - t) / std::sin(t), 1e-9 / (t * t));
   }
+}
+
+/// A bar of length l under a moment, 3 q - q^3 at its hinge: a limit point at q = 1. Its tip is highest at q = 1/2, as high as l,
+/// and may not rise above 1: from l = 1 on the path ends before its limit point.
+const std::string bar_below_a_ceiling = R"toml(
+[parameters]
+l = 0.95
+[[body]]
+name = "tip"
+task_space = "planar"
+pose = ["l*sin(0.5)", "l*cos(0.5)", 0]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 3, 0, -1], falling = true } },
+  { rigid = ["l*sin(0.5)", "l*cos(0.5)"] },
+]
+[[study]]
+name = "s"
+control = "load"
+direction = [0, 0, 1]
+until = { tip.y = [-2, 1], bar.q = [-1.2, 1.2] }
+)toml";
+
+TEST(EndsOfCriticalLoads, NameTheLimitThatThePathComesToFirst) {
+  const std::string limit = "as the path ends first: tip.y reaches its upper limit";
+  const StudyResult threshold =
+      run(bar_below_a_ceiling +
+          "kind = \"threshold\"\nthreshold = { of = \"limit_point\", parameter = \"l\", range = "
+          "[0.9, 1.1] }\n")
+          .of("s");
+  ASSERT_TRUE(threshold.threshold && threshold.threshold->found);
+  EXPECT_NEAR(threshold.threshold->value, 1, 1e-9);
+  EXPECT_THAT(threshold.threshold->decides, HasSubstr(limit));
+  EXPECT_TRUE(threshold.threshold->verified);
+
+  const StudyResult loads =
+      run(bar_below_a_ceiling +
+          "kind = \"critical_load\"\ncritical_load = { of = \"limit_point\", parameter = \"l\", "
+          "range = [0.9, 1.1], values = 6 }\n")
+          .of("s");
+  ASSERT_EQ(loads.branches.size(), 1U);
+  const analysis::Branch& branch = loads.branches[0];
+  EXPECT_NEAR(value(loads, branch.samples.size() - 1, "l"), 1, 1e-9);
+  const auto named = [&](const analysis::Event& event) {
+    return event.detail.find("ends: there is no critical point behind, " + limit) !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(branch.events.begin(), branch.events.end(), named));
+}
+
+TEST(EndsOfCriticalLoads, NameNoLimitWhereThePathGoesAnotherWay) {
+  // c q - e = lambda sin q, with a limit point to the right only: for e < 0 the path turns to the left.
+  const std::string path = upright_study("until = { bar.q = [-1.2, 1.2], lambda = [-1, 5] }\n");
+  const std::string law = "law = \"linear\", stiffness = \"c\"";
+  std::string text = path;
+  text.replace(text.find(law), law.size(),
+               "law = \"polynomial\", coefficients = [\"-c\", 1, 0, 1, -1], falling = true");
+  text.replace(text.find("c = 1"), 5, "c = 0.05");
+  const StudyResult loads =
+      run(text +
+          "kind = \"critical_load\"\ncritical_load = { of = \"limit_point\", parameter = "
+          "\"c\", range = [-0.1, 0.1], values = 6 }\n")
+          .of("s");
+  ASSERT_EQ(loads.branches.size(), 1U);
+  EXPECT_NEAR(value(loads, 0, "c"), 0, 1e-10);
+  EXPECT_THAT(loads.branches[0].events.front().detail,
+              AllOf(HasSubstr("there is no critical point before"), Not(HasSubstr("limit"))));
 }
 
 }  // namespace
