@@ -11,9 +11,6 @@
 namespace springfold::continuation {
 namespace {
 
-/// A rate that is zero to rounding all along has no zeros to be found.
-double unless_still(double rate) { return std::abs(rate) < function_noise ? function_noise : rate; }
-
 /// Quadratic form of D^2F, contracted with w, on the vectors a and b of (x, lambda).
 double form(const Augmented& s, const CurvePoint& p, const Vector& w, const Vector& a,
             const Vector& b) {
@@ -80,7 +77,7 @@ double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
     rate = s.start().turns(
         {.x = x, .lambda = lambda, .tangent = {t.head(s.n()), t[s.n()]}, .piece = side}, p.lambda);
   if (!rate) return not_a_number;
-  return unless_still(*rate * h->dot(t) / std::max(smallest_number, h->norm()));
+  return *rate * h->dot(t) / std::max(smallest_number, h->norm());
 }
 
 void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
@@ -167,6 +164,7 @@ void watch_corner(const Augmented& system, std::vector<Watch>& watches) {
                        [&system, side](const CurvePoint& p) { return reversal(system, p, side); },
                        EventAction::record,
                        {}});
+    watches.back().noise = function_noise;
   };
   add(Degeneracy::fold_meets_activation, system.start().piece);
   add(Degeneracy::corner_loses_reversal, system.start().behind);
@@ -194,14 +192,18 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
   std::function<Degeneracy(const CurvePoint&)> refine;
   if (kind == CriticalKind::limit_point)
     refine = [&system](const CurvePoint& p) { return turn_of_fold(system, p); };
-  watches.push_back({turn, "", [](const CurvePoint& p) { return unless_still(p.tangent.dlambda); },
+  // A rate may be zero to rounding all along, or come to zero and keep its sign: at a cusp the whole tangent turns, where
+  // either lambda or the parameter may be monotone.
+  watches.push_back({turn, "", [](const CurvePoint& p) { return p.tangent.dlambda; },
                      EventAction::record, refine});
+  watches.back().noise = function_noise;
   const Index n = system.n();
   watches.push_back({Degeneracy::extremum,
                      "",
-                     [n](const CurvePoint& p) { return unless_still(p.tangent.dx[n]); },
+                     [n](const CurvePoint& p) { return p.tangent.dx[n]; },
                      EventAction::record,
                      {}});
+  watches.back().noise = function_noise;
   if (kind == CriticalKind::limit_point || kind == CriticalKind::branch_point)
     watch_bordered(system, watches);
   if (kind == CriticalKind::branch_point && system.start().corank == 1) {

@@ -19,6 +19,7 @@ struct Watch {
   int inside = 0;         ///< as CriticalEvent has it
   /// What is called otherwise at another place: its name at the located point.
   std::function<std::string(const CurvePoint&)> name_there{};
+  double noise = 0;  ///< values that are no larger are not told from zero, and have no sign
 };
 
 /// A point of the augmented curve, of n unknowns of the family.

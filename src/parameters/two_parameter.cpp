@@ -139,6 +139,7 @@ class Follower {
                         .value = watches[i].value,
                         .action = watches[i].action,
                         .tag = static_cast<int>(i),
+                        .noise = [of = watches[i].noise](const CurvePoint&) { return of; },
                         .of_place = watches[i].of_place});
     bool renew = false, lost = false, parted = false;
     ReturnToStart back{

@@ -71,5 +71,39 @@ TEST(ImperfectionsOfSecondOrder, LeaveNoCurveOfBranchPoints) {
                   1e-3 * std::abs(sample.values.back()));
 }
 
+TEST(ImperfectVersions, AtABranchPointTheLimitPointsOfImperfectVersionsHaveNoPointBesideIt) {
+  // lambda sin q = q + b q^3 - e: limit points at lambda = 1 + (3 b + 1/2) q^2 + ..., e = -(2 b + 1/3) q^3 + ...
+  for (const std::string b : {"1", "-1"}) {
+    SCOPED_TRACE(b);
+    const auto result = run("[parameters]\ne = 0\nb = " + b + R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [ { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "polynomial", coefficients = ["-e", 1, 0, "b"], falling = true } }, { rigid = [0, 1] } ]
+[[study]]
+name = "s"
+kind = "critical_curve"
+control = "load"
+direction = [0, -1]
+until = { bar.q = [-1, 1], lambda = [-1, 5] }
+critical_curve = { of = "BP1", parameter = "e", range = [-0.1, 0.1] }
+)toml")
+                            .of("s");
+    ASSERT_EQ(result.branches.size(), 1U);
+    int at_branch_point = 0;
+    for (const auto& event : result.branches[0].events)
+      at_branch_point += std::abs(value(result, event.row, "e")) < 1e-6 ? 1 : 0;
+    EXPECT_EQ(at_branch_point, 1);
+    for (std::size_t row = 0; row < result.branches[0].samples.size(); ++row) {
+      const double lambda = value(result, row, "lambda");
+      if (value(result, row, "e") == 0) continue;
+      EXPECT_GT((lambda - 1) * std::stod(b), 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

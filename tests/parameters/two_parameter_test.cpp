@@ -27,6 +27,35 @@ TEST(TwoParameters, TwoLimitPointsMergeInACusp) {
   for (const auto& p : curve.points) EXPECT_NEAR(p.mu, 3 * p.x[0] * p.x[0], 1e-11);
 }
 
+TEST(TwoParameters, WhereTheWholeTangentTurnsOnlyWhatTurnsBackIsTold) {
+  // c (x^3 - mu x) = lambda: mu = 3 x^2 turns back, lambda = -2 c x^3 does not. c (x^3 - lambda x) = mu: the reverse.
+  for (const double c : {1.0, -1.0, 0.01, -0.01})
+    for (const bool of_mu : {true, false})
+      for (double step = 0.02; step < 0.2; step *= 1.3) {
+        SCOPED_TRACE(std::to_string(c) + (of_mu ? " mu " : " lambda ") + std::to_string(step));
+        const Family family = family_of<ScalarProblem>([=](double mu) {
+          if (of_mu)
+            return graph([=](double x) { return c * (x * x * x - mu * x); },
+                         [=](double x) { return c * (3 * x * x - mu); });
+          return ScalarProblem{[=](double x, double l) { return x * x * x - l * x - mu / c; },
+                               [](double x, double l) { return 3 * x * x - l; },
+                               [](double x, double) { return -x; }};
+        });
+        const double lambda = of_mu ? 2 * c : 3, mu = of_mu ? 3 : 2 * c;  // x = -1
+        TraceOptions options;
+        options.step.initial = options.step.maximum = step;
+        const auto curve = follow_critical(
+            family, start_at(CriticalKind::limit_point, single(-1), lambda, mu), !of_mu && c < 0,
+            {{"end", [](const CriticalPoint& p) { return p.x[0] - 1; }, EventAction::stop}},
+            options);
+        EXPECT_EQ(curve.stop_detail, "end");
+        ASSERT_EQ(curve.hits.size(), 2U);
+        const CriticalHit& hit = curve.hits[0];
+        EXPECT_EQ(hit.kind, of_mu ? Degeneracy::cusp : Degeneracy::extremum);
+        EXPECT_NEAR(std::abs(hit.point.lambda) + std::abs(hit.point.mu), 0, 1e-10);
+      }
+}
+
 TEST(TwoParameters, RatesAreExactWhereTheEquationsBendWithinTheStepOfDifferences) {
   // lambda = sin(20 (x - mu)) / 20 has its limit point at x = mu + pi/40.
   const Family family = graphs([](double x, double mu) { return std::sin(20 * (x - mu)) / 20; },
