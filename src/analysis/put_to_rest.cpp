@@ -7,8 +7,10 @@
 
 #include "shape_units.hpp"
 #include "springfold/continuation/options.hpp"
+#include "springfold/core/scaling.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "start.hpp"
+#include "units.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -59,6 +61,28 @@ void move_springs(const Shifts& shifts, const Scales& scales, model::Mechanism& 
   }
 }
 
+/// The first unit of force is the middle one of the springs'. Where it is stiff, what a soft spring leaves may count as
+/// nothing, and a start that it decides may not be found: then it is looked for in the unit of the softest one.
+void solve_in_softest_units(const Study& study, const ParameterFamily* family, Begin& begin,
+                            StartReport& report) {
+  const double before = begin.setup.scales.force;
+  const double softest =
+      power_of_two_near(range_of_springs(begin.mechanism, begin.setup.scales.length).softest);
+  if (!(softest < before) || !(softest > 0)) return;
+  Begin soft{begin.mechanism, set_up(begin.mechanism, study, family, Units{softest, {}}),
+             begin.first};
+  const auto solves = [&] {
+    return solves_by_rows(soft.setup.system, start_problem(soft.setup, study), soft.first);
+  };
+  change_force_unit(soft.setup.system, softest / before, soft.first);
+  if (report.found && solves()) return;
+  StartReport again;
+  soft.first = find_start(soft.setup, study, again);
+  if (!again.found || !solves()) return;
+  begin = std::move(soft);
+  report = std::move(again);
+}
+
 }  // namespace
 
 Begin begin_study(const model::Mechanism& mechanism, const Study& study,
@@ -67,6 +91,7 @@ Begin begin_study(const model::Mechanism& mechanism, const Study& study,
   constexpr int rounds = 3;
   Begin begin{mechanism, set_up(mechanism, study, family), {}};
   begin.first = find_start(begin.setup, study, report);
+  solve_in_softest_units(study, family, begin, report);
   if (family != nullptr || study.kind != StudyKind::force_deflection) return begin;
   for (int round = 0; round < rounds && report.found; ++round) {
     const Shifts shifts = shifts_of(begin.setup.system, begin.first);

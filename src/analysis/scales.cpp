@@ -192,6 +192,21 @@ std::vector<double> spring_forces(const model::Mechanism& mechanism, double leng
   return forces;
 }
 
+SpringRange range_of_springs(const model::Mechanism& mechanism, double length) {
+  auto springs = spring_forces(mechanism, length);
+  std::erase_if(springs, [](double force) { return !(force > 0) || !std::isfinite(force); });
+  if (springs.empty()) return {};
+  const auto [least, most] = std::minmax_element(springs.begin(), springs.end());
+  return {*least, *most};
+}
+
+void change_force_unit(const statics::System& system, double factor,
+                       statics::FirstEquilibrium& first) {
+  for (Index i = 0; i < system.size; ++i)
+    if (system.is_wrench[static_cast<std::size_t>(i)]) first.z[i] /= factor;
+  first.inputs.W /= factor;
+}
+
 Scales scales_for(const model::Mechanism& mechanism, const Vector& constant_load) {
   const double length = largest_length(mechanism);
   Scales scales{power_of_two_near(length), 1};

@@ -34,11 +34,6 @@ double largest_force(const PathProblem& problem, const statics::FirstEquilibrium
   return largest > unit_rounding * sizes.lpNorm<Eigen::Infinity>() ? largest : 0;
 }
 
-double stiffest_spring(const model::Mechanism& mechanism, const Setup& setup) {
-  const auto springs = spring_forces(mechanism, setup.scales.length);
-  return springs.empty() ? 0 : *std::max_element(springs.begin(), springs.end());
-}
-
 /// A unit of lambda in that of the setup, no longer than the range that is asked for.
 double within_range(const Study& study, const Setup& setup, double unit) {
   const double range = range_of_lambda(study, setup);
@@ -59,14 +54,6 @@ bool is_unanswered(const PathProblem& problem, const Study& study, double unit) 
   const bool driven = study.control == ControlMode::pose || study.control == ControlMode::mixed;
   if (driven && problem.layout().first_pose == 0) return true;
   return study.control != ControlMode::load && unit * unit_rounding >= 1;
-}
-
-/// Wrenches of the start in another unit of force.
-void change_force_unit(const statics::System& system, double factor,
-                       statics::FirstEquilibrium& first) {
-  for (Index i = 0; i < system.size; ++i)
-    if (system.is_wrench[static_cast<std::size_t>(i)]) first.z[i] /= factor;
-  first.inputs.W /= factor;
 }
 
 /// What a study is made of.
@@ -100,8 +87,9 @@ bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) 
     if (!response) return i > 0;
     // Where nothing is loaded no force shows its size: that of the least stiffness against loads, as far as springs are
     // as stiff.
-    const double stiffness =
-        std::min(response->stiffness, stiffest_spring(given.mechanism, setup) / setup.scales.force);
+    const double stiffness = std::min(
+        response->stiffness,
+        range_of_springs(given.mechanism, setup.scales.length).stiffest / setup.scales.force);
     const double force =
         std::max({largest_force(problem, first, start), response->multiplier, stiffness});
     Units units{setup.scales.force * power_of_two_near(force), {}};
@@ -160,11 +148,14 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
                   const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
   const Given given{mechanism, study, family};
   if (settle(given, first, setup)) return;
-  // Units that are off by the whole range of numbers hide what is regular: those of the stiffest spring may not.
-  const double stiffest = power_of_two_near(stiffest_spring(mechanism, setup));
+  // Units that are off by the whole range of numbers hide what is regular: those of its ends may not.
+  const auto [softest, stiffest] = range_of_springs(mechanism, setup.scales.length);
   const Units before{setup.scales.force, {}};
-  if (change_units(given, {stiffest, {}}, first, setup) && !settle(given, first, setup))
-    change_units(given, before, first, setup);
+  for (const double force : {softest, stiffest}) {
+    const Units units{power_of_two_near(force), {}};
+    if (change_units(given, units, first, setup) && settle(given, first, setup)) return;
+  }
+  change_units(given, before, first, setup);
 }
 
 void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,

@@ -106,6 +106,9 @@ bool shorten_turns(const System& system, Vector& z) {
   return changed;
 }
 
+/// Residuals of a start, scaled.
+constexpr double start_tolerance = 1e-12;
+
 /// Systems with more unknowns are not solved with matrices of entries.
 constexpr Index most_dense = 3000;
 
@@ -123,7 +126,7 @@ bool solve_long_chains(const System& system, const StartProblem& problem, StartE
     if (!std::isfinite(result.residual)) continue;
     result.z = state.z;
     result.inputs = state.inputs;
-    if (!equations.solved(state, 1e-12)) continue;
+    if (!equations.solved(state, start_tolerance)) continue;
     result.status = StartStatus::found;
     result.in_stages = true;
     return true;
@@ -147,6 +150,14 @@ void complete(const System& system, const StartProblem& problem, FirstEquilibriu
 }
 
 }  // namespace
+
+bool solves_by_rows(const System& system, const StartProblem& problem,
+                    const FirstEquilibrium& found) {
+  if (system.size > most_dense) return true;
+  Workspace work;
+  return StartEquations(system, problem, work)
+      .vanishes_by_rows({found.z, found.inputs}, start_tolerance);
+}
 
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
   Workspace work;
@@ -203,7 +214,7 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
       result.residual = polish(equations, state, result.iterations);
     result.z = state.z;
     result.inputs = state.inputs;
-    if (equations.solved(state, 1e-12)) {
+    if (equations.solved(state, start_tolerance)) {
       result.status = StartStatus::found;
       break;
     }

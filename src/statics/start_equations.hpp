@@ -103,6 +103,25 @@ class StartEquations {
     return largest(r, false) <= few_roundings * largest(sizes, false);
   }
 
+  /// Gaps against lengths, every force against the unit of force and the terms of its own row: a stiff spring must not
+  /// excuse what a soft one leaves.
+  bool vanishes_by_rows(const StartState& state, double tolerance) {
+    Vector r;
+    Matrix J;
+    if (!residual(state, r) || !jacobian(state, J)) return false;
+    const Vector sizes = J.cwiseAbs() * pack(state).cwiseAbs();
+    double size = 1;
+    for (Index i = 0; i < system_.size; ++i)
+      if (!system_.is_wrench[static_cast<std::size_t>(i)])
+        size = std::max(size, std::abs(state.z[i]));
+    for (Index i = 0; i < r.size(); ++i) {
+      const bool gap =
+          system_.is_wrench[static_cast<std::size_t>(selection_.rows[static_cast<std::size_t>(i)])];
+      if (!(std::abs(r[i]) <= tolerance * (gap ? size : std::max(1.0, sizes[i])))) return false;
+    }
+    return true;
+  }
+
   bool jacobian(const StartState& state, Matrix& J) {
     const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z, state.inputs.rho),
                                            state.z, state.inputs, work_, full_, A_, &dR_drho_);

@@ -71,6 +71,11 @@ struct FirstEquilibrium {
 /// systems are expected: coordinates of order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
+/// Does it solve the equations in the units at hand: gaps to 1e-12 of the lengths, every force to 1e-12 of the unit of force
+/// or of the terms of its own row? Always true of systems with more than 3,000 unknowns, whose matrix is not built.
+bool solves_by_rows(const System& system, const StartProblem& problem,
+                    const FirstEquilibrium& found);
+
 /// Of the matrix at a solution of this problem, for its neighbours; nothing where it cannot be evaluated.
 std::shared_ptr<const Lu> factors_at(const System& system, const StartProblem& problem,
                                      const FirstEquilibrium& found, Workspace& work);

@@ -159,9 +159,23 @@ std::optional<double> bend_beside(ProblemView problem, const Vector& x, double l
   return 2 * bend * moved * 2 * clear_motion >= 1 ? std::optional(bend) : std::nullopt;
 }
 
-/// Is dF/dx singular, to what special points are located to? Its entries count beside what they are a little aside: a row or
-/// column that vanishes at the point would otherwise look like one in a small unit.
-bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece) {
+/// Is the stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel it?
+/// Special points are placed to `poor` at worst, in parts of the load: the next one is farther away than that.
+bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, const Vector& dx,
+                        double way) {
+  double multiplier = 0, rate = 0;
+  for (Index i = 0; i < x.size(); ++i) {
+    if (weights[i] != 0) continue;
+    multiplier = std::max(multiplier, std::abs(x[i]));
+    rate = std::max(rate, std::abs(dx[i]));
+  }
+  return poor * std::abs(lambda) <= way && poor * multiplier <= rate * way;
+}
+
+/// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries count beside what they
+/// are a little aside: a row or column that vanishes at the point would otherwise look like one in a small unit.
+bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                 bool is_soft) {
   if (problem.structured()) return false;
   Linearisation here;
   if (!linearise(problem, x, lambda, piece, here) || x.size() == 0) return false;
@@ -177,7 +191,8 @@ bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piec
   }
   const Equilibration scale = equilibrate(sizes);
   const Matrix equilibrated = scale.rows.asDiagonal() * here.dF_dx * scale.columns.asDiagonal();
-  return vanishing_values(divided_svd(equilibrated).values) > 0;
+  if (vanishing_values(divided_svd(equilibrated).values) == 0) return false;
+  return !is_soft || divided_svd(here.dF_dx).values.tail<1>()[0] <= promised_place;
 }
 
 }  // namespace
@@ -203,7 +218,8 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
     response.lambda = slopes_in_a_unit * *bend;
   } else if (std::isfinite(way)) {
     // At a special point the next one is this one, which is no unit of anything.
-    if (way < tiny_share && is_singular(problem, x, lambda, piece)) return std::nullopt;
+    const bool is_soft = is_of_soft_members(weights, x, lambda, dx, way);
+    if (way < tiny_share && is_singular(problem, x, lambda, piece, is_soft)) return std::nullopt;
     change = critical_loads * way;
     response.lambda = change;
   }

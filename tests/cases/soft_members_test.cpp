@@ -1,0 +1,104 @@
+// Soft members beside stiff ones: a start that bears nothing is as regular as its softest member.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "case_runs.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+using analysis::StudyResult;
+
+/// A mast on a hinge, pressed from above.
+std::string soft_mast(const std::string& foot, const std::string& rest, const std::string& top,
+                      const std::string& load, const std::string& lambda) {
+  return "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, " + top +
+         "]\n[[chain]]\nname = \"mast\"\nelements = [ { joint = \"revolute\", axis = \"z\", name = "
+         "\"foot\", role = \"preloaded\", spring = { " +
+         foot + " } }, " + rest +
+         " ]\n[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\n" + load +
+         "until = { lambda = " + lambda + ", mast.foot = [-1.2, 1.3] }\nbranches = { depth = 1 }\n";
+}
+
+/// One branch point on the first branch, index 0 before and 1 behind, and where it lies.
+double buckling_load(const StudyResult& result) {
+  const auto& branch = result.branches.at(0);
+  double load = std::nan("");
+  int count = 0;
+  for (const auto& event : branch.events) {
+    if (event.kind != EventKind::branch_point) continue;
+    load = value(result, event.row, "lambda");
+    EXPECT_EQ(value(result, event.row, "index"), 0);
+    ++count;
+  }
+  EXPECT_EQ(count, 1);
+  EXPECT_EQ(result.branches.size(), 3u);
+  return load;
+}
+
+TEST(SoftMembers, BuckleBesideStopsThatAreNotReachedHoweverStiffTheseAre) {
+  for (const char* stop : {"1e5", "1e6", "1e9", "1e12", "1e20"}) {
+    const StudyResult result =
+        run(soft_mast(std::string{"law = \"stops\", stiffness = 1, stop_stiffness = "} + stop +
+                          ", low = -0.5, high = 1.4",
+                      "{ rigid = [0, 1] }", "1", "", "[-1, 1.01]"))
+            .of("press");
+    EXPECT_TRUE(complete(result)) << stop;
+    EXPECT_NEAR(buckling_load(result), 1, 1e-10) << stop;
+  }
+}
+
+/// A clamped-free beam of one segment that turns by theta at its foot: lambda (1/k + L/(3 E I)) = 1 at first order, less what
+/// the load does to the beam and its length: 1e-2 of that.
+TEST(SoftMembers, BuckleUnderBeamsHoweverStiffTheseAre) {
+  for (const double bending : {1e4, 1e6, 1e8}) {
+    const std::string beam =
+        "{ rigid = { rotate = { axis = \"z\", angle = \"90*deg\" } } }, { elastic = \"beam\", "
+        "length = 1, E = 1, A = " +
+        std::to_string(1e3 * bending) + ", Iz = " + std::to_string(bending) + ", segments = 1 }";
+    const StudyResult result =
+        run(soft_mast("law = \"linear\", stiffness = 1", beam, "1", "", "[-1, 2.5]")).of("press");
+    EXPECT_TRUE(complete(result)) << bending;
+    const double load = buckling_load(result);
+    EXPECT_NEAR(1 - load, 1 / (3 * bending), 1e-2 / (3 * bending)) << bending;
+  }
+}
+
+TEST(SoftMembers, BuckleUnderAConstantLoadBesideStiffStops) {
+  const StudyResult result =
+      run(soft_mast("law = \"stops\", stiffness = 1, stop_stiffness = 1e7, low = -0.5, high = 1.4",
+                    "{ rigid = [0, 1] }", "1", "load = [0, -0.999]\n", "[-1, 0.01]"))
+          .of("press");
+  EXPECT_TRUE(complete(result));
+  EXPECT_NEAR(buckling_load(result), 0.001, 1e-10);
+}
+
+/// A hinge of 1 under two stiff slides in a row: theta = -0.1412337 where the load (0.1, -0.3) is balanced, theta = -(0.1 cos theta
+/// - 0.3 sin theta), whatever their stiffness is.
+TEST(SoftMembers, AreDeflectedHoweverStiffTheOthersAre) {
+  double theta = -0.1;
+  for (int i = 0; i < 100; ++i) theta = -(0.1 * std::cos(theta) - 0.3 * std::sin(theta));
+  for (const char* stiffness : {"1e5", "1e8", "1e12"}) {
+    const auto slide = [&](const std::string& name) {
+      return "{ joint = \"prismatic\", axis = \"y\", name = \"" + name +
+             "\", role = \"virtual\", stiffness = " + stiffness + " }, ";
+    };
+    const auto ran =
+        run("[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n[[chain]]\nname = "
+            "\"mast\"\nelements = [ { joint = \"revolute\", axis = \"z\", name = \"foot\", role = "
+            "\"preloaded\", spring = { law = \"linear\", stiffness = 1 } }, " +
+            slide("a") + slide("b") +
+            "{ rigid = [0, 1] } ]\n[[study]]\nname = \"e\"\nkind = \"equilibrium\"\nload = [0.1, "
+            "-0.3]\n");
+    const StudyResult& result = ran.of("e");
+    EXPECT_TRUE(complete(result)) << stiffness;
+    ASSERT_EQ(result.branches.size(), 1u) << stiffness;
+    EXPECT_NEAR(value(result, 0, "top.x"), -std::sin(theta), 2e-10 + 2 / std::stod(stiffness))
+        << stiffness;
+  }
+}
+
+}  // namespace
+}  // namespace springfold::io
