@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "springfold/continuation/newton.hpp"
 #include "springfold/core/number_text.hpp"
+#include "springfold/parameters/two_parameter.hpp"
 
 namespace springfold::analysis {
 
@@ -115,27 +117,89 @@ FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
   return first_unwanted(member, settings, observer);
 }
 
-std::string limit_before_unwanted(const CaseCurves& curves, double mu, const FirstUnwanted& first,
-                                  const CriticalPointSettings& settings, const Observer& observer) {
+namespace {
+
+/// The limit that ends a path before an unwanted point that lies just behind it; empty: no limit does.
+std::string limit_on_the_way(const Member& member, const BasePath& path,
+                             const CriticalPointSettings& settings, const Observer& observer) {
   // Where a path has just begun to end there it passes the limit by next to nothing: by what it moves within the bracket of
   // the value from which on it does so, 1e-11 of a range. A path that goes another way does not come back for so little.
   constexpr double a_little = 1e-5;
-  const Member* member = curves.at(mu);
-  if (member == nullptr || first.point || !first.why.empty()) return {};
-  const BasePath within = base_path(*member, true, observer);
-  if (within.forward.stop != continuation::StopReason::event) return {};
-  Study wider = member->study;
+  if (path.forward.stop != continuation::StopReason::event) return {};
+  Study wider = member.study;
   for (Limit& limit : wider.until) {
-    const double unit = member->quantity(limit.quantity)->scale;
+    const double unit = member.quantity(limit.quantity)->scale;
     const auto more = [&](double edge) { return a_little * std::max(std::abs(edge), unit); };
     if (std::isfinite(limit.low)) limit.low -= more(limit.low);
     if (std::isfinite(limit.high)) limit.high += more(limit.high);
   }
-  const BasePath beyond = base_path(*member, true, observer, 1, {}, &wider);
+  const BasePath beyond = base_path(member, true, observer, 1, {}, &wider);
   const bool comes =
       std::any_of(beyond.points.begin(), beyond.points.end(),
-                  [&](const SpecialPoint& p) { return is_unwanted(*member, settings, beyond, p); });
-  return comes ? ", as the path ends first: " + within.forward.stop_detail : "";
+                  [&](const SpecialPoint& p) { return is_unwanted(member, settings, beyond, p); });
+  return comes ? path.forward.stop_detail : std::string{};
+}
+
+/// The branch point beside which a path turns most sharply, if there is one for this value of the parameter and none a
+/// little beside it: there branches cross, and to either side of it paths go different ways.
+std::optional<continuation::CurvePoint> crossing_on_the_way(const CaseCurves& curves, double mu,
+                                                            const BasePath& path, double range) {
+  constexpr double a_little = 1e-3;  // of the range: by then branches have parted beyond doubt
+  const std::vector<continuation::CurvePoint>& points = path.forward.points;
+  const Vector metric = curves.at(mu)->problem->metric();
+  std::size_t sharpest = 0;
+  double least = 1;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double cosine =
+        continuation::metric_product(metric, points[i].tangent, points[i + 1].tangent);
+    if (points[i].piece != points[i + 1].piece || !(cosine < least)) continue;
+    least = cosine;
+    sharpest = i;
+  }
+  const auto branch_point = [&](const continuation::CurvePoint& from, double value) {
+    return continuation::polish_critical(curves.family(),
+                                         {.kind = continuation::CriticalKind::branch_point,
+                                          .x = from.x,
+                                          .lambda = from.lambda,
+                                          .mu = value,
+                                          .piece = from.piece});
+  };
+  for (std::size_t i = sharpest; i < std::min(sharpest + 2, points.size()); ++i) {
+    continuation::CurvePoint at = points[i];
+    const auto found = branch_point(at, mu);
+    if (!found) continue;
+    const double reach = points[std::min(i + 1, points.size() - 1)].s - points[i > 0 ? i - 1 : 0].s;
+    const continuation::Direction way{found->x - at.x, found->lambda - at.lambda};
+    if (!(continuation::metric_product(metric, way, way) <= reach * reach)) continue;
+    if (branch_point(at, mu - a_little * range) || branch_point(at, mu + a_little * range))
+      continue;
+    at.x = found->x;
+    at.lambda = found->lambda;
+    return at;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string why_path_misses(const CaseCurves& curves, double mu, double beside,
+                            const FirstUnwanted& first, const CriticalPointSettings& settings,
+                            const Observer& observer) {
+  const Member* member = curves.at(mu);
+  if (member != nullptr && !first.point && first.why.empty()) {
+    const BasePath path = base_path(*member, true, observer);
+    const std::string limit = limit_on_the_way(*member, path, settings, observer);
+    if (!limit.empty()) return ", as the path ends first: " + limit;
+  }
+  member = curves.at(beside);
+  if (member == nullptr) return {};
+  const BasePath path = base_path(*member, true, observer);
+  const double range = (settings.high - settings.low) / curves.scale();
+  const auto crossing = crossing_on_the_way(curves, beside, path, range);
+  if (!crossing) return {};
+  member = curves.at(beside);
+  const double lambda = member->evaluator().value(*member->quantity("lambda"), *crossing);
+  return ", as branches cross on the way to it, at lambda = " + rounded(lambda);
 }
 
 bool ends_piece(continuation::Degeneracy kind) {

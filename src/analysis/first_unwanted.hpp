@@ -29,10 +29,13 @@ std::optional<Index> unstable_at_start(const Member& member, const CriticalPoint
 FirstUnwanted first_unwanted(const CaseCurves& curves, double mu,
                              const CriticalPointSettings& settings, const Observer& observer);
 
-/// ", as the path ends first: top.y reaches its upper limit", where a limit of `until` keeps the path from an unwanted point
-/// that lies just behind it; otherwise empty. @param first  what is known at mu
-std::string limit_before_unwanted(const CaseCurves& curves, double mu, const FirstUnwanted& first,
-                                  const CriticalPointSettings& settings, const Observer& observer);
+/// Why a path no longer comes to an unwanted point: ", as the path ends first: top.y reaches its upper limit", or ", as
+/// branches cross on the way to it, at lambda = 2". Empty: not known.
+/// @param mu, first  a value where it does not, and what is known there
+/// @param beside  a value next to that, where the path can be followed
+std::string why_path_misses(const CaseCurves& curves, double mu, double beside,
+                            const FirstUnwanted& first, const CriticalPointSettings& settings,
+                            const Observer& observer);
 
 /// Is this special point of the path one of those that are not wanted?
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,

@@ -287,7 +287,7 @@ class LoadsOverParameter {
     }
     side.jumps = true;
     side.decides.reset();
-    side.limit = limit_before_unwanted(curves_, bad, first_at(bad), study_.critical, observer_);
+    side.limit = why_path_misses(curves_, bad, good, first_at(bad), study_.critical, observer_);
     cut(piece.start, side, good);
   }
 

@@ -220,7 +220,7 @@ class Threshold {
     decides_ = near != curve.hits.end()
                    ? name_of_degeneracy(near->kind, followed.of)
                    : "the path from the start no longer comes to it" +
-                         limit_before_unwanted(curves_, clear, {}, study_.critical, observer_);
+                         why_path_misses(curves_, clear, clear, {}, study_.critical, observer_);
     // Where branches cross the point is singular: the nearest one that is known stands for it.
     last = point_of_curve(curves_, followed.start, curve, clear, 0)
                .value_or(nearest_before(curve, clear));

@@ -329,7 +329,7 @@ TEST(EndsOfCriticalLoads, NameTheLimitThatThePathComesToFirst) {
   EXPECT_TRUE(std::any_of(branch.events.begin(), branch.events.end(), named));
 }
 
-TEST(EndsOfCriticalLoads, NameNoLimitWhereThePathGoesAnotherWay) {
+TEST(EndsOfCriticalLoads, NameTheCrossingWhereThePathGoesAnotherWay) {
   // c q - e = lambda sin q, with a limit point to the right only: for e < 0 the path turns to the left.
   const std::string path = upright_study("until = { bar.q = [-1.2, 1.2], lambda = [-1, 5] }\n");
   const std::string law = "law = \"linear\", stiffness = \"c\"";
@@ -344,8 +344,17 @@ TEST(EndsOfCriticalLoads, NameNoLimitWhereThePathGoesAnotherWay) {
           .of("s");
   ASSERT_EQ(loads.branches.size(), 1U);
   EXPECT_NEAR(value(loads, 0, "c"), 0, 1e-10);
-  EXPECT_THAT(loads.branches[0].events.front().detail,
-              AllOf(HasSubstr("there is no critical point before"), Not(HasSubstr("limit"))));
+  const std::string crossing = ", as branches cross on the way to it, at lambda = 1";
+  EXPECT_EQ(loads.branches[0].events.front().detail,
+            "begins: there is no critical point before" + crossing);
+  const StudyResult threshold =
+      run(text +
+          "kind = \"threshold\"\nthreshold = { of = \"limit_point\", parameter = \"c\", "
+          "range = [-0.1, 0.09], value = \"largest\" }\n")
+          .of("s");
+  ASSERT_TRUE(threshold.threshold && threshold.threshold->found);
+  EXPECT_NEAR(threshold.threshold->value, 0, 1e-10);
+  EXPECT_THAT(threshold.threshold->decides, HasSubstr(crossing));
 }
 
 }  // namespace
