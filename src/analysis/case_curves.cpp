@@ -15,7 +15,7 @@ namespace springfold::analysis {
 namespace {
 
 /// Beside those of the last calls, those of a grid that neighbouring places share.
-constexpr std::size_t members_kept = 64;
+constexpr std::size_t members_kept = 32;
 
 /// Natural size of the parameter: its range, or its value.
 double size_of(const CriticalPointSettings& settings, double value) {
@@ -155,7 +155,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   auto member = again ? std::move(spare) : std::make_unique<Member>();
   member->forget_columns();
   member->mu = mu;
-  member->start_is_open = false;
+  member->start_is_open = member->pose_is_known = false;
   member->columns_of = base_.get();
   Setup& setup = member->setup;
   model::Mechanism mechanism;
@@ -189,7 +189,7 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   if (near != nullptr && counts_from_one_origin(member->study)) {
     // The origin of the pose's unknowns is the same for all: a start that vanishes moves at any rate before.
     setup.rule.t_start = (base_ ? *base_ : *near).setup.rule.t_start;
-    setup.rule.t_counted = member->counted_from();
+    setup.rule.t_counted = member->pose_is_known ? known_line(mu)->counted : member->counted_from();
   } else {
     setup.rule.t_start = member->start_pose();
   }
@@ -205,30 +205,15 @@ std::unique_ptr<Member> CaseCurves::make(double mu, const Member* near,
   return member;
 }
 
-/// Four members of the grid of differences, two on each side of mu. Where the numbers that the equations are linear in lie
-/// on a line there, the equations do too, at any state: two members tell the derivative.
-std::optional<double> CaseCurves::line(double mu) const {
-  constexpr std::size_t most = 4096;
-  if (!pattern_) return std::nullopt;
-  const double first = (std::floor(mu / grid_step) - 1) * grid_step;
-  auto known = lines_.find(first);
-  if (known == lines_.end()) {
-    if (lines_.size() >= most) lines_.clear();
-    known = lines_.emplace(first, is_line(first, grid_step)).first;
-  }
-  if (!known->second) return std::nullopt;
-  const double last = first + 3 * grid_step;
-  return mu - first > last - mu ? first : last;
-}
-
 const Member* CaseCurves::at(double mu) const {
-  const Member* member = equations_at(mu);
+  Member* const member = member_at(mu);
+  if (member != nullptr && member->start_is_open) settle_start(*member);
   return member != nullptr && member->report.found ? member : nullptr;
 }
 
 const Member* CaseCurves::equations_at(double mu) const {
   Member* const member = member_at(mu);
-  if (member != nullptr && member->start_is_open) settle_start(*member);
+  if (member != nullptr && member->start_is_open && !member->pose_is_known) settle_start(*member);
   return member;
 }
 
@@ -256,6 +241,7 @@ Member* CaseCurves::member_at(double mu) const {
     return known->second.member.get();
   }
   if (without_start_.contains(mu)) return nullptr;
+  look_for_line(mu);
   const Member& near = nearest(mu);
   std::unique_ptr<Member> oldest;
   if (recent_.size() >= members_kept) {

@@ -26,6 +26,8 @@ struct Member {
   StartReport report{};
   statics::FirstEquilibrium first{};
   bool start_is_open = false;  ///< not looked for: of `first` the inputs alone are given
+  bool pose_is_known =
+      false;  ///< start_is_open: that of the start, which deflections are counted from
   std::unique_ptr<PathProblem> problem{};
 
   continuation::CurvePoint start() const;
@@ -78,7 +80,7 @@ class CaseCurves {
   /// Nothing where the case has no start. Valid for the next two dozen calls.
   const Member* at(double mu) const;
   /// The same where the case has no start, if nothing of it enters the equations (report.found is false then, and what
-  /// is counted from the start is undefined).
+  /// is counted from the start is undefined). On a line of members the start is not looked for: at() does.
   const Member* equations_at(double mu) const;
   /// Why there is no start, where the last at(mu) gave nothing: in words.
   std::string why_none(double mu) const;
@@ -104,6 +106,7 @@ class CaseCurves {
   bool solve_in_state(Member& member, const std::string& way) const;
   std::optional<statics::Inputs> inputs_without_start(const Member& member,
                                                       const Member& near) const;
+  std::optional<statics::Inputs> inputs_on_line(const Member& member) const;
   bool leave_start_open(Member& member, const Member& near) const;
   bool go_without_start(Member& member, const Member& near) const;
   std::shared_ptr<const Lu> start_factors(const Member& member) const;
@@ -123,8 +126,17 @@ class CaseCurves {
   void keep_pattern(const Member& member, model::Mechanism mechanism) const;
   void keep_start(Member& member) const;
   bool recall_start(Member& member) const;
+  /// Four members of the grid of differences in equal steps, whose numbers may lie on a line.
+  struct Line {
+    bool holds = false;
+    statics::Inputs first{}, last{};  ///< at the starts of the outer two
+    Vector counted{};                 ///< the pose of all four starts; empty: it is not one
+  };
   std::optional<double> line(double mu) const;
-  bool is_line(double first, double step) const;
+  Line line_through(double first, double step) const;
+  const Line* known_line(double mu) const;
+  void look_for_line(double mu) const;
+  static double first_on_line(double mu);
 
   Study study_;
   std::size_t parameter_ = 0;
@@ -147,7 +159,8 @@ class CaseCurves {
     statics::FirstEquilibrium first{};
   };
   mutable std::map<double, KnownStart> starts_{};  ///< by mu: of members that were let go
-  mutable std::map<double, bool> lines_{};  ///< by the first of four places of the grid: line()
+  mutable std::map<double, Line> lines_{};         ///< by mu of the first member: line()
+  mutable bool starts_lie_on_lines_ = false;       ///< those of the line that was looked for last
   /// Where none was found, which is dearer than one, and why.
   mutable std::map<double, std::string> without_start_{};
   mutable std::string why_none_{};  ///< of the member that was made last

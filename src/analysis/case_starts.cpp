@@ -107,7 +107,10 @@ std::optional<statics::Inputs> CaseCurves::inputs_without_start(const Member& me
 
 /// Most members are asked for their equations alone: where these need no start it is left open.
 bool CaseCurves::leave_start_open(Member& member, const Member& near) const {
-  auto inputs = base_ ? inputs_without_start(member, near) : std::nullopt;
+  if (!base_) return false;
+  auto inputs = inputs_on_line(member);
+  member.pose_is_known = inputs && known_line(member.mu)->counted.size() > 0;
+  if (!inputs) inputs = inputs_without_start(member, near);
   if (!inputs) return false;
   member.first = {};
   member.first.inputs = std::move(*inputs);
@@ -132,7 +135,7 @@ bool CaseCurves::go_without_start(Member& member, const Member& near) const {
 /// The start that was left open, or that there is none.
 void CaseCurves::settle_start(Member& member) const {
   const Member& near = nearest(member.mu);
-  member.start_is_open = false;
+  member.start_is_open = member.pose_is_known = false;
   if (!solve_near(member, near)) go_without_start(member, near);
   member.setup.rule.t_counted = member.counted_from();
   member.problem->count_from(member.setup.rule.t_counted);

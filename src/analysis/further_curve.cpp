@@ -231,7 +231,8 @@ bool make_curves(const CurveRun& before, const LabelledRow& row, CurveRun& run) 
   std::vector<std::pair<std::string, double>> columns;
   for (const auto& [number, value] : held) columns.emplace_back(names[number], value);
   run.held = std::move(held);
-  const Member* from = before.curves->equations_at(row.point->mu);
+  const Member* from = before.curves->at(row.point->mu);  // with its start, where it has one
+  if (from == nullptr) from = before.curves->equations_at(row.point->mu);
   if (from == nullptr) return false;
   run.curves = std::make_shared<CaseCurves>(run.study, own, *from, std::move(columns));
   return run.curves->has_base();
