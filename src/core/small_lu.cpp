@@ -78,8 +78,8 @@ void SmallLu::prepare(Index n) {
   ways_ =
       std::find_if(std::begin(ways), std::end(ways), [n](const Ways& w) { return w.length >= n; });
   length_ = ways_->length;
-  std::fill_n(L_.data(), n * length_, 0.0);
-  std::fill_n(U_.data(), n * length_, 0.0);
+  std::fill_n(L(), n * length_, 0.0);
+  for (Index j = 0; j < n; ++j) std::fill_n(column(j) + n, length_ - n, 0.0);
 }
 
 SmallLu::SmallLu(const Eigen::Ref<const Matrix>& A) {
@@ -107,15 +107,13 @@ void SmallLu::factorise() {
   greatest_ = 0;
   for (Index k = 0; k < n_; ++k) {
     double* const u = column(k);
-    double* const l = L_.data() + k * length_;
+    double* const l = L() + k * length_;
     Index row = k;
     for (Index i = k + 1; i < n_; ++i)
       if (std::abs(u[i]) > std::abs(u[row])) row = i;
     exchanged_[static_cast<std::size_t>(k)] = row;
     if (row != k) {
-      for (Index j = 0; j < k; ++j)
-        std::swap(L_[static_cast<std::size_t>(j * length_ + k)],
-                  L_[static_cast<std::size_t>(j * length_ + row)]);
+      for (Index j = 0; j < k; ++j) std::swap(L()[j * length_ + k], L()[j * length_ + row]);
       for (Index j = k; j < n_; ++j) std::swap(column(j)[k], column(j)[row]);
     }
     const double size = std::abs(u[k]);
@@ -130,8 +128,16 @@ void SmallLu::factorise() {
       l[i] = u[i] * inverse;
       u[i] = 0;
     }
-    ways_->eliminate(L_.data(), U_.data(), k, n_);
+    ways_->eliminate(L(), numbers_.data(), k, n_);
   }
+}
+
+int SmallLu::sign() const {
+  if (!(smallest_ > 0)) return 0;
+  bool negative = false;
+  for (Index k = 0; k < n_; ++k)
+    negative ^= (exchanged_[static_cast<std::size_t>(k)] != k) ^ (U()[k * length_ + k] < 0);
+  return negative ? -1 : 1;
 }
 
 /// Some columns side by side, so that none waits for its own last result.
@@ -151,11 +157,11 @@ void SmallLu::solve(Matrix& X) const {
         std::swap(row(k), row(other));
     }
     for (Index k = 0; k < n_; ++k) {
-      const double* const l = L_.data() + k * length_;
+      const double* const l = L() + k * length_;
       for (Index i = k + 1; i < n_; ++i) row(i) -= l[i] * row(k);
     }
     for (Index k = n_; k-- > 0;) {
-      const double* const u = U_.data() + k * length_;
+      const double* const u = U() + k * length_;
       row(k) *= 1 / u[k];
       for (Index i = 0; i < k; ++i) row(i) -= u[i] * row(k);
     }
@@ -166,7 +172,7 @@ void SmallLu::solve(Matrix& X) const {
 
 void SmallLu::solve(double* x) const {
   for (Index k = 0; k < n_; ++k) std::swap(x[k], x[exchanged_[static_cast<std::size_t>(k)]]);
-  ways_->substitute(L_.data(), U_.data(), n_, x);
+  ways_->substitute(L(), U(), n_, x);
 }
 
 }  // namespace springfold

@@ -209,6 +209,7 @@ void SmallSymmetric::pivot_values(double* values) const {
 void SmallSymmetric::begin(Index n) {
   n_ = n;
   length_ = (n + part - 1) / part * part;
+  if (entries_.size() < n * length_) entries_.resize(n * length_);
   for (Index i = 0; i < n; ++i) order_[to(i)] = i;
 }
 

@@ -35,6 +35,17 @@ TEST(SmallLu, SolvesWhatEigenSolves) {
   }
 }
 
+TEST(SmallLu, KnowsTheSignOfTheDeterminant) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Index n = 1 + trial % 12;
+    Matrix A = random_matrix(random, n, n);
+    EXPECT_EQ(SmallLu(A).sign(), A.determinant() < 0 ? -1 : 1) << "trial " << trial;
+    A.col(0).setZero();
+    EXPECT_EQ(SmallLu(A).sign(), 0) << "trial " << trial;
+  }
+}
+
 TEST(SmallLu, PutsBordersAroundAMatrix) {
   std::mt19937 random(4);
   const Matrix A = random_matrix(random, 5, 5);

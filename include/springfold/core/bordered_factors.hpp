@@ -71,14 +71,14 @@ class BorderedFactors {
   alignas(
       16) std::array<double, capacity> b_;  ///< L^-1 of dF/dlambda, its first part divided by D_1
   alignas(16) std::array<double, capacity> z_;  ///< L^-1 of the row
-  double last_ = 0;                 ///< what is left of the corner where no pivot was delayed
-  std::optional<SmallLu> front_{};  ///< R with its borders; or all of it
+  double last_ = 0;  ///< what is left of the corner where no pivot was delayed
   std::array<double, 2> front_factors_{1, 1};  ///< of the last row and the last column beside R
   Vector row_factors_{};                       ///< of the rows of all of it
   Lu large_{};                                 ///< all of it
   Matrix storage_{};
   Vector right_{};
   FrontalBorders borders_{};
+  std::optional<SmallLu> front_{};  ///< R with its borders; or all of it
 };
 
 }  // namespace springfold

@@ -24,6 +24,8 @@ class SmallLu {
   Index size() const { return n_; }
   double smallest_pivot() const { return smallest_; }  ///< magnitudes; NaN where a number is NaN
   double largest_pivot() const { return greatest_; }
+  /// Of the determinant; 0 where a pivot is zero.
+  int sign() const;
   /// Replaces the size() numbers x by the solution for them. @pre smallest_pivot() > 0
   void solve(double* x) const;
   /// The same for all columns of X, which is faster than one by one.
@@ -35,13 +37,16 @@ class SmallLu {
 
   void prepare(Index n);
   void factorise();
-  double* column(Index j) { return U_.data() + j * length_; }
+  double* column(Index j) { return numbers_.data() + j * length_; }  ///< of U
+  const double* U() const { return numbers_.data(); }
+  double* L() { return numbers_.data() + n_ * length_; }
+  const double* L() const { return numbers_.data() + n_ * length_; }
 
   Index n_ = 0, length_ = 0;
   const Ways* ways_ = nullptr;
   double smallest_ = 0, greatest_ = 0;
-  alignas(64) std::array<double, capacity> L_, U_;                  ///< strict lower part; the rest
   std::array<Index, static_cast<std::size_t>(largest)> exchanged_;  ///< row k with this one
+  alignas(64) std::array<double, 2 * capacity> numbers_;  ///< U; right behind it, strictly lower, L
 };
 
 }  // namespace springfold

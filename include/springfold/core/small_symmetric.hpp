@@ -1,4 +1,4 @@
-// L D L^T of small symmetric matrices on the stack: those of mechanisms have ten to a hundred rows, and a library made
+// L D L^T of small symmetric matrices: those of mechanisms have ten to a hundred rows, and a library made
 // for large ones is slower and cannot delay pivots.
 #pragma once
 
@@ -85,7 +85,8 @@ class SmallSymmetric {
   Index n_ = 0, length_ = 0;  ///< of columns, a multiple of four
   Index done_ = 0;            ///< rows of L_11
   bool scaled_ = false;
-  alignas(64) std::array<double, capacity * capacity> entries_;
+  Vector
+      entries_{};  ///< as many as were needed so far: objects of full size would be spread over many pages
   alignas(64) Column sizes_,
       least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not delayed
   Column scale_;
