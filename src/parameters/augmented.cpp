@@ -32,18 +32,20 @@ bool vanishes_along(const Vector& form, const Vector& direction, double first) {
   return std::abs(form.dot(direction)) <= vanishing_second * size * direction.norm();
 }
 
-/// M^-1 (0, I) for the borders of M, k columns. @returns false where M is singular to rounding
-bool solve_borders(const Matrix& M, Index k, Matrix& result) {
-  result = unit_rows_below(M.rows(), k);
-  if (SmallLu::fits(M.rows())) {
-    const SmallLu lu(M);
+/// M^-1 (0, I) for M = [A B; C^T 0] with k columns in B and C. @returns false where M is singular to rounding
+bool solve_borders(const Matrix& A, const Matrix& B, const Matrix& C, Matrix& result) {
+  const Index rows = A.rows() + B.cols();
+  result = unit_rows_below(rows, B.cols());
+  if (SmallLu::fits(rows) && B.cols() == 1) {
+    const SmallLu lu(A, B.col(0), C.col(0), 0);
     if (!(lu.smallest_pivot() > 0)) return false;
-    if (k == 1)
-      lu.solve(result.data());
-    else
-      lu.solve(result);
+    lu.solve(result.data());
+  } else if (SmallLu::fits(rows)) {
+    const SmallLu lu(bordered(A, {B, C}));
+    if (!(lu.smallest_pivot() > 0)) return false;
+    lu.solve(result);
   } else {
-    result = Lu(M).solve(result);
+    result = Lu(bordered(A, {B, C})).solve(result);
   }
   return all_finite(result);
 }
@@ -63,17 +65,16 @@ double BorderedPlace::largest() const {
 
 std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
                                             double mu, const Piece& piece, const Matrix& B,
-                                            const Matrix& C) {
-  BorderedPlace p;
+                                            const Matrix& C, BaseTerms storage) {
+  BorderedPlace p{.base = std::move(storage)};
   if (!base_terms(family, x, lambda, mu, piece, p.base)) return std::nullopt;
   const Index n = x.size(), k = B.cols();
-  const Matrix M = bordered(p.base.J.leftCols(n), {B, C});
   Matrix solution;
-  if (!solve_borders(M, k, solution)) return std::nullopt;
+  if (!solve_borders(p.base.A, B, C, solution)) return std::nullopt;
   p.V = solution.topRows(n);
   p.G = solution.bottomRows(k);
   const bool symmetric = family.at(mu)->symmetric() && B == C;
-  if (!symmetric && !solve_borders(M.transpose(), k, solution)) return std::nullopt;
+  if (!symmetric && !solve_borders(p.base.A.transpose(), C, B, solution)) return std::nullopt;
   p.W = solution.topRows(n);
   return p;
 }
@@ -175,7 +176,7 @@ Vector Augmented::start_unknowns() const {
 
 std::optional<BorderedPlace> Augmented::place(const Vector& X, double mu) const {
   return bordered_place(family_, state(X), lambda(X), mu, start_.piece, borders_.left,
-                        borders_.right);
+                        borders_.right, std::move(spare_));
 }
 
 std::optional<double> Augmented::surface(const Vector& x, double lambda, double mu) const {
@@ -240,16 +241,20 @@ std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) con
 }
 
 bool Augmented::residual(const Vector& X, double mu, Vector& F) const {
-  const auto here = terms(X, mu);
-  return here && put_residual(X, *here, F);
+  auto here = terms(X, mu);
+  const bool defined = here && put_residual(X, *here, F);
+  if (here) spare_ = std::move(here->at.base);
+  return defined;
 }
 
 bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
-  const auto here = terms(X, mu);
+  auto here = terms(X, mu);
   if (!here) return false;
   Vector F;
   const auto exactness = put_residual(X, *here, F) ? exactness_for(X, F) : Exactness::exact;
-  return put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
+  const bool defined = put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
+  spare_ = std::move(here->at.base);
+  return defined;
 }
 
 bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
@@ -260,9 +265,11 @@ bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vect
 
 bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,
                           Vector& dF_dmu) const {
-  const auto here = terms(X, mu);
-  return here && put_residual(X, *here, F) &&
-         put_derivatives(X, mu, *here, exactness_for(X, F), dF_dX, dF_dmu);
+  auto here = terms(X, mu);
+  const bool defined = here && put_residual(X, *here, F) &&
+                       put_derivatives(X, mu, *here, exactness_for(X, F), dF_dX, dF_dmu);
+  if (here) spare_ = std::move(here->at.base);
+  return defined;
 }
 
 bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) const {
@@ -328,7 +335,6 @@ bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exac
   const Index crossing = k_ > 0 && !held_ ? k_ : 0;
   found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
   if (!put_rows(X, mu, terms, exactness, found.by_X)) return false;
-  BaseTerms there;
   const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
     Vector values(n_ + crossing + 1);
     values.head(n_) = base.F;
@@ -343,8 +349,8 @@ bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exac
     return values;
   };
   const auto at_parameter = [&](double m) -> std::optional<Vector> {
-    if (!base_terms(family_, x, l, m, start_.piece, there)) return std::nullopt;
-    return values_of(there, m);
+    if (!base_terms(family_, x, l, m, start_.piece, far_)) return std::nullopt;
+    return values_of(far_, m);
   };
   if (const auto other = far_on_line(mu)) {
     const auto far = at_parameter(*other), here = values_of(terms.at.base, mu);

@@ -17,9 +17,10 @@ struct BorderedPlace {
       const;  ///< norm of the longest column of V and W: beyond a few the borders are poor
 };
 
+/// @param storage  of equations that are not needed any more
 std::optional<BorderedPlace> bordered_place(const Family& family, const Vector& x, double lambda,
                                             double mu, const Piece& piece, const Matrix& B,
-                                            const Matrix& C);
+                                            const Matrix& C, BaseTerms storage = {});
 
 /// Left and right singular vectors of the k smallest singular values of dF/dx; for symmetric problems the same
 /// eigenvectors for both.
@@ -104,7 +105,8 @@ class Augmented {
   bool held_ = false;    ///< branch points: C^T (x - x_start) = 0 instead of W^T dF/dlambda = 0
   Vector weights_{}, periods_{};
   std::vector<Index> covers_{};
-  mutable Differences exact_{};  ///< the last ones
+  mutable Differences exact_{};        ///< the last ones
+  mutable BaseTerms spare_{}, far_{};  ///< storage: of terms(), of another member
 };
 
 }  // namespace springfold::continuation

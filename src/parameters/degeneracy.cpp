@@ -6,6 +6,7 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/extended_matrix.hpp"
+#include "springfold/core/small_lu.hpp"
 #include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::continuation {
@@ -38,16 +39,23 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
 }
 
-/// The determinant's sign with the size of the smallest singular value: continuous, and zero
-/// where one more eigenvalue of dF/dx vanishes. Singular values of symmetric matrices are sizes of eigenvalues.
-double signed_least(const Matrix& M, bool is_symmetric) {
-  if (is_symmetric) {
-    const Vector values = symmetric_eigenvalues(M);
-    const double least = values.cwiseAbs().minCoeff();
-    return (values.array() < 0).count() % 2 == 0 ? least : -least;
+/// The determinant's sign over the norm of the inverse: smooth, as large as the smallest singular value but for a factor of
+/// the root of the number of rows at most, and zero where one more eigenvalue of dF/dx vanishes.
+double signed_least(const Matrix& M) {
+  Matrix inverse;
+  int sign = 0;
+  if (SmallLu::fits(M.rows())) {
+    const SmallLu lu(M);
+    sign = lu.sign();
+    inverse.setIdentity(M.rows(), M.cols());
+    if (sign != 0) lu.solve(inverse);
+  } else {
+    const Lu lu(M);
+    sign = lu.sign();
+    inverse = lu.inverse();
   }
-  const Vector values = jacobi_svd(M).values;
-  return Lu(M).sign() * values[values.size() - 1];
+  const double size = inverse.norm();
+  return std::isfinite(size) ? sign / size : 0;
 }
 
 /// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on
@@ -111,9 +119,7 @@ double other_eigenvalue(const Augmented& s, const CurvePoint& p) {
   BaseTerms base;
   if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base))
     return not_a_number;
-  const auto problem = s.family().at(p.lambda);
-  return signed_least(bordered(base.J.leftCols(s.n()), {s.borders().left, s.borders().right}),
-                      problem && problem->symmetric());
+  return signed_least(bordered(base.A, {s.borders().left, s.borders().right}));
 }
 
 void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
