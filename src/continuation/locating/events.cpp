@@ -98,6 +98,30 @@ SampledFunction value_on(const TestedStep& arc, const Event& event,
   };
 }
 
+/// Does the event keep clear of zero between its samples? As the polynomial through them has it, which is off by less than it
+/// differs from the cubic through the step's ends; what the step does besides was looked for when it was taken.
+bool keeps_its_sign(const TestedStep& arc, const Event& event, std::span<const double> values) {
+  constexpr int parts =
+      8;  // a parabola's extremum between their ends is off by a 64th of its height
+  double least = infinity, most = 0, off = 0;
+  const auto take = [&](double value) {
+    least = std::min(least, values.front() < 0 ? -value : value);
+    most = std::max(most, std::abs(value));
+  };
+  for (const double value : values) take(value);
+  if (!(least > 0) || arc.straight_point(0.5 * arc.length())) return false;
+  for (int k = 1; k < parts; ++k) {
+    const auto expected = arc.expected(arc.length() * k / parts);
+    if (!expected) return false;
+    const double value = event.value(expected->by_samples);
+    if (!std::isfinite(value)) return false;
+    take(value);
+    if (k == 2 || k == parts - 2)
+      off = std::max(off, std::abs(event.value(expected->by_ends) - value));
+  }
+  return std::isfinite(off) && least > small_share * most && least > between_samples * off;
+}
+
 Hit hit_of(const Event& event, CurvePoint point, double before, double after) {
   return {.kind = HitKind::user,
           .name = event.name,
@@ -130,7 +154,7 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
   noise = std::max(noise, refined_step * scale);
   for (double* outer : {&values.front(), &values.back()})
     if (std::abs(*outer) <= noise) *outer = 0;
-  if (!within_reach(values)) return true;
+  if (!within_reach(values) || keeps_its_sign(arc, event, values)) return true;
   const SampledFunction value = value_on(arc, event, values);
   const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
   const bool is_met = !search.zeros.empty() || !search.resolved;

@@ -34,6 +34,23 @@ bool TestedStep::model_of_samples() const {
   return model_.go_through(walker_.weights, from_, Samples(samples_).first(sample_count_));
 }
 
+CurvePoint TestedStep::point_of_model(double ds) const {
+  CurvePoint point;
+  model_.point(walker_.weights, from_, ds, point);
+  return point;
+}
+
+std::optional<TestedStep::Expected> TestedStep::expected(double ds) const {
+  if (sample_count_ < 3 || (model_.empty() && (settled_ || !model_of_samples())))
+    return std::nullopt;
+  ArcModel& chord = walker_.memory->chord;
+  const std::array ends{samples_[0], samples_[sample_count_ - 1]};
+  if (!chord.go_through(walker_.weights, from_, ends)) return std::nullopt;
+  std::optional<Expected> expected(Expected{.by_samples = point_of_model(ds)});
+  chord.point(walker_.weights, from_, ds, expected->by_ends);
+  return expected;
+}
+
 std::optional<CurvePoint> TestedStep::point_once(double ds) const {
   if (model_.empty() && (settled_ || !model_of_samples())) return point_at(walker_, from_, ds);
   return point_near(walker_, model_, from_, ds);
@@ -183,20 +200,18 @@ bool TestedStep::is_on_curve(const CurvePoint& point, const Vector& F) const {
 }
 
 std::optional<CurvePoint> TestedStep::exact_place(double ds) const {
-  if (!settled_) settle_model();
-  if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
-  std::optional<CurvePoint> point(std::in_place);
-  model_.point(walker_.weights, from_, ds, *point);
+  if (!has_exact_model() || ds < 0 || ds > length_) return std::nullopt;
+  if (const auto known = exact_points_.find(ds); known != exact_points_.end()) return known->second;
+  std::optional<CurvePoint> point(point_of_model(ds));
   Vector& F = walker_.memory->F;
   const bool inside = walker_.problem.residual(point->x, point->lambda, point->piece, F);
   return inside && is_on_curve(*point, F) ? point : std::nullopt;
 }
 
 std::optional<CurvePoint> TestedStep::exact_point(double ds) const {
-  if (!settled_) settle_model();
-  if (!exact_ || ds < 0 || ds > length_) return std::nullopt;
-  std::optional<CurvePoint> point(std::in_place);
-  model_.point(walker_.weights, from_, ds, *point);
+  if (!has_exact_model() || ds < 0 || ds > length_) return std::nullopt;
+  if (const auto known = exact_points_.find(ds); known != exact_points_.end()) return known->second;
+  std::optional<CurvePoint> point(point_of_model(ds));
   LinearisedPoint* const place = place_on_model(*point);
   if (!place || !is_on_curve(*point, place->F)) return std::nullopt;
   const Direction expected = point->tangent;
@@ -204,6 +219,7 @@ std::optional<CurvePoint> TestedStep::exact_point(double ds) const {
     return std::nullopt;
   if (length_of(walker_, difference(point->tangent, expected)) > told_apart) return std::nullopt;
   if (walker_.problem.symmetric()) point->negative = place->factors.negative();
+  exact_points_.emplace(ds, *point);
   return point;
 }
 

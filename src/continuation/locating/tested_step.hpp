@@ -52,6 +52,12 @@ class TestedStep {
   std::optional<CurvePoint> exact_point(double ds) const;
   /// The same with the model's tangent, and nothing counted.
   std::optional<CurvePoint> exact_place(double ds) const;
+  /// Where the polynomial through the samples expects the curve, and where the cubic through the ends does: nothing is
+  /// evaluated. @returns nothing where there is no such polynomial
+  struct Expected {
+    CurvePoint by_samples{}, by_ends{};
+  };
+  std::optional<Expected> expected(double ds) const;
   std::optional<double> rate(double ds) const {
     if (const auto exact = exact_point(ds)) return exact->tangent.dlambda;
     const auto& p = point(ds);
@@ -81,6 +87,12 @@ class TestedStep {
   const CurvePoint& from_;
   double length_;
   std::optional<CurvePoint> find(double ds) const;
+  /// Is the model as exact as corrected points are?
+  bool has_exact_model() const {
+    if (!settled_) settle_model();
+    return exact_;
+  }
+  CurvePoint point_of_model(double ds) const;
   std::optional<CurvePoint> corrected(double ds) const;
   bool model_of_samples() const;
   LinearisedPoint* place_on_model(const CurvePoint& point) const;
@@ -105,6 +117,8 @@ class TestedStep {
   mutable std::optional<bool> straight_{};  ///< once it was asked
   mutable CurvePoint on_line_{};
   mutable std::map<double, std::optional<CurvePoint>> points_{};
+  mutable std::map<double, CurvePoint>
+      exact_points_{};  ///< several events are sampled at the same places
   mutable bool passing_ = false;
 };
 
