@@ -37,7 +37,7 @@ struct Member {
   /// Columns and what evaluates them: made when they are asked for, which most members never are.
   const std::vector<QuantityDefinition>& quantities() const;
   const Evaluator& evaluator() const;
-  /// Columns and what evaluates them are forgotten, for another value of the parameter.
+  /// Columns and what evaluates them are forgotten, for another value of the parameter; memory is kept.
   void forget_columns();
   const QuantityDefinition* quantity(const std::string& name) const;
 
@@ -45,6 +45,7 @@ struct Member {
 
  private:
   mutable std::unique_ptr<Evaluator> evaluator_{};
+  mutable bool evaluator_is_old_ = false;  ///< of a problem that has been renewed
   mutable std::vector<QuantityDefinition> quantities_{};
 };
 

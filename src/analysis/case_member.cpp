@@ -32,12 +32,16 @@ const std::vector<QuantityDefinition>& Member::quantities() const {
 }
 
 const Evaluator& Member::evaluator() const {
-  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(*problem, study, setup.scales);
+  if (!evaluator_)
+    evaluator_ = std::make_unique<Evaluator>(*problem, study, setup.scales);
+  else if (evaluator_is_old_)
+    evaluator_->renew(study, setup.scales);
+  evaluator_is_old_ = false;
   return *evaluator_;
 }
 
 void Member::forget_columns() {
-  evaluator_.reset();
+  evaluator_is_old_ = true;
   quantities_.clear();
 }
 

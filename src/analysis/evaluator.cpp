@@ -15,15 +15,28 @@ using Kind = QuantityDefinition::Kind;
 }  // namespace
 
 Evaluator::Evaluator(const PathProblem& problem, const Study& study, const Scales& scales)
-    : problem_{problem}, control_{study.control}, scales_{scales} {
+    : problem_{problem} {
+  renew(study, scales);
+}
+
+void Evaluator::renew(const Study& study, const Scales& scales) {
+  control_ = study.control;
+  scales_ = scales;
+  force_rate_ = column_rate_ = {};
+  rated_column_.clear();
+  scratch_.platform = {};
+  scratch_.tangent.clear();
+  scratch_.determinant = 0;
+  scratch_.stability = {};
   const auto body = static_cast<std::size_t>(study.body - 1);
-  const statics::System& system = problem.layout();
+  const statics::System& system = problem_.layout();
   first_pose_ = system.first_pose;
   t_ = system.body_slices[body].t;
   d_ = system.body_slices[body].count;
-  if (problem.structured() && problem.symmetric()) stages_.emplace(system);
+  stages_.reset();
+  if (problem_.structured() && problem_.symmetric()) stages_.emplace(system);
   measured_ = measured_direction(study, system.mechanism.bodies[body].task_space);
-  conjugate_ = problem.rule().t_rate;
+  conjugate_ = problem_.rule().t_rate;
   if (!conjugate_.isZero(0)) {
     // t_rate carries lambda's scale; the force goes with a unit displacement.
     conjugate_ /= measured_.dot(conjugate_);

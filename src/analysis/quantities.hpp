@@ -92,6 +92,8 @@ inline constexpr double allowed_closure_gap = 1e-9;
 class Evaluator {
  public:
   Evaluator(const PathProblem& problem, const Study& study, const Scales& scales);
+  /// The same anew, in its memory, after the problem has been renewed.
+  void renew(const Study& study, const Scales& scales);
 
   const PathProblem& problem() const { return problem_; }
 
@@ -198,8 +200,8 @@ class Evaluator {
 
   const PathProblem& problem_;
   mutable std::optional<statics::StageJacobians> stages_{};  ///< long chains, loads with potential
-  ControlMode control_;
-  Scales scales_;
+  ControlMode control_ = ControlMode::load;
+  Scales scales_{};
   Index first_pose_ = 0;
   Index t_ = 0, d_ = 0;          ///< pose of the study's body in z
   Vector measured_{};            ///< d entries
