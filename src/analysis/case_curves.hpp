@@ -26,8 +26,7 @@ struct Member {
   StartReport report{};
   statics::FirstEquilibrium first{};
   bool start_is_open = false;  ///< not looked for: of `first` the inputs alone are given
-  bool pose_is_known =
-      false;  ///< start_is_open: that of the start, which deflections are counted from
+  bool pose_is_known = false;  ///< start_is_open: that which deflections are counted from is
   std::unique_ptr<PathProblem> problem{};
 
   continuation::CurvePoint start() const;

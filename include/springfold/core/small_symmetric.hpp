@@ -85,8 +85,7 @@ class SmallSymmetric {
   Index n_ = 0, length_ = 0;  ///< of columns, a multiple of four
   Index done_ = 0;            ///< rows of L_11
   bool scaled_ = false;
-  Vector
-      entries_{};  ///< as many as were needed so far: objects of full size would be spread over many pages
+  Vector entries_{};  ///< grown to what was needed: most of the largest size would lie idle
   alignas(64) Column sizes_,
       least_;  ///< of row i of S A S: its largest entry; the smallest pivot that is not delayed
   Column scale_;
