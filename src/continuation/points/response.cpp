@@ -159,17 +159,15 @@ std::optional<double> bend_beside(ProblemView problem, const Vector& x, double l
   return 2 * bend * moved * 2 * clear_motion >= 1 ? std::optional(bend) : std::nullopt;
 }
 
-/// Is the stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel it?
-/// Special points are placed to `poor` at worst, in parts of the load: the next one is farther away than that.
-bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, const Vector& dx,
-                        double way) {
-  double multiplier = 0, rate = 0;
-  for (Index i = 0; i < x.size(); ++i) {
-    if (weights[i] != 0) continue;
-    multiplier = std::max(multiplier, std::abs(x[i]));
-    rate = std::max(rate, std::abs(dx[i]));
-  }
-  return poor * std::abs(lambda) <= way && poor * multiplier <= rate * way;
+/// Is the least stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel
+/// it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large; and special points are placed
+/// to `poor` at worst, in parts of lambda.
+bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, double way,
+                        double stiffness) {
+  double multiplier = 0;
+  for (Index i = 0; i < x.size(); ++i)
+    if (weights[i] == 0) multiplier = std::max(multiplier, std::abs(x[i]));
+  return poor * std::abs(lambda) <= way && together * multiplier <= stiffness;
 }
 
 /// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries count beside what they
@@ -218,8 +216,10 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
     response.lambda = slopes_in_a_unit * *bend;
   } else if (std::isfinite(way)) {
     // At a special point the next one is this one, which is no unit of anything.
-    const bool is_soft = is_of_soft_members(weights, x, lambda, dx, way);
-    if (way < tiny_share && is_singular(problem, x, lambda, piece, is_soft)) return std::nullopt;
+    if (way < tiny_share &&
+        is_singular(problem, x, lambda, piece,
+                    is_of_soft_members(weights, x, lambda, way, stiffness_of(weights, here))))
+      return std::nullopt;
     change = critical_loads * way;
     response.lambda = change;
   }
