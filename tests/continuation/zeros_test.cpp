@@ -42,6 +42,23 @@ TEST(Zeros, ThatTouchRightBesideACrossingAreFound) {
     }
 }
 
+TEST(Zeros, ThatAreToldApartHaveNoTouchBetweenThem) {
+  // Between them the function is no farther from zero than noise might be, but far clear of the noise that is seen.
+  for (double apart = 1e-3; apart < 4e-2; apart *= 1.05)
+    for (double first = 0.3; first < 0.31; first += 0.0007) {
+      const auto f = [=](double t) -> std::optional<double> {
+        return (t - first) * (t - first - apart);
+      };
+      const double farthest = 0.25 * apart * apart;
+      const ZeroSearch found = find_zeros(f, 0, 1, 1.2 * farthest, 1e-7, NoiseIs::doubt);
+      ASSERT_TRUE(found.resolved);
+      ASSERT_EQ(found.zeros.size(), 2u) << "from " << first << ", " << apart << " apart";
+      for (const ZeroOf& zero : found.zeros) EXPECT_FALSE(zero.touches || zero.several);
+      EXPECT_NEAR(found.zeros[0].at, first, 1e-9);
+      EXPECT_NEAR(found.zeros[1].at, first + apart, 1e-9);
+    }
+}
+
 TEST(Zeros, ThatTouchWithinNoiseOverAWideStretchAreOneTouch) {
   constexpr double noise = 1e-12;
   const auto f = [](double t) -> std::optional<double> {

@@ -272,6 +272,15 @@ class ZeroFinder {
     return std::abs(value) <= (stays ? clear / sure : 1) * measured_noise(fit, t);
   }
 
+  /// Between two zeros a function turns, whatever it is: where it is farthest from zero it has no zeros besides those to which
+  /// it falls on both sides. It is a touch only if these are one to what noise is seen.
+  bool turns_between_zeros(const Fit& fit, const std::vector<double>& knots, std::size_t i) const {
+    const auto value = [&](std::size_t k) { return fit.polynomial->first(knots[k]); };
+    const double v = value(i), left = value(i - 1), right = value(i + 1);
+    const bool farthest = v < 0 ? v < left && v < right : v > left && v > right;
+    return farthest && !is_lost(fit, knots[i], v);
+  }
+
   /// Is the polynomial lost in its noise all the way from one place to another?
   bool lost_between(const Fit& fit, double left, double right) const {
     const double cell = (fit.polynomial->b - fit.polynomial->a) / grid;
@@ -302,7 +311,8 @@ class ZeroFinder {
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const double here = knots[i], v = value(here);
       const bool extremum = i + 1 < knots.size();
-      if (extremum && may_touch(fit, here, v, value(before))) {
+      if (extremum && may_touch(fit, here, v, value(before)) &&
+          !turns_between_zeros(fit, knots, i)) {
         if (!accurate) return false;
         if (!touched) touch = here;
         touched = true;
