@@ -20,10 +20,31 @@ void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProbl
     entries[i].turns = problem.turns(entries[i].point.x, &entries[i + 1].turns);
 }
 
+/// A special point and the start part smooth curves; a row of a kink belongs to the side that it is seen from.
+void note_leaving(std::vector<Entry>& entries, std::size_t start, const PathProblem& problem) {
+  if (problem.switch_count() == 0) return;
+  for (std::size_t first = 0, end = 0; first < entries.size(); first = end) {
+    std::vector<const CurvePoint*> points;
+    const auto goes_on = [&](std::size_t i) {
+      const Entry &before = entries[i - 1], &next = entries[i];
+      const bool is_parted = i == start || next.leaving ||
+                             (before.hit != nullptr && !before.leaving) ||
+                             before.point.piece != next.point.piece;
+      return !is_parted;
+    };
+    for (end = first; end < entries.size() && (end == first || goes_on(end)); ++end)
+      points.push_back(&entries[end].point);
+    std::vector<Switches> leaving = leaving_switches(problem, points);
+    for (std::size_t i = first; i < end; ++i)
+      entries[i].not_resting = std::move(leaving[i - first]);
+  }
+}
+
 /// Rows at which springs rest, neighbours with the same answer together.
-void note_resting(const CurvePoint& point, std::size_t row, const Evaluator& evaluator,
+void note_resting(const Entry& entry, std::size_t row, const Evaluator& evaluator,
                   std::vector<RestingRows>& list) {
-  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point);
+  const auto found =
+      evaluator.resting_index_of(QuantityDefinition::Kind::index, entry.point, entry.not_resting);
   if (!found) return;
   using Stable = RestingRows::Stable;
   const RestingRows next{row, row,
@@ -41,7 +62,7 @@ void note_resting(const CurvePoint& point, std::size_t row, const Evaluator& eva
 }
 
 Sample sample_of(const RowMaking& making, const Entry& e) {
-  return {making.evaluator.values(making.quantities, e.point, &e.turns),
+  return {making.evaluator.values(making.quantities, e.point, &e.turns, e.not_resting),
           piece_text(making.problem.system(e.point.lambda), e.point.piece), ""};
 }
 
@@ -156,6 +177,7 @@ bool add_rows(const RowMaking& making, std::vector<Entry>& entries, Branch& bran
   if (making.asking != nullptr && !making.asking->goes_on())
     leave_out_between(entries, branch.start_row);
   count_turns(entries, branch.start_row, making.problem);
+  note_leaving(entries, branch.start_row, making.problem);
   branch.samples.reserve(entries.size());
   const auto goes_on = [&](const Entry& e) {
     if (making.asking == nullptr) return true;
@@ -164,13 +186,13 @@ bool add_rows(const RowMaking& making, std::vector<Entry>& entries, Branch& bran
   std::size_t i = 0;
   for (; i < entries.size() && goes_on(entries[i]); ++i) {
     branch.samples.push_back(sample_of(making, entries[i]));
-    note_resting(entries[i].point, i, making.evaluator, branch.resting);
+    note_resting(entries[i], i, making.evaluator, branch.resting);
   }
   if (i == entries.size()) return i == all;
   thin(making, i, entries, branch);
   branch.resting.clear();
   for (std::size_t k = 0; k < entries.size(); ++k)
-    note_resting(entries[k].point, k, making.evaluator, branch.resting);
+    note_resting(entries[k], k, making.evaluator, branch.resting);
   return false;
 }
 

@@ -16,6 +16,7 @@ struct Entry {
   bool leaving = false;     ///< second row of a kink
   bool is_between = false;  ///< no accepted point, for a row between those of the steps
   Turns turns{};            ///< rotation vectors that continue those of the row before
+  Switches not_resting{};   ///< they are near their threshold and do not rest there
 };
 
 /// Points and special points of one direction in the order of s, without the start.

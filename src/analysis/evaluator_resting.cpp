@@ -10,7 +10,6 @@ namespace springfold::analysis {
 namespace {
 
 using Kind = QuantityDefinition::Kind;
-using Switches = std::vector<std::size_t>;
 
 /// Gradients of the switches by the unknowns of the path's own equations, as columns.
 std::optional<Matrix> own_directions(const PathProblem& problem, const continuation::CurvePoint& at,
@@ -39,10 +38,23 @@ std::optional<Matrix> whole_directions(const PathProblem& problem,
 
 }  // namespace
 
-std::optional<RestingIndex> Evaluator::resting_index_of(
-    Kind kind, const continuation::CurvePoint& point) const {
+Switches Evaluator::resting_at(const continuation::CurvePoint& point,
+                               const Switches& leaving) const {
+  if (problem_.switch_count() == 0) return {};
+  if (!rest_ || !is_same(rest_->point, point))
+    rest_ = KnownRest{point, resting_switches(problem_, point)};
+  Switches resting = rest_->list;
+  std::erase_if(resting, [&](std::size_t j) {
+    return std::find(leaving.begin(), leaving.end(), j) != leaving.end();
+  });
+  return resting;
+}
+
+std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
+                                                        const continuation::CurvePoint& point,
+                                                        const Switches& leaving) const {
   if (stages_ || !problem_.symmetric()) return std::nullopt;
-  const std::vector<std::size_t> resting = resting_switches(problem_, point);
+  const Switches resting = resting_at(point, leaving);
   if (resting.empty()) return std::nullopt;
   const auto directions = kind == Kind::index ? own_directions(problem_, point, resting)
                                               : whole_directions(problem_, point, resting);
@@ -76,14 +88,14 @@ std::optional<RestingIndex> Evaluator::resting_index_of(
 }
 
 void Evaluator::decide_indices(const std::vector<QuantityDefinition>& quantities,
-                               const continuation::CurvePoint& point,
+                               const continuation::CurvePoint& point, const Switches& leaving,
                                std::vector<double>& values) const {
-  const std::vector<std::size_t> resting = resting_switches(problem_, point);
+  const Switches resting = resting_at(point, leaving);
   if (resting.empty()) return;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const Kind kind = quantities[i].kind;
     if (kind != Kind::index && kind != Kind::index_pose && kind != Kind::index_force) continue;
-    if (const auto decided = resting_index_of(kind, point))
+    if (const auto decided = resting_index_of(kind, point, leaving))
       values[i] = decided->index();
     else
       values[i] = largest_index(quantities[i], point, resting, values[i]);

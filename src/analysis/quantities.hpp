@@ -103,9 +103,10 @@ class Evaluator {
                const Turns* turns = nullptr) const;
 
   /// All quantities; assembles the matrix once.
+  /// @param leaving  switches that are known not to rest there
   std::vector<double> values(const std::vector<QuantityDefinition>& quantities,
-                             const continuation::CurvePoint& point,
-                             const Turns* turns = nullptr) const;
+                             const continuation::CurvePoint& point, const Turns* turns = nullptr,
+                             const Switches& leaving = {}) const;
 
   /// d(value)/ds along the tangent for linear quantities, NaN for the others.
   std::vector<double> rates(const std::vector<QuantityDefinition>& quantities,
@@ -144,9 +145,11 @@ class Evaluator {
   std::vector<Matrix> chain_stiffnesses(const continuation::CurvePoint& point) const;
 
   /// Where springs rest at their threshold: the number of unstable modes as all pieces together say.
-  /// @param kind  index, index_pose or index_force
+  /// @param kind     index, index_pose or index_force
+  /// @param leaving  switches that are known not to rest there
   std::optional<RestingIndex> resting_index_of(QuantityDefinition::Kind kind,
-                                               const continuation::CurvePoint& point) const;
+                                               const continuation::CurvePoint& point,
+                                               const Switches& leaving = {}) const;
 
  private:
   struct Assembled {
@@ -188,9 +191,13 @@ class Evaluator {
   double guided_stiffness(const continuation::CurvePoint& point, const Assembled& at) const;
   /// Where springs rest at their threshold: what all pieces together say.
   void decide_indices(const std::vector<QuantityDefinition>& quantities,
-                      const continuation::CurvePoint& point, std::vector<double>& values) const;
+                      const continuation::CurvePoint& point, const Switches& leaving,
+                      std::vector<double>& values) const;
+  /// Switches that rest there, those that are known to leave left out.
+  Switches resting_at(const continuation::CurvePoint& point, const Switches& leaving) const;
   /// Unstable modes if the displacement along the load were driven, from those under the load.
-  double driven_index(const continuation::CurvePoint& point, double index) const;
+  double driven_index(const continuation::CurvePoint& point, double index,
+                      const Switches& leaving) const;
   /// Where that is not known: the largest number of unstable modes of all sides.
   double largest_index(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                        const std::vector<std::size_t>& resting, double own) const;
@@ -223,6 +230,11 @@ class Evaluator {
   mutable KnownRate force_rate_{};
   mutable KnownRate column_rate_{};  ///< of the column that was asked for last
   mutable std::string rated_column_{};
+  struct KnownRest {
+    continuation::CurvePoint point{};
+    Switches list{};
+  };
+  mutable std::optional<KnownRest> rest_{};  ///< of the point that was asked for last
 };
 
 }  // namespace springfold::analysis

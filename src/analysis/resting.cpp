@@ -62,49 +62,122 @@ std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
   return M ? std::optional<Vector>(jumps) : std::nullopt;
 }
 
-/// What switches that are zero within rounding are within, and rates that are none.
-constexpr double zero_switch = continuation::promised_place,
-                 zero_switch_rate = continuation::flat_rate;
+/// What no spring that rests is farther from its threshold than.
+constexpr double zero_switch = continuation::promised_place;
 
-/// The switches at the point of the curve that is so far ahead that it can be told from this one. Beside a singular point the
-/// tangent is as uncertain as the state: a state that is off by e, at a distance d from it, has a tangent that is off by e/d.
-std::optional<Vector> switches_ahead(const PathProblem& problem,
-                                     const continuation::CurvePoint& point) {
+/// Switches at a point of the curve, their rates along it, and what rounding does to them.
+struct SwitchPlaces {
+  Vector g{}, rates{}, rounding{};
+  bool is_zero(Index j) const { return std::abs(g[j]) <= rounding[j]; }
+  /// Does it seem to stay zero as far as points of a curve need not be told apart?
+  bool seems_to_stay(Index j) const {
+    return std::abs(g[j] + continuation::told_apart * rates[j]) <= rounding[j];
+  }
+};
+
+/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that
+/// round, times the inverse of the bordered matrix: beside a singular point that is as large as their distance is
+/// small, across a stiff spring as small as the spring is stiff.
+std::optional<SwitchPlaces> places_at(const PathProblem& problem,
+                                      const continuation::CurvePoint& point) {
+  SwitchPlaces at;
+  Matrix dg;
+  Vector dg_dlambda;
+  continuation::Linearisation linear;
+  if (!problem.switches(point.x, point.lambda, at.g) ||
+      !problem.switch_gradients(point.x, point.lambda, dg, dg_dlambda) ||
+      !continuation::linearise_densely(problem, point.x, point.lambda, point.piece, linear))
+    return std::nullopt;
+  const Index n = point.x.size();
+  const bool has_tangent = point.tangent.dx.size() == n;
+  Matrix bordered = Matrix::Zero(n + 1, n + 1), gradients(n + 1, at.g.size());
+  bordered.topLeftCorner(n, n) = linear.dF_dx;
+  bordered.topRightCorner(n, 1) = linear.dF_dlambda;
+  bordered(n, n) = has_tangent ? point.tangent.dlambda : 1;
+  if (has_tangent)
+    bordered.bottomLeftCorner(1, n) = problem.metric().cwiseProduct(point.tangent.dx).transpose();
+  gradients << dg.transpose(), dg_dlambda.transpose();
+  const double terms = (linear.dF_dx.cwiseAbs() * point.x.cwiseAbs() +
+                        std::abs(point.lambda) * linear.dF_dlambda.cwiseAbs())
+                           .lpNorm<Eigen::Infinity>();
+  const double size = std::max({1.0, point.x.lpNorm<Eigen::Infinity>(), std::abs(point.lambda)});
+  const Matrix answers = bordered.transpose().partialPivLu().solve(gradients);
+  at.rates = has_tangent ? Vector(dg * point.tangent.dx + point.tangent.dlambda * dg_dlambda)
+                         : Vector(Vector::Zero(at.g.size()));
+  at.rounding.resize(at.g.size());
+  for (Index j = 0; j < at.g.size(); ++j) {
+    const double own =
+        continuation::refined_step * (size * gradients.col(j).lpNorm<1>() +
+                                      std::max(1.0, terms) * answers.col(j).head(n).lpNorm<1>());
+    at.rounding[j] = own < zero_switch ? own : zero_switch;
+  }
+  return at;
+}
+
+/// The point of the curve that is so far ahead that it can be told from this one. Beside a singular point the tangent
+/// is as uncertain as the state: a state that is off by e, at a distance d from it, has a tangent that is off by e/d.
+std::optional<SwitchPlaces> places_ahead(const PathProblem& problem,
+                                         const continuation::CurvePoint& point) {
   const double ds = continuation::told_apart;
   const auto ahead = continuation::correct(
       problem, problem.metric(), point.x + ds * point.tangent.dx,
       point.lambda + ds * point.tangent.dlambda, point.piece, point.tangent, {});
+  if (!converged(ahead)) return std::nullopt;
+  continuation::CurvePoint there = point;
+  there.x = ahead.x;
+  there.lambda = ahead.lambda;
+  return places_at(problem, there);
+}
+
+bool has_zero_switch(const PathProblem& problem, const continuation::CurvePoint& point) {
   Vector g;
-  if (!converged(ahead) || !problem.switches(ahead.x, ahead.lambda, g)) return std::nullopt;
-  return g;
+  return problem.switch_count() > 0 && problem.switches(point.x, point.lambda, g) &&
+         g.cwiseAbs().minCoeff() <= zero_switch;
 }
 
 }  // namespace
 
-std::vector<std::size_t> resting_switches(const PathProblem& problem,
-                                          const continuation::CurvePoint& point) {
-  Vector g;
-  if (problem.switch_count() == 0 || !problem.switches(point.x, point.lambda, g)) return {};
-  if (!(g.cwiseAbs().minCoeff() <= zero_switch)) return {};
-  Matrix dg;
-  Vector dg_dlambda;
-  const bool has_tangent = point.tangent.dx.size() == point.x.size();
-  if (has_tangent && !problem.switch_gradients(point.x, point.lambda, dg, dg_dlambda)) return {};
-  std::vector<std::size_t> list, moving;
-  for (Index j = 0; j < g.size(); ++j) {
-    if (std::abs(g[j]) > zero_switch) continue;
-    const double rate =
-        has_tangent ? dg.row(j).dot(point.tangent.dx) + dg_dlambda[j] * point.tangent.dlambda : 0;
-    (std::abs(rate) <= zero_switch_rate ? list : moving).push_back(static_cast<std::size_t>(j));
-  }
+Switches resting_switches(const PathProblem& problem, const continuation::CurvePoint& point) {
+  if (!has_zero_switch(problem, point)) return {};
+  const auto here = places_at(problem, point);
+  if (!here) return {};
+  Switches list, moving;
+  for (Index j = 0; j < here->g.size(); ++j)
+    if (here->is_zero(j))
+      (here->seems_to_stay(j) ? list : moving).push_back(static_cast<std::size_t>(j));
   if (moving.empty()) return list;
-  if (const auto ahead = switches_ahead(problem, point))
-    for (const std::size_t j : moving) {
-      const auto i = static_cast<Index>(j);
-      if (std::abs((*ahead)[i] - g[i]) <= zero_switch_rate * continuation::told_apart)
-        list.push_back(j);
-    }
+  if (const auto ahead = places_ahead(problem, point))
+    for (const std::size_t j : moving)
+      if (ahead->is_zero(static_cast<Index>(j))) list.push_back(j);
   std::sort(list.begin(), list.end());
+  return list;
+}
+
+std::vector<Switches> leaving_switches(const PathProblem& problem,
+                                       const std::vector<const continuation::CurvePoint*>& points) {
+  std::vector<Switches> list(points.size());
+  const auto is_near = [&](const auto* p) { return has_zero_switch(problem, *p); };
+  if (points.empty() || !std::any_of(points.begin(), points.end(), is_near)) return list;
+  // Beside the ends rounding may be that of a singular point.
+  const double begin = points.front()->s + continuation::told_apart,
+               end = points.back()->s - continuation::told_apart;
+  std::vector<bool> leaves(static_cast<std::size_t>(problem.switch_count()), false);
+  Vector g;
+  for (const auto* point : points) {
+    if (point->s < begin || point->s > end || !problem.switches(point->x, point->lambda, g))
+      continue;
+    const bool near = g.cwiseAbs().minCoeff() <= zero_switch;
+    const auto at = near ? places_at(problem, *point) : std::nullopt;
+    for (Index j = 0; j < g.size(); ++j)
+      if (std::abs(g[j]) > (at ? at->rounding[j] : zero_switch))
+        leaves[static_cast<std::size_t>(j)] = true;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!problem.switches(points[i]->x, points[i]->lambda, g)) continue;
+    for (Index j = 0; j < g.size(); ++j)
+      if (std::abs(g[j]) <= zero_switch && leaves[static_cast<std::size_t>(j)])
+        list[i].push_back(static_cast<std::size_t>(j));
+  }
   return list;
 }
 

@@ -11,9 +11,19 @@
 
 namespace springfold::analysis {
 
-/// Numbers of the switches that do not leave zero along the curve, seen from this point (without a tangent: are zero).
-std::vector<std::size_t> resting_switches(const PathProblem& problem,
-                                          const continuation::CurvePoint& point);
+/// Numbers of switches.
+using Switches = std::vector<std::size_t>;
+
+/// Numbers of the switches that are zero within their own rounding, and do not leave zero along the curve, seen from
+/// this point (without a tangent: are zero). The rounding of a switch is what that of the equations makes of it: the
+/// force of a stiff spring tells distances from its threshold that are far below those of places.
+Switches resting_switches(const PathProblem& problem, const continuation::CurvePoint& point);
+
+/// For every point of one smooth curve the switches that are so near to zero that they might rest, and do not: the
+/// curve is clear of their surface elsewhere. A function that is zero along a part of it is zero along all of it.
+/// @param points  of one piece, between two special points
+std::vector<Switches> leaving_switches(const PathProblem& problem,
+                                       const std::vector<const continuation::CurvePoint*>& points);
 
 /// All pieces that meet where these switches rest, the given one among them; at most 2^6.
 std::vector<Piece> pieces_around(const Piece& piece, const std::vector<std::size_t>& resting);
