@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "branch_rows.hpp"
+#include "row_indices.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -52,13 +53,7 @@ void note_resting(const Entry& entry, std::size_t row, const Evaluator& evaluato
                          : found->verdict == Definiteness::not_positive ? Stable::no
                                                                         : Stable::undecided,
                          static_cast<int>(found->fewest), static_cast<int>(found->most)};
-  const bool goes_on = !list.empty() && list.back().last + 1 == row &&
-                       list.back().stable == next.stable && list.back().fewest == next.fewest &&
-                       list.back().most == next.most;
-  if (goes_on)
-    list.back().last = row;
-  else
-    list.push_back(next);
+  add_resting(next, list);
 }
 
 Sample sample_of(const RowMaking& making, const Entry& e) {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "springfold/analysis/event_rows.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -32,6 +36,86 @@ CriticalRows critical_rows(const Branch& branch) {
   return rows;
 }
 
+/// Rows that are nearer to a special point of those, along the branch on one side of it, than the engine tells points
+/// apart.
+class RowsBeside {
+ public:
+  /// @param critical  rows of those points
+  RowsBeside(const Branch& branch, const std::vector<bool>& critical)
+      : branch_{branch}, is_special_{critical}, is_near_(critical.size(), false) {
+    for (const Event& event : branch.events) {
+      if (event.kind == EventKind::user_value || event.kind == EventKind::end_of_range) continue;
+      is_special_[event.row] = true;
+      if (has_two_rows(branch, event)) is_special_[event.row + 1] = true;
+    }
+    for (std::size_t i = 0; i < critical.size(); ++i)
+      if (critical[i])
+        for (const std::size_t step : {ahead, back})
+          for (std::size_t k = i + step; is_near(i, k); k += step) is_near_[k] = true;
+  }
+
+  /// The first row beyond those beside a point that has no other special point before it; nothing if there is none.
+  std::optional<std::size_t> first_beyond(std::size_t point, std::size_t step) const {
+    std::size_t k = point + step;
+    while (k < is_near_.size() && is_near_[k]) k += step;
+    if (k >= is_near_.size() || is_special_[k]) return std::nullopt;
+    return k;
+  }
+
+  static constexpr std::size_t ahead = 1, back = static_cast<std::size_t>(-1);
+
+ private:
+  bool is_near(std::size_t point, std::size_t row) const {
+    if (row >= is_near_.size() || is_special_[row]) return false;
+    const auto s = [&](std::size_t i) { return branch_.samples[i].values.front(); };
+    return std::abs(s(row) - s(point)) <= continuation::told_apart;
+  }
+
+  const Branch& branch_;
+  std::vector<bool> is_special_, is_near_;
+};
+
+/// Beside a critical point the eigenvalue that vanishes there is smaller than what rounding of the place makes of it.
+/// Rows that are nearer than the engine tells points apart have the counts of the first row beyond them on that side:
+/// counts change at special points only.
+/// @param critical  the rows of critical points
+/// @returns for every row the one whose count it has
+std::vector<std::size_t> counted_rows(const Branch& branch, const std::vector<bool>& critical) {
+  std::vector<std::size_t> rows(critical.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  const RowsBeside beside(branch, critical);
+  for (std::size_t i = 0; i < critical.size(); ++i) {
+    if (!critical[i]) continue;
+    for (const std::size_t step : {RowsBeside::ahead, RowsBeside::back})
+      if (const auto beyond = beside.first_beyond(i, step))
+        for (std::size_t k = i + step; k != *beyond; k += step) rows[k] = *beyond;
+  }
+  return rows;
+}
+
+void take_counts(Branch& branch, const std::vector<std::size_t>& rows, std::size_t quantity) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double count = branch.samples[rows[i]].values[quantity];
+    if (!std::isnan(count)) branch.samples[i].values[quantity] = count;
+  }
+}
+
+/// Rows at which springs rest have the answer of the row that they are counted at.
+void settle_resting(Branch& branch, const std::vector<std::size_t>& rows) {
+  if (branch.resting.empty()) return;
+  std::vector<const RestingRows*> at(rows.size(), nullptr);
+  for (const RestingRows& known : branch.resting)
+    for (std::size_t i = known.first; i <= known.last; ++i) at[i] = &known;
+  std::vector<RestingRows> settled;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (at[rows[i]] == nullptr) continue;
+    RestingRows next = *at[rows[i]];
+    next.first = next.last = i;
+    add_resting(next, settled);
+  }
+  branch.resting = std::move(settled);
+}
+
 /// The smaller of the counts before and behind a row.
 double smaller_beside(const Branch& branch, const CriticalRows& rows, std::size_t row,
                       std::size_t quantity) {
@@ -47,6 +131,16 @@ double smaller_beside(const Branch& branch, const CriticalRows& rows, std::size_
 
 }  // namespace
 
+void add_resting(const RestingRows& next, std::vector<RestingRows>& list) {
+  const bool goes_on = !list.empty() && list.back().last + 1 == next.first &&
+                       list.back().stable == next.stable && list.back().fewest == next.fewest &&
+                       list.back().most == next.most;
+  if (goes_on)
+    list.back().last = next.last;
+  else
+    list.push_back(next);
+}
+
 void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantities) {
   const CriticalRows critical = critical_rows(branch);
   const bool has_driven = std::any_of(quantities.begin(), quantities.end(), [](const auto& q) {
@@ -56,6 +150,7 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
   std::vector<bool> changes = critical.here;
   for (const Event& event : branch.events)
     if (event.kind == EventKind::stability_change) changes[event.row] = true;
+  settle_resting(branch, counted_rows(branch, critical.here));
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const auto kind = quantities[q].kind;
     if (kind != QuantityDefinition::Kind::index && kind != QuantityDefinition::Kind::index_force &&
@@ -65,6 +160,9 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
     const auto of_changes =
         has_driven ? QuantityDefinition::Kind::index_driven : QuantityDefinition::Kind::index_force;
     const std::vector<bool>& at_zero = kind == of_changes ? changes : critical.here;
+    // Of the count with all bodies held nothing is known between special points.
+    if (kind != QuantityDefinition::Kind::index_pose)
+      take_counts(branch, counted_rows(branch, at_zero), q);
     for (std::size_t i = 0; i < branch.samples.size(); ++i) {
       double& value = branch.samples[i].values[q];
       const bool unknown = std::isnan(value) && !branch.samples[i].event.empty();
