@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "springfold/continuation/newton.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/response.hpp"
 #include "springfold/core/scaling.hpp"
 #include "start.hpp"
@@ -148,10 +149,12 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
                   const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
   const Given given{mechanism, study, family};
   if (settle(given, first, setup)) return;
-  // Units that are off by the whole range of numbers hide what is regular: those of its ends may not.
+  // Units that are off by the whole range of numbers hide what is regular: those of its ends may not. A spring hides below
+  // `poor`.
   const auto [softest, stiffest] = range_of_springs(mechanism, setup.scales.length);
   const Units before{setup.scales.force, {}};
   for (const double force : {softest, stiffest}) {
+    if (force == softest && !(softest < continuation::poor * before.force)) continue;
     const Units units{power_of_two_near(force), {}};
     if (change_units(given, units, first, setup) && settle(given, first, setup)) return;
   }

@@ -160,14 +160,15 @@ std::optional<double> bend_beside(ProblemView problem, const Vector& x, double l
 }
 
 /// Is the least stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel
-/// it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large; and special points are placed
+/// it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large, and where they are a thousand
+/// times what is left they may have cancelled the rest; special points are placed
 /// to `poor` at worst, in parts of lambda.
 bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, double way,
                         double stiffness) {
   double multiplier = 0;
   for (Index i = 0; i < x.size(); ++i)
     if (weights[i] == 0) multiplier = std::max(multiplier, std::abs(x[i]));
-  return poor * std::abs(lambda) <= way && together * multiplier <= stiffness;
+  return poor * std::abs(lambda) <= way && tiny_share * multiplier <= stiffness;
 }
 
 /// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries count beside what they
