@@ -54,6 +54,12 @@ std::vector<continuation::Event> events_through(const Following& t) {
   return events;
 }
 
+/// The next point of a curve: an ordinary one, or where the curve ends before the first of them; nullptr: it ends at the start.
+const CurvePoint* next_point(const Curve& curve) {
+  if (curve.points.size() > 1) return &curve.points[1];
+  return !curve.hits.empty() && curve.hits.back().point.s > 0 ? &curve.hits.back().point : nullptr;
+}
+
 /// Could the start be a special point? Where lambda stands still, springs rest, or an event may be zero.
 bool may_be_special(const Following& t, const Curve& backward, const Curve& forward,
                     const std::vector<continuation::Event>& events) {
@@ -66,15 +72,15 @@ bool may_be_special(const Following& t, const Curve& backward, const Curve& forw
       g.cwiseAbs().minCoeff() <= same_as_start)
     return true;
   return std::any_of(events.begin(), events.end(), [&](const continuation::Event& event) {
-    const double beside = std::max(std::abs(event.value(backward.points[1])),
-                                   std::abs(event.value(forward.points[1])));
+    const double beside = std::max(std::abs(event.value(*next_point(backward))),
+                                   std::abs(event.value(*next_point(forward))));
     return !(std::abs(event.value(start)) > perhaps_zero * beside);
   });
 }
 
 /// How far the short curve may begin from the start: half of the way to the first special point of the curve.
 double free_way(const Curve& curve) {
-  const double first = curve.points[1].s;
+  const double first = next_point(curve)->s;
   return curve.hits.empty() ? first : std::min(first, 0.5 * curve.hits.front().point.s);
 }
 
@@ -87,7 +93,8 @@ CurvePoint turned_round(CurvePoint point) {
 std::optional<CurvePoint> point_before(const Following& t, const Curve& backward,
                                        continuation::TraceOptions options) {
   const CurvePoint& start = backward.points.front();
-  if (options.step.maximum == backward.points[1].s) return turned_round(backward.points[1]);
+  const CurvePoint& next = *next_point(backward);
+  if (options.step.maximum == next.s) return turned_round(next);
   options.maximum_points = 2;
   const Curve way =
       trace(t.problem, start.x, start.lambda, {start.piece, start.tangent}, {}, options);
@@ -163,8 +170,8 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
   if (before == nullptr || after == nullptr) return std::nullopt;
   const bool turns = before->tangent.dlambda * after->tangent.dlambda > 0;
   if (problem.symmetric()) {
-    const auto &behind = source.backward.points[1].negative,
-               &ahead = source.forward.points[1].negative;
+    const auto &behind = next_point(source.backward)->negative,
+               &ahead = next_point(source.forward)->negative;
     if (!behind || !ahead || std::abs(*ahead - *behind) != (turns ? 1 : 0)) return std::nullopt;
   }
   hit.kind = turns ? HitKind::limit_point : HitKind::touch;
@@ -180,7 +187,7 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
   if (t.study.path == Path::davidenko) return {};
   if (forward.stop == continuation::StopReason::closed) return opened_at_start(source, t.evaluator);
   std::vector<Hit> hits = taken_from_both(source);
-  if (backward.points.size() < 2 || forward.points.size() < 2) return hits;
+  if (next_point(backward) == nullptr || next_point(forward) == nullptr) return hits;
   const auto events = events_through(t);
   if (!may_be_special(t, backward, forward, events)) return hits;
   const double way = std::min(free_way(backward), free_way(forward));

@@ -314,5 +314,27 @@ TEST(StateAtTheLimitLoad, HasNoIndexThatRoundingDecides) {
   EXPECT_EQ(at_limit, 1);
 }
 
+/// A bar on a hinge of 1 under a constant load of 1 + d: the branch point lies at lambda = -d, not at the start.
+TEST(StartBesideABranchPoint, HasItWhereItIs) {
+  for (const double d : {1e-5, 1e-6, 1e-7, -1e-6, -1e-7}) {
+    const auto ran =
+        run("[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n[[chain]]\nname = "
+            "\"mast\"\nelements = [ { joint = \"revolute\", axis = \"z\", name = \"foot\", role = "
+            "\"preloaded\", spring = { law = \"linear\", stiffness = 1 } }, { rigid = [0, 1] } ]\n"
+            "[[study]]\nname = \"s\"\ncontrol = \"load\"\ndirection = [0, -1]\nload = [0, " +
+            number(-1 - d) +
+            "]\nuntil = { lambda = [-1, 1], mast.foot = [-1, 1] }\nbranches = { depth = 1 }\n");
+    const auto& result = ran.of("s");
+    EXPECT_TRUE(complete(result)) << d;
+    EXPECT_THAT(result.branches, SizeIs(3)) << d;
+    const auto loads = lambdas(result, EventKind::branch_point);
+    ASSERT_THAT(loads, SizeIs(1)) << d;
+    EXPECT_NEAR(loads[0], -d, 1e-10);
+    EXPECT_EQ(
+        result.branches[0].samples[result.branches[0].start_row].values[column(result, "index")],
+        d > 0 ? 1 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -51,6 +51,17 @@ TEST(StartOnAThreshold, HasTheSwitchingOfTheSameCurveBegunElsewhere) {
   }
 }
 
+TEST(StartOnAThreshold, HasItsSwitchingHoweverNearTheRangeEnds) {
+  for (const char* range : {"[-0.001, 1]", "[-1e-6, 1]", "[-1, 1e-4]", "[-1e-5, 1e-5]"}) {
+    const Ran ran =
+        run(slider("1", 3, pulled("s", "until = { lambda = " + std::string{range} + " }\n")));
+    const auto& result = ran.of("s");
+    EXPECT_TRUE(complete(result)) << range;
+    EXPECT_THAT(labels_at_start(result), testing::ElementsAre("EP1", "SA1", "EP2")) << range;
+    EXPECT_NEAR(value(result, result.branches[0].events[1].row, "lambda"), 0, 1e-12);
+  }
+}
+
 TEST(StartOnAThreshold, IsFollowedInASecondParameterAndHasRates) {
   // Another stiffness moves the start away from 1 and the threshold with it: the switching stays at the start.
   const std::string two =

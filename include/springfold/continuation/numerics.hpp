@@ -104,10 +104,10 @@ inline constexpr double level_reach = 1e-2;
 /// may be placed poorly the share is `poor`, and a piece whose tangent is wanted to `one_place` is regular from there.
 inline constexpr double located_rank = 100 * promised_place;
 /// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the others.
-inline Index vanishing_values(const Vector& values) {
+inline Index vanishing_values(const Vector& values, double share = poor) {
   constexpr double gap = 30;
   for (Index i = 0; i < values.size(); ++i)
-    if (values[i] <= poor && values[i] * gap < (i > 0 ? values[i - 1] : 1))
+    if (values[i] <= share && values[i] * gap < (i > 0 ? values[i - 1] : 1))
       return values.size() - i;
   return 0;
 }

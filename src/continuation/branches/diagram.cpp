@@ -181,7 +181,7 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   if (active.size() > most_active)
     return doubt(DoubtKind::ways_missing,
                  "directions at the start may be missing: too many switches act there", point);
-  const int corank = active.empty() ? corank_of(walker_, point) : 0;
+  const int corank = active.empty() ? corank_of(walker_, point, located_rank) : 0;
   Hit hit{.kind = HitKind::branch_point, .point = point};
   hit.multiplicity = std::max(corank, 1);
   if (!active.empty()) {

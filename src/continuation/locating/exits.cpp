@@ -241,11 +241,11 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
   return exits_of(*e, search.set, search.doubt, near_enough);
 }
 
-int corank_of(const Walker& walker, const CurvePoint& at) {
+int corank_of(const Walker& walker, const CurvePoint& at, double share) {
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return -1;
   if (own->J.rows() == 0) return 0;
-  return static_cast<int>(vanishing_values(divided_svd(own->J).values));
+  return static_cast<int>(vanishing_values(divided_svd(own->J).values, share));
 }
 
 }  // namespace springfold::continuation
