@@ -42,6 +42,8 @@ Stop stop_of(const Curve& curve) {
   if (!curve.stop_detail.empty())
     stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
   stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
+  const bool parts = !curve.hits.empty() && curve.hits.back().leaving.size() > 1;
+  if (!stop.complete && parts) stop.reason += "; each is a branch: branches.depth = 1 follows them";
   return stop;
 }
 

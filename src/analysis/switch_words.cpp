@@ -42,6 +42,7 @@ bool is_between_equal_segments(const statics::System& system, const continuation
          });
 }
 
+/// Springs that reach a breakpoint together with others and go back switch nothing: they are left out.
 std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
                              const Piece& before, const Piece& after) {
   std::string text;
@@ -49,6 +50,7 @@ std::string switching_detail(const statics::System& system, const continuation::
     const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
     const model::CompiledSpring& law = law_of(system, s);
     const std::size_t from = segment_in(system, s, before), to = segment_in(system, s, after);
+    if (from == to) continue;
     const double k_from = law.stiffness(from, s.breakpoint);
     const double k_to = law.stiffness(to, s.breakpoint);
     const bool was_flat = k_from == 0 && law.is_straight(from);

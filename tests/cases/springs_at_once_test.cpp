@@ -79,5 +79,29 @@ TEST(SpringsAtOnce, HaveRatesByParametersThatKeepThemTogetherOnly) {
   EXPECT_TRUE(std::isnan(value(result, found->row, "d(lambda)/d(e)")));
 }
 
+/// Two sliders reach their breakpoints at one load: s1 falls behind its own, and s0 goes back from where it came.
+TEST(SpringsAtOnce, OfWhichOneGoesBackAreToldWithoutIt) {
+  const auto ran = run(R"toml(
+[[body]]
+name = "tool"
+task_space = "xy"
+[[chain]]
+name = "rail"
+elements = [ { joint = "prismatic", axis = "x", name = "s0", role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [0.5], stiffnesses = [2, 4] } }, { joint = "prismatic", axis = "y", name = "s1", role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [0.5, 1], stiffnesses = [2, -1, 3], falling = true } } ]
+[[study]]
+name = "push"
+control = "load"
+direction = [1, 1]
+until = { lambda = [-0.5, 2] }
+)toml");
+  const auto& events = ran.of("push").branches.at(0).events;
+  const auto corner = std::find_if(events.begin(), events.end(), [](const auto& event) {
+    return event.kind == analysis::EventKind::corner_limit_point;
+  });
+  ASSERT_NE(corner, events.end());
+  EXPECT_EQ(corner->detail.rfind("spring rail.s1 gets softer (segment 0 to 1)", 0), 0u)
+      << corner->detail;
+}
+
 }  // namespace
 }  // namespace springfold::io

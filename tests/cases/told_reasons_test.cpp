@@ -357,5 +357,41 @@ TEST(EndsOfCriticalLoads, NameTheCrossingWhereThePathGoesAnotherWay) {
   EXPECT_THAT(threshold.threshold->decides, HasSubstr(crossing));
 }
 
+/// Both cables of an elastic mast become taut at one height: the mast stays upright there, or leans to either side.
+TEST(ToldReasons, NameTheKeyThatFollowsSeveralWaysOutOfAKink) {
+  const auto mast = [](const char* depth) {
+    return std::string{R"toml(
+[[body]]
+name = "top"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "mast"
+elements = [ { joint = "revolute", axis = "z", name = "foot", role = "preloaded", spring = { law = "linear", stiffness = 0.0156 } }, { joint = "prismatic", axis = "y", name = "ax", role = "virtual", stiffness = 27, initial = 0 }, { rigid = [0, 1] } ]
+[[spring]]
+name = "c1"
+from_at = [0.7, 1.6]
+to = "top"
+law = { law = "one_sided", stiffness = 1.16, from = 0.92288 }
+[[spring]]
+name = "c2"
+from_at = [-0.7, 1.6]
+to = "top"
+law = { law = "one_sided", stiffness = 1.16, from = 0.92288 }
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-2.5, 1.5], top.y = [0.5, 1.4], top.x = [-0.5, 0.5] }
+branches = { depth = )toml"} +
+           depth + " }\n";
+  };
+  const auto stays = run(mast("0")), goes_on = run(mast("1"));
+  const auto& branch = stays.of("press").branches.at(0);
+  EXPECT_FALSE(branch.forward.complete);
+  EXPECT_THAT(branch.forward.reason, HasSubstr("branches.depth = 1"));
+  EXPECT_TRUE(complete(goes_on.of("press")));
+}
+
 }  // namespace
 }  // namespace springfold::io
