@@ -8,7 +8,7 @@ namespace springfold::analysis {
 namespace {
 
 /// An inequality or a bound that is as near to its limit decides with others.
-constexpr double active = 1e-7;
+constexpr double decides_within = 1e-7;
 /// Multipliers that are smaller, relative to the objective's slope, are none.
 constexpr double no_multiplier = 1e-7;
 /// Below this residual a point is a minimum; beyond it a jump of the requirements ended the search.
@@ -274,7 +274,7 @@ void DesignSearch::conditions(FoundDesign& design) {
   std::vector<Vector> rows;
   std::vector<std::pair<bool, Index>> what;  // a bound or an inequality, which
   for (Index i = 0; i < at->g.size(); ++i) {
-    if (at->g[i] < design.violation - active * std::max(1.0, design.violation)) continue;
+    if (at->g[i] < design.violation - decides_within * std::max(1.0, design.violation)) continue;
     Vector row = Vector::Zero(df.size());
     row.head(v.size()) = values.dg.row(i).transpose();
     if (!is_met) row[v.size()] = -1;
@@ -284,7 +284,7 @@ void DesignSearch::conditions(FoundDesign& design) {
   for (Index i = 0; i < v.size(); ++i)
     for (const double side : {-1.0, 1.0}) {
       const double bound = side < 0 ? low[i] : high[i];
-      if (std::abs(v[i] - bound) > active * std::max(1.0, std::abs(bound))) continue;
+      if (std::abs(v[i] - bound) > decides_within * std::max(1.0, std::abs(bound))) continue;
       rows.push_back(side * Vector::Unit(df.size(), i));
       what.emplace_back(true, side < 0 ? -i - 1 : i + 1);
     }
@@ -350,7 +350,7 @@ Vector DesignSearch::inwards(const FoundDesign& design, double size) {
   Vector way = Vector::Zero(low_.size());
   if (!at) return way;
   for (Index i = 0; i < at->g.size(); ++i) {
-    if (at->g[i] < -active) continue;
+    if (at->g[i] < -decides_within) continue;
     const Vector slope = units_.cwiseProduct(at->dg.row(i).transpose());
     if (slope.norm() > 0) way -= slope.normalized();
   }
