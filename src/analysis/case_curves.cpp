@@ -40,11 +40,6 @@ bool counts_from_start(const model::Mechanism& mechanism) {
   return false;
 }
 
-/// Whether the equilibrium that a curve starts from is neutral.
-bool moves_freely(const Member& member) {
-  return member.report.found && member.evaluator().zero_modes(member.start()) > 0;
-}
-
 }  // namespace
 
 Study as_curve(Study curve) {
@@ -63,7 +58,6 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter, double lambda_
       scale_{size_of(study.critical, value_)},
       lambda_unit_{lambda_unit} {
   base_ = make(value_ / scale_, nullptr);
-  starts_move_freely_ = moves_freely(*base_);
 }
 
 CaseCurves::CaseCurves(const Study& study, std::size_t parameter, const Member& from,
@@ -77,7 +71,6 @@ CaseCurves::CaseCurves(const Study& study, std::size_t parameter, const Member& 
       begins_at_member_{true} {
   base_ = make(value_ / scale_, &from);
   if (!base_) without_start_.emplace(value_ / scale_, why_none_);
-  starts_move_freely_ = base_ && moves_freely(*base_);
 }
 
 /// The set-up that the case with this value has, anew. @param again  the member's own memory is used

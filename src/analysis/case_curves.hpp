@@ -102,7 +102,9 @@ class CaseCurves {
                    std::optional<ParameterFamily>& along, std::optional<std::string>& way) const;
   bool put_numbers(Member& member, bool again) const;
   bool solve_near(Member& member, const Member& near) const;
+  bool solve(Member& member, const statics::StartProblem& problem) const;
   bool solve_by_itself(Member& member) const;
+  bool starts_move_freely() const;
   bool solve_in_state(Member& member, const std::string& way) const;
   std::optional<statics::Inputs> inputs_without_start(const Member& member,
                                                       const Member& near) const;
@@ -144,8 +146,9 @@ class CaseCurves {
   double value_ = 0, scale_ = 1, lambda_unit_ = 1;
   RuledRange rules_{};
   std::vector<std::pair<std::string, double>> held_{};
-  bool begins_at_member_ = false;    ///< whose case need have no start
-  bool starts_move_freely_ = false;  ///< neutral equilibria: which one it is, the guess says
+  bool begins_at_member_ = false;  ///< whose case need have no start
+  /// Neutral equilibria: which one it is, the guess says. Empty: not asked yet.
+  mutable std::optional<bool> starts_move_freely_{};
   std::unique_ptr<Member> base_{};
   mutable std::optional<Pattern> pattern_{};
   struct Recent {

@@ -16,6 +16,14 @@ constexpr double most_starts = 4096, most_start_numbers = 0x1p22;
 
 }  // namespace
 
+/// Asked where starts are looked for beside others only.
+bool CaseCurves::starts_move_freely() const {
+  if (!starts_move_freely_)
+    starts_move_freely_ =
+        base_ && base_->report.found && base_->evaluator().zero_modes(base_->start()) > 0;
+  return *starts_move_freely_;
+}
+
 bool CaseCurves::keeps_commands(const Study& study) const {
   return !study_.critical.tied && study.start.solve == StartSolve::actuators;
 }
@@ -33,21 +41,25 @@ StartOptions CaseCurves::start_beside(const Study& study) const {
   return how;
 }
 
+bool CaseCurves::solve(Member& member, const statics::StartProblem& problem) const {
+  member.first = first_equilibrium(member.setup.system, problem, start_work_);
+  member.report.found = member.first.status == statics::StartStatus::found;
+  return member.report.found;
+}
+
 /// As the case with this value begins, whatever the neighbours are. Commands that are not tied are those of the first member.
 bool CaseCurves::solve_by_itself(Member& member) const {
   statics::StartProblem problem =
       start_problem(member.setup, member.study.body, start_beside(member.study));
   if (keeps_commands(member.study) && base_) problem.inputs.rho = base_->first.inputs.rho;
-  member.first = first_equilibrium(member.setup.system, problem, start_work_);
-  member.report.found = member.first.status == statics::StartStatus::found;
-  return member.report.found;
+  return solve(member, problem);
 }
 
 /// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
 /// vanishes, the member begins as the case with this value does; and where that finds nothing, at whatever start is found
 /// from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
-  if (starts_move_freely_ && solve_by_itself(member)) {
+  if (starts_move_freely() && solve_by_itself(member)) {
     member.sheet = near.sheet;
     return true;
   }
@@ -71,28 +83,21 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
     problem.inputs.rho = near.first.inputs.rho;
   else
     problem.foresight.rho.resize(0);
-  const auto is_found = [&](const statics::StartProblem& from) {
-    member.first = first_equilibrium(member.setup.system, from, start_work_);
-    return member.first.status == statics::StartStatus::found;
-  };
   problem.is_neighbour = true;
   member.sheet = near.sheet;
-  member.report.found = is_found(problem);
-  if (member.report.found) return true;
+  if (solve(member, problem)) return true;
   member.sheet = ++sheets_;
   problem.is_neighbour = false;
-  member.report.found = (!keeps && solve_by_itself(member)) || is_found(problem);
-  if (member.report.found) member.first.factors = start_factors(member);
-  return member.report.found;
+  if (!(!keeps && solve_by_itself(member)) && !solve(member, problem)) return false;
+  member.first.factors = start_factors(member);
+  return true;
 }
 
 /// The start is the state that the earlier studies lead to, whatever the neighbours are.
 bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
   const auto problem = start_problem(member.setup, member.study.body, start_beside(member.study));
   member.sheet = ways_.emplace(way, static_cast<int>(ways_.size())).first->second;
-  member.first = first_equilibrium(member.setup.system, problem, start_work_);
-  member.report.found = member.first.status == statics::StartStatus::found;
-  return member.report.found;
+  return solve(member, problem);
 }
 
 /// With commands that are given or kept nothing of the start enters the equations of a load or a driven parameter.

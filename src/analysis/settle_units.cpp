@@ -153,11 +153,12 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
   // `poor`.
   const auto [softest, stiffest] = range_of_springs(mechanism, setup.scales.length);
   const Units before{setup.scales.force, {}};
-  for (const double force : {softest, stiffest}) {
-    if (force == softest && !(softest < continuation::poor * before.force)) continue;
+  const auto settles_in = [&](double force) {
     const Units units{power_of_two_near(force), {}};
-    if (change_units(given, units, first, setup) && settle(given, first, setup)) return;
-  }
+    return change_units(given, units, first, setup) && settle(given, first, setup);
+  };
+  if (softest < continuation::poor * before.force && settles_in(softest)) return;
+  if (settles_in(stiffest)) return;
   change_units(given, before, first, setup);
 }
 

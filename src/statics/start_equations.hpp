@@ -85,11 +85,7 @@ class StartEquations {
 
   /// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
   bool vanishes(const StartState& state, const Vector& r, double tolerance) const {
-    double size = 1, wrench = 1;
-    for (Index i = 0; i < system_.size; ++i) {
-      double& most = system_.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
-      most = std::max(most, std::abs(state.z[i]));
-    }
+    const double size = size_of(state, false), wrench = size_of(state, true);
     return largest(r, true) <= tolerance * size &&
            largest(r, false) <= tolerance * std::max(size, wrench);
   }
@@ -110,14 +106,10 @@ class StartEquations {
     Matrix J;
     if (!residual(state, r) || !jacobian(state, J)) return false;
     const Vector sizes = J.cwiseAbs() * pack(state).cwiseAbs();
-    double size = 1;
-    for (Index i = 0; i < system_.size; ++i)
-      if (!system_.is_wrench[static_cast<std::size_t>(i)])
-        size = std::max(size, std::abs(state.z[i]));
+    const double size = size_of(state, false);
     for (Index i = 0; i < r.size(); ++i) {
-      const bool gap =
-          system_.is_wrench[static_cast<std::size_t>(selection_.rows[static_cast<std::size_t>(i)])];
-      if (!(std::abs(r[i]) <= tolerance * (gap ? size : std::max(1.0, sizes[i])))) return false;
+      if (!(std::abs(r[i]) <= tolerance * (is_gap(i) ? size : std::max(1.0, sizes[i]))))
+        return false;
     }
     return true;
   }
@@ -146,14 +138,26 @@ class StartEquations {
   }
 
  private:
+  /// Is the row one of the closures?
+  bool is_gap(Index row) const {
+    return system_
+        .is_wrench[static_cast<std::size_t>(selection_.rows[static_cast<std::size_t>(row)])];
+  }
+
+  /// Of the wrenches, or of the other unknowns: the largest, and no less than 1.
+  double size_of(const StartState& state, bool wrenches) const {
+    double size = 1;
+    for (Index i = 0; i < system_.size; ++i)
+      if (system_.is_wrench[static_cast<std::size_t>(i)] == wrenches)
+        size = std::max(size, std::abs(state.z[i]));
+    return size;
+  }
+
   /// Largest entry in the rows of the closures, or in those of the forces.
   double largest(const Vector& rows, bool closures) const {
     double result = 0;
     for (Index i = 0; i < rows.size(); ++i)
-      if (system_
-              .is_wrench[static_cast<std::size_t>(selection_.rows[static_cast<std::size_t>(i)])] ==
-          closures)
-        result = std::max(result, std::abs(rows[i]));
+      if (is_gap(i) == closures) result = std::max(result, std::abs(rows[i]));
     return result;
   }
 

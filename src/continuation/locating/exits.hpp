@@ -53,10 +53,10 @@ using NearEnough = std::function<bool(const CurvePoint& start, const Direction& 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough = {});
 
-/// Corank of [dF/dx dF/dlambda] at a point: how many of its singular
-/// values are below the share, which is as good as the point is known, and separated from the others by a gap, after rows and columns have been
-/// divided by their sizes. Sizes are those of the matrix here or a hundredth of its change within a
-/// tenth, whichever is larger: here all of it may vanish. -1 outside the domain.
+/// Corank of [dF/dx dF/dlambda] at a point: how many of its singular values are below the share, which is as good as the
+/// point is known, and separated from the others by a gap, after rows and columns have been divided by their sizes. Sizes
+/// are those of the matrix here or a hundredth of its change within a tenth, whichever is larger: here all of it may
+/// vanish. -1 outside the domain.
 int corank_of(const Walker& walker, const CurvePoint& at, double share = poor);
 
 }  // namespace springfold::continuation

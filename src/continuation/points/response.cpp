@@ -161,8 +161,7 @@ std::optional<double> bend_beside(ProblemView problem, const Vector& x, double l
 
 /// Is the least stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel
 /// it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large, and where they are a thousand
-/// times what is left they may have cancelled the rest; special points are placed
-/// to `poor` at worst, in parts of lambda.
+/// times what is left they may have cancelled the rest; special points are placed to `poor` at worst, in parts of lambda.
 bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, double way,
                         double stiffness) {
   double multiplier = 0;
@@ -171,8 +170,9 @@ bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, d
   return poor * std::abs(lambda) <= way && tiny_share * multiplier <= stiffness;
 }
 
-/// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries count beside what they
-/// are a little aside: a row or column that vanishes at the point would otherwise look like one in a small unit.
+/// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries
+/// count beside what they are a little aside: a row or column that vanishes at the point would otherwise look like one in a
+/// small unit.
 bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                  bool is_soft) {
   if (problem.structured()) return false;
