@@ -261,7 +261,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   const Following with{problem, study, evaluator, member.quantities()};
   const auto follow = [&](const continuation::Ray& ray) {
     Curve curve = trace_within_limits(with, start, ray, events, options, observe, at_hit);
-    if (seen == Crawl::without_bound) curve.stop_detail = grows_without_bound;
+    if (seen == Crawl::without_bound) end_without_bound(curve);
     return curve;
   };
   Curve forward = follow(rays.rays[0]);

@@ -15,6 +15,9 @@ using continuation::EventAction;
 /// A value in the study of a member: limits and marks may be formulas of the parameter.
 using ValueOf = std::function<double(const Member&)>;
 
+/// Tag of the end at which the first point of the path is its start.
+constexpr int start_of_path = 1;
+
 CriticalEvent at_value(const CaseCurves& curves, std::string name, const std::string& quantity,
                        ValueOf wanted, const Piece& piece, EventAction action) {
   return {std::move(name),
@@ -93,7 +96,7 @@ std::vector<CriticalEvent> critical_events(const CaseCurves& curves, const Study
 std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const Study& study,
                                               const Piece& piece) {
   std::vector<CriticalEvent> events = critical_events(curves, study, piece);
-  events.push_back({reaches_start,
+  events.push_back({"it reaches the start of the path",
                     [&curves](const CriticalPoint& p) {
                       const Member* member = curves.equations_at(p.mu);
                       if (member == nullptr) return std::numeric_limits<double>::quiet_NaN();
@@ -101,7 +104,13 @@ std::vector<CriticalEvent> first_point_events(const CaseCurves& curves, const St
                     },
                     EventAction::stop, true});
   events.back().inside = 1;
+  events.back().tag = start_of_path;
   return events;
+}
+
+bool ends_at_start_of_path(const continuation::CriticalCurve& curve) {
+  return curve.stop == continuation::StopReason::event && !curve.hits.empty() &&
+         curve.hits.back().tag == start_of_path;
 }
 
 }  // namespace springfold::analysis

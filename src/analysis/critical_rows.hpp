@@ -20,8 +20,8 @@ std::string end_of_range(const CaseCurves& curves, int sense);
 std::vector<continuation::CriticalEvent> critical_events(const CaseCurves& curves,
                                                          const Study& study, const Piece& piece);
 
-/// How the end is called at which the first point of the path is its start.
-inline constexpr const char* reaches_start = "it reaches the start of the path";
+/// The end at which the first point of the path is its start.
+bool ends_at_start_of_path(const continuation::CriticalCurve& curve);
 
 /// The same for the first point on paths along which lambda grows: it may come to the start, and goes no farther.
 std::vector<continuation::CriticalEvent> first_point_events(const CaseCurves& curves,

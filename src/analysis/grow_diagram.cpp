@@ -87,7 +87,7 @@ class Grower {
                    p.lambda == branch.curve.points.back().lambda &&
                    p.x == branch.curve.points.back().x;
           }))
-        branch.curve.stop_detail = grows_without_bound;
+        end_without_bound(branch.curve);
     for (continuation::Branch& branch : grown_.diagram.branches)
       cut_to_range(t_.study, t_.evaluator, t_.quantities, branch.curve);
   }

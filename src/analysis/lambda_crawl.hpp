@@ -26,10 +26,10 @@ inline constexpr const char* grows_without_bound =
     "lambda grows without bound while hardly anything moves: a limit of lambda in until says how "
     "far it is to be followed";
 
-/// Does the curve end there?
-inline bool ends_without_bound(const continuation::Curve& curve) {
-  return curve.stop == continuation::StopReason::observer &&
-         curve.stop_detail == grows_without_bound;
+/// The observer of this curve ended it there.
+inline void end_without_bound(continuation::Curve& curve) {
+  curve.stop = continuation::StopReason::unbounded;
+  curve.stop_detail = grows_without_bound;
 }
 
 class LambdaCrawl {

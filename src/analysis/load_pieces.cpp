@@ -54,13 +54,12 @@ void leave_out_points(std::vector<LoadPiece>& pieces, double room) {
 
 void say_what_goes_on(std::vector<LoadPiece>& pieces, double room) {
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-    continuation::CriticalCurve &before = pieces[i].growing.curve,
-                                &behind = pieces[i + 1].falling.curve;
-    const bool meets = std::abs(pieces[i + 1].falling.end - pieces[i].growing.end) <= room;
-    if (!meets || before.points.empty() || behind.points.empty()) continue;
-    if (!is_same_load_at_ends(before.points.back().lambda, behind.points.back().lambda)) continue;
-    for (continuation::CriticalCurve* curve : {&before, &behind})
-      if (curve->stop_detail == another_first) curve->stop_detail = in_next_piece;
+    Side &before = pieces[i].growing, &behind = pieces[i + 1].falling;
+    const auto &points = before.curve.points, &next = behind.curve.points;
+    if (std::abs(behind.end - before.end) > room || points.empty() || next.empty()) continue;
+    if (!is_same_load_at_ends(points.back().lambda, next.back().lambda)) continue;
+    for (Side* side : {&before, &behind})
+      if (side->another_first) side->curve.stop_detail = in_next_piece;
   }
 }
 

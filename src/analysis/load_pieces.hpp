@@ -15,7 +15,7 @@ namespace springfold::analysis {
 /// Critical loads that differ by less are the same, relative to 1 + |lambda|.
 inline constexpr double same_load = 1e-8;
 
-inline constexpr const char* another_first =
+inline constexpr const char* another_is_first =
     "from here on another critical point comes first, or none";
 
 /// A piece in one sense of the parameter, cut where it ends.
@@ -24,8 +24,9 @@ struct Side {
   double end = 0;
   std::optional<continuation::Degeneracy> decides{};  ///< nothing: it ends at the range, or `jumps`
   bool stops = false;                                 ///< it could not be followed beyond
-  bool jumps = false;   ///< it goes on, but another point comes first, or it is not reached
-  std::string limit{};  ///< that ends the path before it, in words
+  bool jumps = false;          ///< it goes on, but another point comes first, or it is not reached
+  bool another_first = false;  ///< it was cut there, or goes on in the next piece
+  std::string limit{};         ///< that ends the path before it, in words
 };
 
 struct LoadPiece {

@@ -191,7 +191,8 @@ class LoadsOverParameter {
       side.end = std::abs(end - limit) <= closest_bracket * width_ ? limit : end;
       // Between values of the range a piece is followed to where the next one begins.
       if (side.end == limit && limit > low_ && limit < high_) {
-        side.curve.stop_detail = another_first;
+        side.another_first = true;
+        side.curve.stop_detail = another_is_first;
         side.curve.hits.back().name.clear();
       }
     }
@@ -294,7 +295,8 @@ class LoadsOverParameter {
   void cut(const CriticalStart& start, Side& side, double mu) const {
     const auto last = point_of_curve(curves_, start, side.curve, mu, at_degeneracy * width_);
     if (!last) return;
-    end_curve_at(*last, another_first, side.curve);
+    end_curve_at(*last, another_is_first, side.curve);
+    side.another_first = true;
     side.end = last->mu;
   }
 
@@ -305,7 +307,7 @@ class LoadsOverParameter {
     const double mu = value / curves_.scale();
     const auto behind = std::find_if(pieces_.begin(), pieces_.end(),
                                      [&](const LoadPiece& p) { return p.falling.end >= mu; });
-    const auto comes = [](const Side& side) { return side.curve.stop_detail == reaches_start; };
+    const auto comes = [](const Side& side) { return ends_at_start_of_path(side.curve); };
     return (behind != pieces_.end() && comes(behind->falling)) ||
            (behind != pieces_.begin() && comes(std::prev(behind)->growing));
   }

@@ -18,10 +18,14 @@ namespace {
 /// No limit of the study is met.
 bool ends(const continuation::Curve& curve) { return curve.stop != StopReason::event; }
 
+bool was_ended(const continuation::Curve& curve) {
+  return curve.stop == StopReason::observer || curve.stop == StopReason::unbounded;
+}
+
 /// At a kink the curve goes on in several ways or in none, or it is no curve of its own beyond: what happens there is a
 /// matter of jumps and of handing over.
 bool ends_at_a_kink(const continuation::Curve& curve) {
-  return curve.stop == StopReason::observer || curve.stop == StopReason::several_ways ||
+  return was_ended(curve) || curve.stop == StopReason::several_ways ||
          curve.stop == StopReason::no_way_out;
 }
 
@@ -59,8 +63,8 @@ std::optional<StableStretch> trace_stable(const Tracing& t,
   const auto follow = [&](const continuation::Ray& ray, double sign) {
     continuation::Curve curve =
         trace_within_limits(with, start, ray, events, options, goes_on(sign));
-    if (crawl == Crawl::without_bound) curve.stop_detail = grows_without_bound;
-    if (options.verify_arcs && !given_up && curve.stop == StopReason::observer)
+    if (crawl == Crawl::without_bound) end_without_bound(curve);
+    if (options.verify_arcs && !given_up && was_ended(curve))
       curve.arcs = verified_arcs(t.problem, curve, options);
     return curve;
   };

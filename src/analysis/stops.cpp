@@ -1,6 +1,5 @@
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
-#include "lambda_crawl.hpp"
 #include "neutral_motions.hpp"
 #include "vanishing_lengths.hpp"
 #include "zero_lengths.hpp"
@@ -22,7 +21,7 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
   if (const auto why = nears_kinematic_singularity(problem, end, other))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, end, other))
-    stop = legs->is_end_of_reach || ends_without_bound(curve)
+    stop = legs->is_end_of_reach || curve.stop == StopReason::unbounded
                ? Stop{"end of the reach: " + legs->text, true}
                : Stop{stop.reason + "; " + legs->text, false};
   else if (const auto names = neutral_motion(problem, end))
@@ -33,7 +32,8 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
 Stop stop_of(const Curve& curve) {
   if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
-  if (curve.stop == StopReason::observer && !curve.stop_detail.empty())
+  if (curve.stop == StopReason::unbounded ||
+      (curve.stop == StopReason::observer && !curve.stop_detail.empty()))
     return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));

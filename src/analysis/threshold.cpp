@@ -139,7 +139,7 @@ class Threshold {
     decides_ =
         end == curve.hits.end() ? curve.stop_detail : name_of_degeneracy(end->kind, bad.kind);
     if (end != curve.hits.end() && !end->name.empty()) decides_ += ": " + end->name;
-    const bool at_its_load = end == curve.hits.end() && curve.stop_detail == reaches_start;
+    const bool at_its_load = end == curve.hits.end() && ends_at_start_of_path(curve);
     at_start_ = at_its_load && loses_start(last.mu);
     if (at_start_) decides_ = at_start_of_path(bad.kind);
     const std::optional<double> clear =

@@ -47,7 +47,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   const auto follow = [&](const continuation::Ray& ray, double sign) {
     continuation::Curve curve =
         trace_within_limits(with, start, ray, events, options, observe(sign));
-    if (crawl == Crawl::without_bound) curve.stop_detail = grows_without_bound;
+    if (crawl == Crawl::without_bound) end_without_bound(curve);
     return curve;
   };
   BranchSource source;

@@ -218,7 +218,7 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
   }
   if (kind == CriticalKind::surface) watch_corner(system, watches);
   watch_surfaces(system, watches);
-  for (const CriticalEvent& event : events)
+  for (const CriticalEvent& event : events) {
     watches.push_back(
         {Degeneracy::user,
          event.name,
@@ -227,6 +227,8 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
          {},
          event.of_place,
          event.inside});
+    watches.back().tag = event.tag;
+  }
   return watches;
 }
 

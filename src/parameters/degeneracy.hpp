@@ -20,6 +20,7 @@ struct Watch {
   /// What is called otherwise at another place: its name at the located point.
   std::function<std::string(const CurvePoint&)> name_there{};
   double noise = 0;  ///< values that are no larger are not told from zero, and have no sign
+  int tag = 0;       ///< as CriticalEvent has it
 };
 
 /// A point of the augmented curve, of n unknowns of the family.

@@ -221,7 +221,8 @@ class Follower {
     CriticalPoint point = critical_point(here, n);
     point.s = length_;
     if (curve_.points.empty()) curve_.points.push_back(point);
-    curve_.hits.push_back({.kind = watch.kind, .name = watch.name, .point = std::move(point)});
+    curve_.hits.push_back(
+        {.kind = watch.kind, .name = watch.name, .point = std::move(point), .tag = watch.tag});
     curve_.stop = StopReason::event;
     curve_.stop_detail = name_of(watch);
   }
@@ -262,8 +263,10 @@ class Follower {
     for (const Hit& hit : curve.hits) {
       if (hit.kind != HitKind::user) continue;
       const Watch& watch = watches[static_cast<std::size_t>(hit.tag)];
-      CriticalHit found{
-          .kind = watch.kind, .name = watch.name, .point = critical_point(hit.point, n)};
+      CriticalHit found{.kind = watch.kind,
+                        .name = watch.name,
+                        .point = critical_point(hit.point, n),
+                        .tag = watch.tag};
       if (watch.refine) found.kind = watch.refine(hit.point);
       if (watch.name_there) found.name = watch.name_there(hit.point);
       curve_.hits.push_back(std::move(found));

@@ -71,6 +71,7 @@ enum class StopReason {
   several_ways,    ///< at a kink more than one piece continues the curve
   bad_start,       ///< the start is no point of a curve: no unique tangent, or F is not defined
   observer,        ///< the caller asked to stop
+  unbounded,       ///< as `observer`, where the caller saw lambda grow without bound
 };
 
 std::string_view to_string(StopReason reason);

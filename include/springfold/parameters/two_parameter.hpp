@@ -80,6 +80,7 @@ struct CriticalHit {
   Degeneracy kind = Degeneracy::user;
   std::string name{};  ///< the caller's event, or the switch
   CriticalPoint point{};
+  int tag = 0;  ///< of the caller's event
 };
 
 struct CriticalEvent {
@@ -89,6 +90,7 @@ struct CriticalEvent {
   bool of_place = false;  ///< the value depends on x, lambda and mu alone: it needs no rates
   /// Sign of the value on the side where the curve may be, of events that stop it; 0: both.
   int inside = 0;
+  int tag = 0;  ///< the caller's, handed on to its hits
 };
 
 /// Points of a critical curve between the accepted ones, see points_between().

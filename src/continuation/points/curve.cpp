@@ -28,6 +28,8 @@ std::string_view to_string(StopReason reason) {
       return "the start is not a regular point of a curve";
     case StopReason::observer:
       return "stopped on request";
+    case StopReason::unbounded:
+      return "lambda grows without bound";
   }
   return "unknown";
 }
