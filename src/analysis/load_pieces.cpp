@@ -2,21 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
+#include "critical_rows.hpp"
 #include "cut_curve.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
 
 constexpr const char* in_next_piece = "goes on in the next piece";
 
-/// Loads at ends of pieces, where the parameter of one may differ a little from that of the other.
-bool is_same_load_at_ends(double a, double b) {
-  return std::abs(b - a) <= std::sqrt(same_load) * (1 + std::abs(a));
-}
+constexpr const char* at_this_value = "at this value alone: it does not move with the parameter";
 
 }  // namespace
+
+bool is_same_load_at_ends(double a, double b) {
+  return std::abs(b - a) <= same_load + std::sqrt(same_load) * std::max(std::abs(a), std::abs(b));
+}
+
+bool ends_at_start(const std::vector<LoadPiece>& pieces, double mu) {
+  const auto behind = std::find_if(pieces.begin(), pieces.end(),
+                                   [&](const LoadPiece& p) { return p.falling.end >= mu; });
+  const auto comes = [](const Side& side) { return ends_at_start_of_path(side.curve); };
+  return (behind != pieces.end() && comes(behind->falling)) ||
+         (behind != pieces.begin() && comes(std::prev(behind)->growing));
+}
+
+void end_at(Side& side, EventKind of, std::size_t hit) {
+  continuation::CriticalCurve& curve = side.curve;
+  curve.hits.resize(hit + 1);
+  const continuation::CriticalPoint& last = curve.hits.back().point;
+  std::erase_if(curve.points, [&](const continuation::CriticalPoint& p) { return p.s > last.s; });
+  curve.stop = continuation::StopReason::event;
+  curve.stop_detail = name_of_degeneracy(curve.hits.back().kind, of);
+  side.end = last.mu;
+}
+
+void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Branch& behind) {
+  const auto lambda = [](const Sample& sample) { return sample.values[1]; };
+  const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
+  if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to))) return;
+  const Side &end = last.growing, &begin = next.falling;
+  const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
+                            : end.decides ? std::string{to_string(*end.decides)}
+                                          : "another critical point comes first";
+  const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
+  mark_jump(before, true, text);
+  mark_jump(behind, false, text);
+}
+
+Branch row_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point) {
+  const continuation::CurvePoint& at = point.hit.point;
+  FollowedCurve place{.start = {.x = at.x, .lambda = at.lambda, .mu = member.mu, .piece = at.piece},
+                      .of = point.kind};
+  place.start.kind = continuation::CriticalKind::branch_point;
+  place.growing.points = {
+      {.x = at.x, .lambda = at.lambda, .mu = member.mu, .dx = Vector::Zero(at.x.size())}};
+  place.growing.stop = continuation::StopReason::event;
+  place.growing.stop_detail = at_this_value;
+  place.falling = place.growing;
+  Branch branch = rows_of(curves, place);
+  for (Event& event : branch.events) event.kind = point.kind;
+  return branch;
+}
 
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point) {
   if (point.kind != EventKind::branch_point) return false;

@@ -39,6 +39,21 @@ struct LoadPiece {
 /// point, or makes an imperfect structure of a perfect one? Other points come to it from beside.
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
 
+/// Loads at ends of pieces, where the parameter of one may differ a little from that of the other.
+bool is_same_load_at_ends(double a, double b);
+
+/// Cuts a side at one of its special points.
+void end_at(Side& side, EventKind of, std::size_t hit);
+
+/// Two pieces meet: both sides of the jump, unless the load is the same.
+void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Branch& behind);
+
+/// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
+bool ends_at_start(const std::vector<LoadPiece>& pieces, double mu);
+
+/// The row of a value at which what comes first stands alone, with loads beside that are others.
+Branch row_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
+
 /// Does one of the pieces come to this load at the value? @param room  as far as ends are told apart
 bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,
                 double lambda, double room);

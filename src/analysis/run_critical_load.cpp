@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "critical_rows.hpp"
@@ -27,6 +28,7 @@ constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;
 constexpr int most_pieces = 200;
+constexpr double sides[] = {-1, 1};
 
 class LoadsOverParameter {
  public:
@@ -211,17 +213,6 @@ class LoadsOverParameter {
     return side;
   }
 
-  /// Cuts a side at one of its special points.
-  void end_at(Side& side, EventKind of, std::size_t hit) const {
-    CriticalCurve& curve = side.curve;
-    curve.hits.resize(hit + 1);
-    const CriticalPoint& last = curve.hits.back().point;
-    std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last.s; });
-    curve.stop = continuation::StopReason::event;
-    curve.stop_detail = name_of_degeneracy(curve.hits.back().kind, of);
-    side.end = last.mu;
-  }
-
   /// At the values of the range, and just before its end, the path is traced.
   void verify(const LoadPiece& piece, Side& side, double mu, double sense) {
     double good = mu;
@@ -240,6 +231,14 @@ class LoadsOverParameter {
       if (!on) return end_before(piece, side, good, value);
       good = value;
     }
+    // At the end of the range itself another point may come first, which no value beside has.
+    if (side.end != low_ && side.end != high_) return;
+    const FirstUnwanted& first = first_at(side.end);
+    if (!first.point || !is_alone(side.end) ||
+        is_same_load_at_ends(first.point->hit.point.lambda, side.curve.points.back().lambda))
+      return;
+    alone_.push_back(side.end);
+    cut(piece.start, side, side.end - sense * closest_bracket * width_);
   }
 
   bool is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
@@ -302,29 +301,46 @@ class LoadsOverParameter {
 
   bool meet(double a, double b) const { return std::abs(a - b) <= at_degeneracy * width_; }
 
-  /// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
-  bool ends_at_start(double value) const {
-    const double mu = value / curves_.scale();
-    const auto behind = std::find_if(pieces_.begin(), pieces_.end(),
-                                     [&](const LoadPiece& p) { return p.falling.end >= mu; });
-    const auto comes = [](const Side& side) { return ends_at_start_of_path(side.curve); };
-    return (behind != pieces_.end() && comes(behind->falling)) ||
-           (behind != pieces_.begin() && comes(std::prev(behind)->growing));
+  /// Values at which what comes first stands alone belong to the pieces that come to it with its load. Where all is known
+  /// beside, and has another load, the value is a place of its own.
+  void tell_apart() {
+    std::vector<double> own;
+    for (const double mu : std::set<double>(alone_.begin(), alone_.end())) {
+      const SpecialPoint& point = *first_at(mu).point;
+      const double lambda = point.hit.point.lambda;
+      if (is_reached(curves_, pieces_, mu, lambda, at_degeneracy * width_)) continue;
+      const bool apart = std::all_of(std::begin(sides), std::end(sides), [&](double side) {
+        const double beside = mu + side * next_piece * width_;
+        if (beside < low_ || beside > high_) return true;
+        const FirstUnwanted& first = first_at(beside);
+        return first.why.empty() &&
+               !(first.point && is_same_load_at_ends(lambda, first.point->hit.point.lambda));
+      });
+      if (apart)
+        own.push_back(mu);
+      else
+        doubt(mu,
+              point.label +
+                  " does not move with this parameter, and no critical point beside comes to it");
+    }
+    alone_ = std::move(own);
   }
 
-  /// Values at which what comes first stands alone belong to the pieces that come to it with its load.
-  void tell_apart() {
-    for (const double mu : alone_)
-      if (!is_reached(curves_, pieces_, mu, first_at(mu).point->hit.point.lambda,
-                      at_degeneracy * width_))
-        doubt(mu,
-              first_at(mu).point->label +
-                  " does not move with this parameter, and no critical point beside comes to it");
+  /// Rows for values of their own, in the order of the parameter.
+  void add_places() {
+    for (const double mu : alone_) {
+      Branch own = row_alone(curves_, *curves_.at(mu), *first_at(mu).point);
+      const auto value = [](const Branch& b) { return b.samples.front().values.back(); };
+      const auto behind = std::find_if(result_.branches.begin(), result_.branches.end(),
+                                       [&](const Branch& b) { return value(b) >= value(own); });
+      result_.branches.insert(behind, std::move(own));
+    }
   }
 
   void finish() {
     tell_apart();
-    lacks_start_.forget([this](double value) { return ends_at_start(value); });
+    lacks_start_.forget(
+        [this](double value) { return ends_at_start(pieces_, value / curves_.scale()); });
     for (const DoubtedValues& doubted : {lacks_start_, doubted_})
       for (std::string& text : doubted.told(curves_.name()))
         result_.doubts.push_back(std::move(text));
@@ -341,7 +357,7 @@ class LoadsOverParameter {
       const bool meets =
           i + 1 < pieces_.size() && meet(pieces_[i + 1].falling.end, pieces_[i].growing.end);
       if (meets)
-        say_jump(i);
+        say_jump(pieces_[i], pieces_[i + 1], result_.branches[i], result_.branches[i + 1]);
       else if (pieces_[i].growing.jumps)
         mark_jump(result_.branches[i], true,
                   "ends: there is no critical point behind" + pieces_[i].growing.limit);
@@ -350,23 +366,8 @@ class LoadsOverParameter {
         mark_jump(result_.branches[i], false,
                   "begins: there is no critical point before" + pieces_[i].falling.limit);
     }
+    add_places();
     label_critical(result_.branches);
-  }
-
-  /// Two pieces meet: both sides of the jump, unless the load is the same.
-  void say_jump(std::size_t i) {
-    Branch &before = result_.branches[i], &behind = result_.branches[i + 1];
-    const auto lambda = [](const Sample& sample) { return sample.values[1]; };
-    const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
-    if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to)))
-      return;
-    const Side &end = pieces_[i].growing, &begin = pieces_[i + 1].falling;
-    const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
-                              : end.decides ? std::string{to_string(*end.decides)}
-                                            : "another critical point comes first";
-    const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
-    mark_jump(before, true, text);
-    mark_jump(behind, false, text);
   }
 
   const CaseCurves& curves_;

@@ -130,7 +130,8 @@ std::string critical_lines(const PlannedRun& planned, const StudyResult& result)
       text += rate_table(result, branch) + law_table(result, branch);
       continue;
     }
-    text += summary_line("curve", std::to_string(branch.samples.size()) + " points");
+    text += summary_line("curve", std::to_string(branch.samples.size()) +
+                                      (branch.samples.size() == 1 ? " point" : " points"));
     text += point_table(result, branch, parameter);
     for (const auto* stop : {&branch.backward, &branch.forward})
       if (!stop->complete) text += summary_line("STOPPED", stop->reason);
