@@ -217,10 +217,24 @@ std::vector<DesignSearch::Candidate> DesignSearch::candidates() {
   const auto better = [this](const Candidate& a, const Candidate& b) {
     const bool a_meets = a.violation <= roughly_met, b_meets = b.violation <= roughly_met;
     if (a_meets != b_meets) return a_meets;
-    return a_meets ? size_of(a.changes) < size_of(b.changes) : a.violation < b.violation;
+    return a_meets ? size_of(a.changes) < size_of(b.changes) : misses_less(a, b);
   };
   std::stable_sort(list.begin(), list.end(), better);
   return list;
+}
+
+/// A miss of what is wanted as it is worded, a load that is too low, comes before that of the other way to meet it, no critical
+/// point at all: their measures are not of one kind.
+bool DesignSearch::misses_less(const Candidate& a, const Candidate& b) const {
+  const auto other_ways = [](const Candidate& c, const std::vector<Way>& first) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) count += c.ways[i] != first[i] ? 1 : 0;
+    return count;
+  };
+  if (std::isfinite(a.violation) != std::isfinite(b.violation)) return std::isfinite(a.violation);
+  const std::vector<Way> first = first_ways();
+  const std::size_t of_a = other_ways(a, first), of_b = other_ways(b, first);
+  return of_a != of_b ? of_a < of_b : a.violation < b.violation;
 }
 
 /// The first ones that are not alike are followed to the end.
@@ -241,7 +255,8 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
     const bool better =
         best.changes.size() == 0 || (meets_all && !best_meets) ||
         (meets_all && size_of(found->changes) < size_of(best.changes) * (1 - same_size)) ||
-        (!meets_all && !best_meets && found->violation < best.violation * (1 - same_size));
+        (!meets_all && !best_meets &&
+         misses_less(*found, {best.ways, best.changes, best.violation}));
     if (!better) continue;
     best.status = meets_all ? DesignStatus::met : DesignStatus::cannot_be_met;
     best.changes = found->changes;

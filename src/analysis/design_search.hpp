@@ -57,6 +57,7 @@ class DesignSearch {
   Vector least_violation(const std::vector<Way>& ways, const Vector& from, Depth how);
   bool meets(const Vector& changes);
   Vector drawn_back(Vector changes);
+  bool misses_less(const Candidate& a, const Candidate& b) const;
   double violation_at(const Vector& changes, const std::vector<Way>& ways);
   /// Looks for a design from one start. @returns nothing where the start cannot be judged
   std::optional<Candidate> search_from(const std::vector<Way>& ways, const Vector& from, Depth how);

@@ -115,7 +115,11 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
   if (study.kind == StudyKind::control) return run_control(mechanism, study, observer);
   if (study.kind == StudyKind::map) return run_map(mechanism, study, observer, options);
   if (study.kind == StudyKind::workspace) return run_workspace(mechanism, study, observer);
-  if (is_of_critical_points(study.kind)) return run_critical(study, observer);
+  if (is_of_critical_points(study.kind)) {
+    StudyResult result = run_critical(study, observer);
+    result.non_conservative = non_conservative_loads(mechanism, study);
+    return result;
+  }
   if (study.snap) {
     SnapResult with_jumps = run_with_jumps(mechanism, study, family, *study.snap, observer);
     with_jumps.traced.snap = std::make_shared<const SnapReport>(std::move(with_jumps.report));

@@ -8,6 +8,7 @@
 #include "quantity_sizes.hpp"
 #include "result_access.hpp"
 #include "summary_line.hpp"
+#include "summary_start.hpp"
 #include "text.hpp"
 
 namespace springfold::io {
@@ -115,7 +116,12 @@ std::string beginning_of(const PlannedRun& planned, const StudyResult& result) {
 
 std::string critical_lines(const PlannedRun& planned, const StudyResult& result) {
   if (!result.start.found) return summary_line("start", "NOT FOUND: " + result.start.message);
-  std::string text;
+  std::string text = loads_without_potential(result);
+  if (!text.empty())
+    text += summary_line("",
+                         "stability is lost statically where det T vanishes (T: tangent stiffness, "
+                         "not symmetric); flutter is not examined: paths without such a loss may "
+                         "be unstable");
   if (result.threshold)
     text += summary_line(
         "threshold",

@@ -58,9 +58,11 @@ void shade_held_loads(const std::vector<RunCurves>& runs, const PlotSpec& spec,
     const StudyResult* result = result_of(results, run.planned->study, run.planned->run);
     if (result == nullptr || !result->start.found) continue;
     const bool of_turns = run.planned->plan.critical.unwanted == analysis::Unwanted::limit_point;
-    figure.regions.push_back(
-        {of_turns ? "no limit point from the start on" : "stable from the start on", true,
-         held_parts(spec, run, *result, figure)});
+    const char* const name = of_turns ? "no limit point from the start on"
+                             : result->non_conservative.empty()
+                                 ? "stable from the start on"
+                                 : "no static loss of stability from the start on";
+    figure.regions.push_back({name, true, held_parts(spec, run, *result, figure)});
   }
 }
 

@@ -38,12 +38,15 @@ std::string start_lines(const analysis::StartReport& start, const PlannedRun* pl
   return text;
 }
 
+std::string loads_without_potential(const StudyResult& result) {
+  std::string loads;
+  for (const auto& load : result.non_conservative) loads += (loads.empty() ? "" : ", ") + load;
+  return loads.empty() ? "" : summary_line("load", "NON-CONSERVATIVE: " + loads);
+}
+
 std::string caution_lines(const StudyResult& result) {
-  std::string text;
+  std::string text = loads_without_potential(result);
   if (!result.non_conservative.empty()) {
-    std::string loads;
-    for (const auto& load : result.non_conservative) loads += (loads.empty() ? "" : ", ") + load;
-    text += summary_line("load", "NON-CONSERVATIVE: " + loads);
     text += summary_line(
         "",
         "no potential: unstable modes are not counted; static bifurcations are zeros of "

@@ -12,6 +12,9 @@ namespace springfold::io {
 /// @param planned  the run, for places; may be nullptr
 std::string start_lines(const analysis::StartReport& start, const PlannedRun* planned);
 
+/// The line of loads that have no potential; empty: all have one.
+std::string loads_without_potential(const analysis::StudyResult& result);
+
 /// What symmetric theory cannot say here, and what closures say twice.
 std::string caution_lines(const analysis::StudyResult& result);
 
