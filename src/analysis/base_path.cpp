@@ -329,6 +329,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::branch_point:
       start.kind = CriticalKind::branch_point;
       start.corank = hit.multiplicity;
+      if (auto turn = hilltop_start(curves.family(), start, hit.point.tangent)) return turn;
       return start;
     case EventKind::switching:
     case EventKind::corner_limit_point:

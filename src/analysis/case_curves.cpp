@@ -107,7 +107,12 @@ bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
     member.report.message = std::move(variant.problem);
     member.report.where = "start.from";
   }
-  return true;
+  if (near == nullptr) return true;
+  const statics::System &own = member.setup.system, &of_others = near->setup.system;
+  const bool is_alike =
+      own.size == of_others.size && own.switches.size() == of_others.switches.size();
+  if (!is_alike) why_none_ = "the mechanism has other unknowns or springs there";
+  return is_alike;
 }
 
 /// @param member  set up, not yet solved

@@ -9,6 +9,22 @@
 
 namespace springfold::analysis {
 
+namespace {
+
+/// Does this column turn back there, as its rows on the path on both sides show? Where branches meet too, the point is called
+/// after them.
+bool turns_back(const Member& member, const BasePath& path, const SpecialPoint& point,
+                const char* column) {
+  const std::vector<Sample>& rows = path.branch.samples;
+  const QuantityDefinition* quantity = member.quantity(column);
+  if (quantity == nullptr || point.row == 0 || point.row + 1 >= rows.size()) return false;
+  const auto i = static_cast<std::size_t>(quantity - member.quantities().data());
+  const double here = rows[point.row].values[i];
+  return (here - rows[point.row - 1].values[i]) * (rows[point.row + 1].values[i] - here) < 0;
+}
+
+}  // namespace
+
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point) {
   const bool only_turns = settings.unwanted == Unwanted::limit_point;
@@ -21,6 +37,8 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
       return dead || point.hit.kind == continuation::HitKind::corner;
     case EventKind::branch_point:
     case EventKind::branching_kink:
+      return !only_turns || turns_back(member, path, point, "lambda") ||
+             (dead && turns_back(member, path, point, "force"));
     case EventKind::unresolved:
       return !only_turns;
     case EventKind::switching: {

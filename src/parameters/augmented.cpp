@@ -161,6 +161,11 @@ double Augmented::parting(const Vector& X, double mu) const {
 
 double Augmented::rate_of_parting(const Vector& X, double mu, const Vector& rate) const {
   if (k_ < 2) return 0;
+  const auto parted = [&](double t) -> std::optional<Vector> {
+    const auto there = place(X + t * rate, mu + t);
+    return there ? std::optional{Vector(there->G.reshaped())} : std::nullopt;
+  };
+  if (const auto G = derivative_at_zero(parted, family_.step)) return G->lpNorm<Eigen::Infinity>();
   const double h = 2 * family_.step;
   const auto near = place(X + h * rate, mu + h), far = place(X + 2 * h * rate, mu + 2 * h);
   if (!near || !far) return infinity;

@@ -6,6 +6,7 @@
 
 #include "parameters/augmented.hpp"
 #include "parameters/degeneracy.hpp"
+#include "parameters/held_modes.hpp"
 #include "parameters/return_to_start.hpp"
 #include "parameters/solve_augmented.hpp"
 #include "springfold/continuation/entry_checks.hpp"
@@ -334,10 +335,18 @@ CriticalCurve follow_critical(const Family& family, const CriticalStart& start, 
                               const std::vector<CriticalEvent>& events, const TraceOptions& options,
                               const std::function<bool(const CriticalPoint&)>& observer,
                               const FurtherPoints& further) {
+  if (holds_modes(start))
+    return follow_held(family, start, growing, events, options, observer, further);
   return Follower(family, start, events, options, observer, further).follow(growing);
 }
 
 std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start) {
+  if (holds_modes(start)) {
+    const HeldFamily held(family, start);
+    const auto point = polish_critical(held.family(), held.start());
+    if (!point || held.unfolding(*point) > kept_within) return std::nullopt;
+    return held.own(*point);
+  }
   const auto system = system_at(family, start);
   if (!system) return std::nullopt;
   const auto X = solve_at(*system, system->start_unknowns(), start.mu);
@@ -346,6 +355,14 @@ std::optional<CriticalPoint> polish_critical(const Family& family, const Critica
 }
 
 std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start) {
+  if (holds_modes(start)) {
+    const HeldFamily held(family, start);
+    const auto point = critical_rate(held.family(), held.start());
+    if (!point) return std::nullopt;
+    const double size = std::max(1.0, point->dx.lpNorm<Eigen::Infinity>());
+    if (held.unfolding_of_rate(*point) > kept_within * size) return std::nullopt;
+    return held.own(*point);
+  }
   const auto system = system_at(family, start);
   if (!system) return std::nullopt;
   const auto X = solve_at(*system, system->start_unknowns(), start.mu);

@@ -47,6 +47,9 @@ struct CriticalStart {
   int corank = 1;         ///< kind branch_point: how many eigenvalues vanish
   StateFunction value{};  ///< kind zero
   RateFunction turns{};   ///< kind surface, a corner: of what turns back there; none: of lambda
+  /// Kind limit_point: modes that vanish at the same point and along which the curve does not move, left and right ones,
+  /// n x h each; hilltop_start() finds them. Empty: none.
+  Matrix held_left{}, held_right{};
 };
 
 /// A point of a critical curve. Rates are by its arc length, in the problem's metric.
@@ -145,6 +148,13 @@ std::optional<CriticalPoint> polish_critical(const Family& family, const Critica
 /// How a special point moves with the parameter: dx/dmu and dlambda/dmu (dmu = 1), by the same equations.
 /// Nothing at degenerate points, and at branch points that the parameter does not keep.
 std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start);
+
+/// The limit point of a path at a branch point at which lambda turns back, a hilltop, with the other modes held: along the path
+/// it is an ordinary one. Nothing where lambda does not turn back, or no other mode vanishes.
+/// @param branch_point  kind branch_point, with its corank
+/// @param path          the tangent of the path there
+std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalStart& branch_point,
+                                           const Direction& path);
 
 /// "cusp", "fold meets activation", ...
 std::string_view to_string(Degeneracy kind);

@@ -1,0 +1,102 @@
+// Branch points at which lambda turns back, followed as limit points of the path with the other modes held.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "families.hpp"
+
+namespace springfold::continuation {
+namespace {
+
+/// Units x_i with c_i x - 3 x^2 + x^3 = lambda, c = (mu, mu + apart * mu, ...).
+Family units(Index count, double apart) {
+  return family_of<Given>([=](double mu) {
+    Vector c(count);
+    for (Index i = 0; i < count; ++i) c[i] = mu * (1 + apart * static_cast<double>(i));
+    return Given{[c](const Vector& x, double lambda) {
+                   const auto u = x.array();
+                   return Vector((c.array() * u - 3 * u.square() + u.cube() - lambda).matrix());
+                 },
+                 [c](const Vector& x, double) {
+                   const auto u = x.array();
+                   return Matrix((c.array() - 6 * u + 3 * u.square()).matrix().asDiagonal());
+                 },
+                 [](const Vector& x, double) { return Vector(-Vector::Ones(x.size())); }, count};
+  });
+}
+
+double turn_at(double c) { return 1 - std::sqrt(1 - c / 3); }
+double load_at(double c) {
+  const double u = turn_at(c);
+  return ((u - 3) * u + c) * u;
+}
+
+/// Where all of them turn, as the branch point that it is called.
+CriticalStart turn_of_all(Index count, double c) {
+  return {.kind = CriticalKind::branch_point,
+          .x = Vector::Constant(count, turn_at(c)),
+          .lambda = load_at(c),
+          .mu = c,
+          .corank = static_cast<int>(count) - 1};
+}
+
+Direction together(Index count) { return {Vector::Ones(count).normalized(), 0}; }
+
+TEST(Hilltops, AreFollowedToTheCuspOfTheirUnits) {
+  for (const Index count : {2, 3, 5}) {
+    SCOPED_TRACE(count);
+    const Family family = units(count, 0);
+    const auto start = hilltop_start(family, turn_of_all(count, 2), together(count));
+    ASSERT_TRUE(start);
+    EXPECT_EQ(start->held_right.cols(), count - 1);
+    const CriticalCurve curve =
+        follow_critical(family, *start, true, {}, {.maximum_step = 0.1, .maximum_points = 40});
+    const auto cusp = std::find_if(curve.hits.begin(), curve.hits.end(),
+                                   [](const auto& hit) { return hit.kind == Degeneracy::cusp; });
+    ASSERT_NE(cusp, curve.hits.end());
+    EXPECT_NEAR(cusp->point.mu, 3, 1e-9);
+    EXPECT_NEAR(cusp->point.lambda, 1, 1e-9);
+    ASSERT_EQ(cusp->point.x.size(), count);
+    for (const CriticalPoint& p : curve.points)
+      if (p.s < cusp->point.s) EXPECT_NEAR(p.lambda, load_at(p.mu), 1e-10);
+  }
+}
+
+TEST(Hilltops, MoveAtTheRateOfTheClosedForm) {
+  const Family family = units(3, 0);
+  const auto start = hilltop_start(family, turn_of_all(3, 2), together(3));
+  ASSERT_TRUE(start);
+  const auto rate = critical_rate(family, *start);
+  ASSERT_TRUE(rate);
+  EXPECT_NEAR(rate->dlambda, turn_at(2), 1e-9);
+  EXPECT_EQ(rate->dx.size(), 3);
+}
+
+TEST(Hilltops, HaveNoCurveOverAParameterThatPartsTheUnits) {
+  const Family family = units(2, 0);
+  const auto start = hilltop_start(family, turn_of_all(2, 2), together(2));
+  ASSERT_TRUE(start);
+  const auto parted = family_of<Given>([](double mu) {
+    return Given{[mu](const Vector& x, double lambda) {
+                   const auto u = x.array();
+                   const Vector c{{2, mu}};
+                   return Vector((c.array() * u - 3 * u.square() + u.cube() - lambda).matrix());
+                 },
+                 [mu](const Vector& x, double) {
+                   const auto u = x.array();
+                   const Vector c{{2, mu}};
+                   return Matrix((c.array() - 6 * u + 3 * u.square()).matrix().asDiagonal());
+                 },
+                 [](const Vector& x, double) { return Vector(-Vector::Ones(x.size())); }, 2};
+  });
+  EXPECT_FALSE(critical_rate(parted, *start));
+  EXPECT_FALSE(follow_critical(parted, *start, true, {}, {.maximum_points = 20}).kept);
+}
+
+TEST(Hilltops, AreNoneWhereLambdaGoesOn) {
+  const Family family = units(2, 0);
+  EXPECT_FALSE(hilltop_start(family, turn_of_all(2, 2), {Vector::Ones(2).normalized(), 0.1}));
+}
+
+}  // namespace
+}  // namespace springfold::continuation
