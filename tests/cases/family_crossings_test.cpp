@@ -1,6 +1,7 @@
 // Families of equilibria at one load that other branches cross, and families that lie on the edge of the range.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -89,6 +90,68 @@ TEST(AFamily, OnTheEdgeOfTheRangeIsFollowedAlongIt) {
       for (const auto& sample : branch.samples)
         farthest = std::max(farthest, std::abs(hinge_at(result, sample) - quarter));
     EXPECT_NEAR(farthest, range == "[0, 2.5]" ? 1 : 0.1, 1e-9) << range;
+  }
+}
+
+/// A hinge whose spring acts beyond upright only: on the other side the bar leans freely.
+StudyResult leaning_bar(const std::string& off_upright) {
+  return bar("90*deg - " + off_upright,
+             ", role = \"preloaded\", spring = { law = \"one_sided\", stiffness = 1, from = "
+             "\"90*deg\", side = \"above\" }",
+             "lambda = [-0.5, 2.5], bar.hinge = [\"90*deg - 1\", \"90*deg + 1\"]");
+}
+
+TEST(AFamily, BegunFromTheSideEndsInOneKinkWhereTheBarStandsUpright) {
+  for (const std::string off : {"0.3", "1e-2", "1e-4", "1e-5", "1e-6", "1e-7"}) {
+    SCOPED_TRACE(off);
+    const StudyResult result = leaning_bar(off);
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(count(result, EventKind::family), 1);
+    EXPECT_EQ(count(result, EventKind::branch_point), 0);
+    EXPECT_EQ(count(result, EventKind::stability_change), 0);
+    const std::vector<double> loads = lambdas(result, EventKind::branching_kink);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_NEAR(loads[0], 0, 1e-12);
+    for (const auto& event : result.branches[0].events)
+      if (event.kind == EventKind::branching_kink) {
+        EXPECT_NEAR(hinge_at(result, result.branches[0].samples[event.row]), quarter, 1e-10);
+      }
+    double half_branch = 0;  // where the spring alone bears the bar
+    for (const Branch& branch : result.branches)
+      for (const auto& event : branch.events)
+        half_branch =
+            std::max(half_branch, branch.samples[event.row].values[column(result, "lambda")] *
+                                      (event.kind == EventKind::branching_kink));
+    EXPECT_NEAR(half_branch, 1, 1e-10);
+  }
+}
+
+TEST(AFamily, BegunNearerToItsEndThanPointsAreToldApartIsNotSaidToBeComplete) {
+  for (const std::string off : {"1e-8", "1e-9"}) EXPECT_FALSE(complete(leaning_bar(off))) << off;
+}
+
+TEST(AFamily, OfTwoLinksInADeadBandThatEndsUprightIsOne) {
+  // The foot turns freely from 0 to d, at no load: where it stands upright the straight column crosses, at d the spring acts.
+  for (const double d : {1e-4, 1e-2, 0.3}) {
+    SCOPED_TRACE(d);
+    const std::string begin = std::to_string(0.4 * d);
+    const StudyResult result =
+        run("[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [\"-2*sin(" + begin +
+            ")\", \"2*cos(" + begin +
+            ")\"]\n[[chain]]\nname = \"mast\"\nelements = [ { joint = \"revolute\", axis = \"z\", "
+            "name = \"foot\", role = \"preloaded\", initial = " +
+            begin +
+            ", spring = { law = \"gap\", stiffness = 1.3, low = 0, high = " + std::to_string(d) +
+            " } }, { rigid = [0, 1] }, { joint = \"revolute\", axis = \"z\", name = \"knee\", role "
+            "= "
+            "\"preloaded\", spring = { law = \"linear\", stiffness = 0.7 } }, { rigid = [0, 1] } "
+            "]\n[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\nuntil = { "
+            "lambda = [-0.3, 0.3], mast.foot = [-1, 1] }\nbranches = { depth = 1 }\n")
+            .of("press");
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(count(result, EventKind::family), 1);
+    EXPECT_EQ(count(result, EventKind::stability_change), 0);
+    EXPECT_EQ(lambdas(result, EventKind::branching_kink).size(), 1u);
   }
 }
 

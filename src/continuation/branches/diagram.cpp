@@ -134,6 +134,13 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   int number = junction_at(hit);
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
+  if (known && at(number).complete && !lies_on(walker_, at(number).point, hit.switches)) {
+    at(number).complete = false;
+    at(number).why = names_of(walker_.problem, hit.switches) +
+                     " acts beside this point, nearer than points are told apart";
+    doubt(DoubtKind::ways_missing, "branches may be missing: " + at(number).why, at(number).point,
+          number);
+  }
   const Direction along = direction_seen_from(walker_, at(number).point.x, hit.point);
   Met met{hit.point.s, number, way_along(walker_, at(number), opposite(along), hit.point.piece),
           ends ? -1 : way_along(walker_, at(number), along, hit.point.piece)};

@@ -84,13 +84,57 @@ Walker without_limit_points(const Walker& walker) {
   return plain;
 }
 
+/// Adds special points in their order.
+void add_special(const StepEvents& special, StepEvents& found) {
+  found.hits.insert(found.hits.end(), special.hits.begin(), special.hits.end());
+  sort_by_place(found.hits);
+  if (special.doubt.empty()) return;
+  if (found.doubt.empty()) found.doubt = special.doubt;
+  found.unexplained = special.unexplained;
+}
+
+/// A stretch on which the rate of lambda is lost in rounding: a fold there belongs to the kink, branches that cross do not.
+void add_crossings(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
+                   StepEvents& found) {
+  if (!(to.s > from.s)) return;
+  add_special(events_on_step(without_limit_points(walker), from, to, nullptr, {}), found);
+}
+
+/// Events of the caller on a step that ends at a singular point: those of places all along; those of tangents up to just
+/// before it, since there the equations do not say which tangent is that of the curve.
+/// @param last  just before the end
+StepEvents events_to_singular(const Walker& walker, const CurvePoint& from, const CurvePoint& last,
+                              const CurvePoint& to, const std::vector<Event>& events) {
+  std::vector<Event> places, tangents;
+  for (const Event& event : events) (event.of_place ? places : tangents).push_back(event);
+  const Walker plain = without_special_points(walker);
+  StepEvents found = events_on_step(plain, from, to, nullptr, places);
+  const StepEvents before = events_on_step(plain, from, last, nullptr, tangents);
+  walker.memory->at_end.events = nullptr;  // those lists end here
+  found.hits.insert(found.hits.end(), before.hits.begin(), before.hits.end());
+  sort_by_place(found.hits);
+  if (found.doubt.empty()) found.doubt = before.doubt;
+  found.of_caller = !found.doubt.empty();
+  return found;
+}
+
 /// On a family lambda turns nowhere, and dF/dx is singular all along; the matrix of the curve is so where another branch
-/// crosses.
+/// crosses. Where one does so at the kink behind the step, it belongs to the kink, as on any curve.
 StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoint& to,
-                         const CurvePoint* middle, const std::vector<Event>& events, Curve& curve) {
+                         const CurvePoint* middle, const std::vector<Event>& events,
+                         bool ends_singular, Curve& curve) {
   to.negative.reset();
-  StepEvents found = events_on_step(without_limit_points(walker), from, to, middle, events);
-  const auto before = other_negatives(walker, from), after = other_negatives(walker, to);
+  const Walker level = without_limit_points(walker);
+  CurvePoint last = to;
+  StepEvents found;
+  if (ends_singular) {
+    last = before_singular(walker, to, to.s - from.s).point;
+    found = events_to_singular(walker, from, last, to, events);
+    if (last.s < to.s) add_crossings(level, from, last, found);
+  } else {
+    found = events_on_step(level, from, to, middle, events);
+  }
+  const auto before = other_negatives(walker, from), after = other_negatives(walker, last);
   int explained = 0;
   for (const Hit& hit : found.hits)
     if (hit.kind == HitKind::branch_point) explained += hit.multiplicity;
@@ -127,22 +171,6 @@ StepEvents special_points(const Walker& walker, const CurvePoint& from, const Cu
     start = std::move(*next);
   }
   return all;
-}
-
-/// Adds special points in their order.
-void add_special(const StepEvents& special, StepEvents& found) {
-  found.hits.insert(found.hits.end(), special.hits.begin(), special.hits.end());
-  sort_by_place(found.hits);
-  if (special.doubt.empty()) return;
-  if (found.doubt.empty()) found.doubt = special.doubt;
-  found.unexplained = special.unexplained;
-}
-
-/// A stretch on which the rate of lambda is lost in rounding: a fold there belongs to the kink, branches that cross do not.
-void add_crossings(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                   StepEvents& found) {
-  if (!(to.s > from.s)) return;
-  add_special(events_on_step(without_limit_points(walker), from, to, nullptr, {}), found);
 }
 
 /// Special points between the bounds, branches that cross also beside them, events of the caller on the whole step.
@@ -196,7 +224,7 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
         {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
   const bool seen = progress.flat || open_family(begin, curve) != nullptr;
   if (stands_still(walker, begin, inside ? middle : nullptr, end, seen))
-    return family_events(walker, begin, end, middle, events, curve);
+    return family_events(walker, begin, end, middle, events, kink.singular, curve);
   std::optional<Beside> from, to;  // where they are not the ends of the step
   if (progress.clear_of > begin.s) {
     const auto clear = point_at(walker, begin, std::min(progress.clear_of - begin.s, length));

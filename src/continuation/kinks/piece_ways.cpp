@@ -160,8 +160,12 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
     const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : told_apart);
     return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
   }
-  const auto d = unit(qr.last_column, walker.weights);
+  auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "the metric gives the tangent no length"};
+  // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one inverse
+  // iteration takes it out.
+  if (std::abs(d->dlambda) <= flat_rate)
+    if (auto better = tangent_at(linear, walker.weights, *d)) d = std::move(better);
   PieceWays ways = both_ways(*d);
   ways.conditioning = qr.pivots[n - 1] / size;
   return ways;
