@@ -124,27 +124,27 @@ struct Judge {
     return std::abs(branch.load - P) <= place * draw.to;
   }
 
-  /// Takes what an event tells from its group: all of it, or what leaves at just this load.
+  /// Takes what an event tells from its group: all of it, or what leaves at just this load. Loads may be nearer than events are
+  /// placed: an event tells of them as many as it has ways, and the others are told by the next one, or missed.
   void compare(Group& group, double P, const std::string& label) {
-    std::vector<Vector> found = directions(label);
-    Group told = group;
-    if (found.size() != group.size())
-      std::erase_if(told, [&](const HalfBranch& branch) { return !is_at(branch, P); });
-    if (found.size() != told.size())
+    const std::vector<Vector> found = directions(label);
+    const bool all = found.size() == group.size();
+    const auto belongs = [&](const HalfBranch& branch) { return all || is_at(branch, P); };
+    const auto here = static_cast<std::size_t>(std::count_if(group.begin(), group.end(), belongs));
+    if (found.size() > here || found.empty())
       faults.push_back(said("%g ways out at %.12g instead of %g", static_cast<double>(found.size()),
-                            P, static_cast<double>(told.size())));
-    const bool all = told.size() == group.size();
-    std::erase_if(group, [&](const HalfBranch& branch) { return all || is_at(branch, P); });
-    for (const HalfBranch& expected : told) {
-      const auto best =
-          std::max_element(found.begin(), found.end(), [&](const Vector& a, const Vector& b) {
-            return a.dot(expected.direction) < b.dot(expected.direction);
-          });
-      if (best == found.end()) return;
-      if (best->dot(expected.direction) < along)
+                            P, static_cast<double>(here)));
+    for (const Vector& way : found) {
+      auto best = group.end();
+      for (auto it = group.begin(); it != group.end(); ++it)
+        if (belongs(*it) &&
+            (best == group.end() || it->direction.dot(way) > best->direction.dot(way)))
+          best = it;
+      if (best == group.end()) return;
+      if (best->direction.dot(way) < along)
         faults.push_back(
-            said("direction at %.12g is off, cosine %.6g", P, best->dot(expected.direction)));
-      found.erase(best);
+            said("direction at %.12g is off, cosine %.6g", P, best->direction.dot(way)));
+      group.erase(best);
     }
   }
 
