@@ -180,6 +180,23 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
   return hit;
 }
 
+/// The two curves of an ordinary start that lie in different pieces meet at the switching between them, however slowly its
+/// springs leave their thresholds: across a stiff member no step sees it.
+std::optional<Hit> switching_between(const Following& t, const Curve& backward,
+                                     const Curve& forward) {
+  const CurvePoint &before = backward.points.front(), &after = forward.points.front();
+  Hit hit{.kind = HitKind::kink, .point = turned_round(before), .leaving = {after}};
+  for (std::size_t j = 0; j < after.piece.size(); ++j)
+    if (before.piece[j] != after.piece[j]) hit.switches.push_back(static_cast<Index>(j));
+  if (hit.switches.empty()) return std::nullopt;
+  for (const Index j : hit.switches)
+    hit.name += (hit.name.empty() ? "" : ", ") + t.problem.switch_name(j);
+  if (hit.point.tangent.dlambda * after.tangent.dlambda < 0) hit.kind = HitKind::corner;
+  Curve both{.points = {hit.point, after}, .hits = {hit}};
+  both = with_hits_merged(std::move(both), t.evaluator);
+  return both.hits.empty() ? std::nullopt : std::optional<Hit>(moved_to_start(both.hits.front()));
+}
+
 }  // namespace
 
 std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
@@ -213,6 +230,11 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
     if (is_known) continue;
     hits.push_back(placed_at(start, std::move(hit)));
   }
+  const bool is_told = std::ranges::any_of(hits, [](const Hit& hit) {
+    return !hit.switches.empty() || hit.kind == HitKind::unresolved;
+  });
+  if (!is_told)
+    if (auto hit = switching_between(t, backward, forward)) hits.push_back(std::move(*hit));
   return hits;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "case_runs.hpp"
 #include "cases/number_text.hpp"
@@ -218,6 +219,53 @@ TEST(CablesAtRest, SlackByAMillionthTheyBearTheMastRightBehindTheBranchPoint) {
                   1);
       }
     }
+}
+
+TEST(CablesAtRest, SlackByABillionthAndStifferThanTheFootTheyBearTheMast) {
+  for (const As as : {As::chain, As::spring}) {
+    std::string text = mast(0.01, cable("left", -1, -1.5e-9, as) + cable("right", 1, -1.5e-9, as));
+    const std::string range = "lambda = [-0.2, 2]";
+    text.replace(text.find(range), range.size(), "lambda = [-0.002, 0.013]");
+    const StudyResult result = run(text).of("press");
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(branches_from(result, "BP1"), 2u);
+  }
+}
+
+/// An elastic mast of length 1 on a hinge of stiffness 1, and one cable at rest: its length is sqrt(2).
+std::string elastic_mast(double axial, double cable) {
+  return "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1]\n"
+         "[[chain]]\nname = \"mast\"\nelements = [{ joint = \"revolute\", axis = \"z\", name = "
+         "\"foot\", role = \"preloaded\", spring = { law = \"linear\", stiffness = 1 } }, { joint "
+         "= \"prismatic\", axis = \"y\", name = \"ax\", role = \"virtual\", stiffness = " +
+         number(axial) +
+         " }, { rigid = [0, 1] }]\n[[spring]]\nname = \"c1\"\nfrom_at = [-1, 0]\nto = \"top\"\n"
+         "law = { law = \"one_sided\", stiffness = " +
+         number(cable) +
+         ", from = \"sqrt(2)\" }\n[[study]]\nname = \"press\"\ncontrol = \"load\"\n"
+         "direction = [0, -1]\nuntil = { lambda = [-2, 2], mast.foot = [-1, 1] }\n"
+         "branches = { depth = 1 }\n";
+}
+
+TEST(CablesAtRest, OneOnAnElasticMastIsSlackUnderPressureAndTautUnderPullHoweverStiffBothAre) {
+  // Under pressure P the mast is 1 - P / axial long, and P (1 - P / axial) = 1 where it buckles.
+  constexpr std::pair<double, double> pairs[] = {{1e2, 1e2}, {1e5, 1e3}, {1e5, 1e5},
+                                                 {1e3, 1e6}, {1e8, 1e2}, {1e2, 1e8}};
+  for (const auto& [axial, cable] : pairs) {
+    SCOPED_TRACE(number(axial) + ", " + number(cable));
+    const StudyResult result = run(elastic_mast(axial, cable)).of("press");
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(result.branches.size(), 3u);
+    const auto switched = lambdas(result, EventKind::switching),
+               buckles = lambdas(result, EventKind::branch_point);
+    ASSERT_EQ(switched.size(), 1u);
+    EXPECT_NEAR(switched[0], 0, 1e-9);
+    ASSERT_EQ(buckles.size(), 1u);
+    EXPECT_NEAR(buckles[0], 2 / (1 + std::sqrt(1 - 4 / axial)), 1e-9);
+    const auto& last = result.branches[0].samples.front();  // pulled: the taut cable draws the mast
+    EXPECT_LT(last.values[column(result, "lambda")], -1.9);
+    EXPECT_GT(last.values[column(result, "mast.foot")], 0);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "continuation/following/keep_hits.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
@@ -137,6 +138,58 @@ bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progre
   return shortest || found.flat;
 }
 
+/// Does the curve of a piece, which is the same up to here, lead on within it? Signs of the switches at its point ahead, on the
+/// sides of the piece; 0 where rounding hides them, nothing where one is on the other side.
+std::optional<std::vector<int>> signs_ahead(const Walker& walker, const CurvePoint& here, double ds,
+                                            const std::vector<Index>& switches) {
+  const auto ahead = point_at(walker, here, ds);
+  Vector g, dg_dlambda;
+  Matrix dg_dx;
+  if (!ahead || !walker.problem.switches(ahead->x, ahead->lambda, g) ||
+      !walker.problem.switch_gradients(ahead->x, ahead->lambda, dg_dx, dg_dlambda))
+    return std::nullopt;
+  std::vector<int> signs;
+  for (const Index j : switches) {
+    const double value = here.piece[static_cast<std::size_t>(j)] * g[j];
+    const bool hidden = std::abs(value) <= error_of_value(walker, *ahead, dg_dx, dg_dlambda, j);
+    if (!hidden && value < 0) return std::nullopt;
+    signs.push_back(hidden ? 0 : here.piece[static_cast<std::size_t>(j)]);
+  }
+  return signs;
+}
+
+/// Where switches have rested up to here, and leave their surfaces now, too slowly to be seen to cross, the curve belonged to
+/// all pieces beside them: it goes on in that within which it leads on, if that is one. Nothing switches here, but where the
+/// switches came to rest.
+/// @param suspect  could not be told on a step of this length
+bool goes_on_from_rest(const Walker& walker, Index suspect, Progress& progress, Curve& curve) {
+  constexpr std::size_t most = 6;
+  const CurvePoint& before = progress.before;
+  CurvePoint& here = progress.here;
+  if (!(before.s < here.s) || before.piece != here.piece || contains(progress.left, suspect))
+    return false;
+  const std::vector<Index> rested = resting_switches(walker, before, here);
+  if (!contains(rested, suspect) || rested.size() > most) return false;
+  std::vector<Piece> within;
+  std::vector<int> signs;
+  for (unsigned pattern = 0; pattern < (1u << rested.size()); ++pattern) {
+    CurvePoint other = here;
+    for (std::size_t k = 0; k < rested.size(); ++k)
+      other.piece[static_cast<std::size_t>(rested[k])] = (pattern >> k) & 1u ? 1 : -1;
+    const auto ahead = signs_ahead(walker, other, progress.ds, rested);
+    if (!ahead) continue;
+    if (!within.empty() && *ahead != signs) return false;
+    signs = *ahead;
+    if (within.empty() || other.piece == here.piece) within.assign(1, other.piece);
+  }
+  if (within.empty() || within.front() == here.piece) return false;
+  here = point_on_ray(walker, here, {within.front(), here.tangent});
+  progress.left = rested;
+  curve.points.back() = here;
+  curve.log.push_back({here.s, 0, names_of(walker.problem, rested) + " leave their surfaces"});
+  return true;
+}
+
 /// Takes the end of the step, or the start of the curve that it passes, as the place where the curve is.
 void move_on(const Following& following, const CurvePoint* start, Progress& progress,
              Curve& curve) {
@@ -169,6 +222,7 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
   const CurvePoint* middle = walker.options.verify ? &walker.memory->middle : nullptr;
   KinkSearch kink = first_kink(walker, progress.here, next, progress.left);
   if (kink.status == KinkSearch::Status::suspicious) {
+    if (goes_on_from_rest(walker, kink.suspect, progress, curve)) return Outcome::go_on;
     refused.reason = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
                                                       : std::string("a switching surface"));
     return Outcome::shorten;

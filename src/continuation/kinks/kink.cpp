@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "continuation/locating/reduced_equation.hpp"
+#include "continuation/locating/singular.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -24,6 +25,17 @@ Side side_of(double value, double distance) {
   return std::abs(value) <= zero ? Side::rests : Side::unclear;
 }
 
+/// The same where the equations at the point say how far rounding may have moved it.
+Side side_by_error(const Walker& walker, const CurvePoint& point, Index j, double value) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!walker.problem.switch_gradients(point.x, point.lambda, dg_dx, dg_dlambda))
+    return Side::unclear;
+  const double error = error_of_value(walker, point, dg_dx, dg_dlambda, j);
+  if (!(std::abs(value) > clear_of_rounding * error)) return Side::unclear;
+  return value > 0 ? Side::in : Side::out;
+}
+
 /// To which side of the surfaces `grazed`, tangential here, does the curve of a piece bend?
 /// rests: it stays within the surface.
 std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const PieceWay& way,
@@ -34,8 +46,11 @@ std::vector<Side> sides_of(const Walker& walker, const CurvePoint& at, const Pie
     if (!walker.problem.switches(point.x, point.lambda, g)) return;
     const double distance = length_of(walker, between(walker, at, point));
     for (std::size_t i = 0; i < grazed.size(); ++i)
-      if (sides[i] != Side::in && sides[i] != Side::out)
-        sides[i] = side_of(at.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]], distance);
+      if (sides[i] != Side::in && sides[i] != Side::out) {
+        const double value = at.piece[static_cast<std::size_t>(grazed[i])] * g[grazed[i]];
+        sides[i] = side_of(value, distance);
+        if (sides[i] == Side::unclear) sides[i] = side_by_error(walker, point, grazed[i], value);
+      }
   };
   CurvePoint start = way.start.value_or(at);
   if (way.start)
@@ -71,15 +86,79 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
   return false;
 }
 
+/// How well a piece's equations determine its rates, computed where it is asked for first. The equilibrated matrix is
+/// J = D_r [dF/dx dF/dlambda] D_c, whose kernel is y, tangent = D_c y: stiff members beside soft ones make nothing uncertain
+/// by that alone.
+class RateErrors {
+ public:
+  RateErrors(const Walker& walker, const CurvePoint& at) : walker_{walker}, at_{at} {}
+
+  /// What a place that is off by rounding makes of the rate of g_j along the tangent; infinity: not known.
+  double of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& tangent) {
+    if (walker_.problem.structured()) return infinity;
+    if (!asked_) ask();
+    if (!own_) return infinity;
+    const Index n = own_->J.rows();
+    Vector gradient(n + 1), along(n + 1);
+    gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
+    along << tangent.dx, tangent.dlambda;
+    const double size =
+        gradient.cwiseProduct(own_->columns).norm() * along.cwiseQuotient(own_->columns).norm();
+    return share_ > 0 && std::isfinite(size) ? 2 * exact_model / share_ * size : infinity;
+  }
+
+ private:
+  void ask() {
+    asked_ = true;
+    own_ = equilibrated_jacobian(walker_, at_);
+    if (!own_) return;
+    const Index n = own_->J.rows();
+    const Vector pivots = pivoted_qr(own_->J.transpose()).pivots;
+    share_ = n > 0 ? pivots[n - 1] / std::max(pivots[0], 1.0) : 1.0;
+  }
+
+  const Walker& walker_;
+  const CurvePoint& at_;
+  bool asked_ = false;
+  std::optional<EquilibratedJacobian> own_{};
+  double share_ = 0;
+};
+
+/// Does the point lie on the surface of a switch to rounding?
+bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, const Vector& g, Index j) {
+  const double size = surfaces.dg_dx.row(j).cwiseAbs().dot(at.x.cwiseAbs()) +
+                      std::abs(surfaces.dg_dlambda[j] * at.lambda);
+  return is_exact(std::abs(g[j]), size);
+}
+
+/// A rate below the accuracy of its way is known as well as the equations determine it, where the point lies on the surface to
+/// rounding: a stiff member moves little, and surely.
+double accuracy_of_rate(const Walker& walker, const CurvePoint& at, const PieceWay& way,
+                        const Surfaces& surfaces, Index j, RateErrors& errors) {
+  Vector g;
+  if (way.start || !walker.problem.switches(at.x, at.lambda, g) ||
+      !is_on_surface(at, surfaces, g, j))
+    return way.accuracy;
+  return std::min(way.accuracy, errors.of(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent));
+}
+
 /// Keeps one direction of one piece if it leads into the piece.
 void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
-           const Surfaces& surfaces, const Piece& preferred, Rays& rays) {
+           const Surfaces& surfaces, const Piece& preferred, RateErrors& errors, Rays& rays) {
   std::vector<Index> grazed, resting;
+  const auto rate_of = [&](Index j) {
+    return at.piece[static_cast<std::size_t>(j)] *
+           switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
+  };
+  const auto leads_out = [&](Index j) { return rate_of(j) < -way.accuracy; };
+  if (std::ranges::any_of(surfaces.active, leads_out)) return;
   for (const Index j : surfaces.active) {
-    const double rate = at.piece[static_cast<std::size_t>(j)] *
-                        switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
-    if (rate < -way.accuracy) return;
-    if (rate <= way.accuracy) grazed.push_back(j);
+    const double rate = rate_of(j);
+    const double known_to = std::abs(rate) > way.accuracy
+                                ? way.accuracy
+                                : accuracy_of_rate(walker, at, way, surfaces, j, errors);
+    if (rate < -known_to) return;
+    if (rate <= known_to) grazed.push_back(j);
   }
   if (is_known(walker, preferred, at.piece, way, rays)) return;
   if (!grazed.empty()) {
@@ -119,22 +198,33 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
 }
 
-/// By the condition of the equilibrated matrix J = D_r [dF/dx dF/dlambda] D_c, whose kernel is y, tangent = D_c y: stiff
-/// members beside soft ones make nothing uncertain by that alone.
 double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
                      const Vector& dg_dlambda, Index j, const Direction& tangent) {
-  if (walker.problem.structured()) return infinity;
-  const auto own = equilibrated_jacobian(walker, at);
-  if (!own) return infinity;
-  const Index n = own->J.rows();
-  const Vector pivots = pivoted_qr(own->J.transpose()).pivots;
-  const double share = n > 0 ? pivots[n - 1] / std::max(pivots[0], 1.0) : 1.0;
-  Vector gradient(n + 1), along(n + 1);
+  return RateErrors(walker, at).of(dg_dx, dg_dlambda, j, tangent);
+}
+
+/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that round,
+/// times the inverse of the bordered matrix: across a stiff member by as little as that is stiff.
+double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                      const Vector& dg_dlambda, Index j) {
+  Linearisation linear;
+  if (walker.problem.structured() ||
+      !linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear))
+    return infinity;
+  const Index n = at.x.size();
+  Matrix B(n + 1, n + 1);
+  B << linear.dF_dx, linear.dF_dlambda, walker.weights.cwiseProduct(at.tangent.dx).transpose(),
+      at.tangent.dlambda;
+  Vector gradient(n + 1);
   gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
-  along << tangent.dx, tangent.dlambda;
-  const double size =
-      gradient.cwiseProduct(own->columns).norm() * along.cwiseQuotient(own->columns).norm();
-  return share > 0 && std::isfinite(size) ? 2 * exact_model / share * size : infinity;
+  const double terms = (linear.dF_dx.cwiseAbs() * at.x.cwiseAbs() +
+                        std::abs(at.lambda) * linear.dF_dlambda.cwiseAbs())
+                           .lpNorm<Eigen::Infinity>();
+  const double size = std::max({1.0, at.x.lpNorm<Eigen::Infinity>(), std::abs(at.lambda)});
+  const Vector answers = Lu(B.transpose()).solve(gradient);
+  const double error = refined_step * (size * gradient.lpNorm<1>() +
+                                       std::max(1.0, terms) * answers.head(n).lpNorm<1>());
+  return std::isfinite(error) ? error : infinity;
 }
 
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
@@ -164,7 +254,8 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   CurvePoint ray = at;
   const auto add = [&](const PieceWays& ways) {
     if (!ways.why.empty()) add_doubt(ways.why, rays);
-    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, at.piece, rays);
+    RateErrors errors(walker, ray);
+    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, at.piece, errors, rays);
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);

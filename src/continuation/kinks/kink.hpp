@@ -90,6 +90,10 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
 double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
                      const Vector& dg_dlambda, Index j, const Direction& tangent);
 
+/// What rounding makes of g_j at a corrected point of the curve; infinity where that is not known.
+double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                      const Vector& dg_dlambda, Index j);
+
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {
   Direction tangent{};

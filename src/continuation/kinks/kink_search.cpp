@@ -356,10 +356,16 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
     const double side = from.piece[static_cast<std::size_t>(j)];
     const double noise =
         residual_level * std::max({1.0, size_of(first, j, from), size_of(last, j, to)});
-    const SwitchOnStep on_step{walker, from, h, j, side, noise};
+    SwitchOnStep on_step{walker, from, h, j, side, noise};
     const Cubic ends{side * first.g[j], side * rate_along(first, j, from), side * last.g[j],
                      side * rate_along(last, j, to) / along, h};
     Crossing crossing = crossing_of(on_step, ends, contains(left, j));
+    if (!crossing.clear) {
+      // Across a stiff member values are known better than residuals are at their tolerance.
+      on_step.noise = std::max(error_of_value(walker, from, first.dg_dx, first.dg_dlambda, j),
+                               error_of_value(walker, to, last.dg_dx, last.dg_dlambda, j));
+      if (on_step.noise < noise) crossing = crossing_of(on_step, ends, contains(left, j));
+    }
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||
