@@ -185,9 +185,16 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
 std::optional<Hit> switching_between(const Following& t, const Curve& backward,
                                      const Curve& forward) {
   const CurvePoint &before = backward.points.front(), &after = forward.points.front();
+  Vector behind, ahead;
+  if (!t.problem.switches(next_point(backward)->x, next_point(backward)->lambda, behind) ||
+      !t.problem.switches(next_point(forward)->x, next_point(forward)->lambda, ahead))
+    return std::nullopt;
   Hit hit{.kind = HitKind::kink, .point = turned_round(before), .leaving = {after}};
-  for (std::size_t j = 0; j < after.piece.size(); ++j)
-    if (before.piece[j] != after.piece[j]) hit.switches.push_back(static_cast<Index>(j));
+  for (Index j = 0; j < ahead.size(); ++j) {
+    const int from = before.piece[static_cast<std::size_t>(j)],
+              to = after.piece[static_cast<std::size_t>(j)];
+    if (from != to && from * behind[j] > 0 && to * ahead[j] > 0) hit.switches.push_back(j);
+  }
   if (hit.switches.empty()) return std::nullopt;
   for (const Index j : hit.switches)
     hit.name += (hit.name.empty() ? "" : ", ") + t.problem.switch_name(j);
