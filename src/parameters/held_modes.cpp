@@ -150,7 +150,7 @@ std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalS
   if (!null || !base_terms(family, branch_point.x, branch_point.lambda, branch_point.mu,
                            branch_point.piece, base))
     return std::nullopt;
-  if ((base.A * null->right).norm() > poor * base.A.norm()) return std::nullopt;
+  if ((base.A * null->right).norm() > poor * std::max(1.0, base.A.norm())) return std::nullopt;
   const Vector along = null->right.transpose() * path.dx;
   const Vector loaded = null->left.transpose() * base.b;
   const bool turns = (null->right * along - path.dx).norm() <= poor * path.dx.norm() &&
