@@ -30,6 +30,37 @@ bool ends_at_start(const std::vector<LoadPiece>& pieces, double mu) {
          (behind != pieces.begin() && comes(std::prev(behind)->growing));
 }
 
+Side side_without_way(const continuation::CriticalStart& at, const std::string& what) {
+  Side side{.end = at.mu};
+  side.curve.points = {
+      {.x = at.x, .lambda = at.lambda, .mu = at.mu, .dx = Vector::Zero(at.x.size())}};
+  side.curve.stop = continuation::StopReason::event;
+  side.curve.stop_detail = what;
+  return side;
+}
+
+double load_at_end(const Side& side) {
+  const continuation::CriticalCurve& curve = side.curve;
+  const bool at_hit = curve.stop == continuation::StopReason::event && !curve.hits.empty();
+  return at_hit ? curve.hits.back().point.lambda : curve.points.back().lambda;
+}
+
+std::pair<double, double> room_beside(const std::vector<LoadPiece>& pieces, double mu, double low,
+                                      double high) {
+  for (const LoadPiece& piece : pieces) {
+    if (piece.growing.end <= mu) low = std::max(low, piece.growing.end);
+    if (piece.falling.end >= mu) high = std::min(high, piece.falling.end);
+  }
+  return {low, high};
+}
+
+void insert_in_order(LoadPiece piece, std::vector<LoadPiece>& pieces) {
+  const auto behind = std::find_if(pieces.begin(), pieces.end(), [&](const LoadPiece& other) {
+    return other.start.mu > piece.start.mu;
+  });
+  pieces.insert(behind, std::move(piece));
+}
+
 void end_at(Side& side, EventKind of, std::size_t hit) {
   continuation::CriticalCurve& curve = side.curve;
   curve.hits.resize(hit + 1);
@@ -69,18 +100,19 @@ Branch row_alone(const CaseCurves& curves, const Member& member, const SpecialPo
 }
 
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point) {
-  if (point.kind != EventKind::branch_point) return false;
   std::string why;
   const auto start = critical_start(curves, member, point, why);
-  return start && !critical_rate(curves.family(), *start);
+  if (point.kind == EventKind::branch_point)
+    return start && !critical_rate(curves.family(), *start);
+  // Several springs that switch at once: each has a curve of its own.
+  return !start && point.hit.switches.size() > 1;
 }
 
 bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,
                 double lambda, double room) {
   const auto comes = [&](const LoadPiece& piece, const Side& side) {
     if (side.curve.points.empty()) return false;
-    if (std::abs(side.end - mu) <= room)
-      return is_same_load_at_ends(lambda, side.curve.points.back().lambda);
+    if (std::abs(side.end - mu) <= room) return is_same_load_at_ends(lambda, load_at_end(side));
     const auto here = point_of_curve(curves, piece.start, side.curve, mu, room);
     return here && is_same_load_at_ends(lambda, here->lambda);
   };
@@ -105,9 +137,9 @@ void leave_out_points(std::vector<LoadPiece>& pieces, double room) {
 void say_what_goes_on(std::vector<LoadPiece>& pieces, double room) {
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     Side &before = pieces[i].growing, &behind = pieces[i + 1].falling;
-    const auto &points = before.curve.points, &next = behind.curve.points;
-    if (std::abs(behind.end - before.end) > room || points.empty() || next.empty()) continue;
-    if (!is_same_load_at_ends(points.back().lambda, next.back().lambda)) continue;
+    const bool has_points = !before.curve.points.empty() && !behind.curve.points.empty();
+    if (std::abs(behind.end - before.end) > room || !has_points) continue;
+    if (!is_same_load_at_ends(load_at_end(before), load_at_end(behind))) continue;
     for (Side* side : {&before, &behind})
       if (side->another_first) side->curve.stop_detail = in_next_piece;
   }

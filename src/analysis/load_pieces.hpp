@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case_curves.hpp"
@@ -36,11 +37,22 @@ struct LoadPiece {
 };
 
 /// Does this value of the parameter alone have the critical point, as where the parameter parts the modes of a multiple branch
-/// point, or makes an imperfect structure of a perfect one? Other points come to it from beside.
+/// point or springs that switch at once, or makes an imperfect structure of a perfect one? Other points come to it from beside.
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
 
 /// Loads at ends of pieces, where the parameter of one may differ a little from that of the other.
 bool is_same_load_at_ends(double a, double b);
+
+/// Of a point at the edge of the range.
+Side side_without_way(const continuation::CriticalStart& at, const std::string& what);
+
+/// The load at the end of a side that has points.
+double load_at_end(const Side& side);
+
+/// The ends of the pieces on either side of a value, or those of the range.
+std::pair<double, double> room_beside(const std::vector<LoadPiece>& pieces, double mu, double low,
+                                      double high);
+void insert_in_order(LoadPiece piece, std::vector<LoadPiece>& pieces);
 
 /// Cuts a side at one of its special points.
 void end_at(Side& side, EventKind of, std::size_t hit);

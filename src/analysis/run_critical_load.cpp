@@ -95,19 +95,12 @@ class LoadsOverParameter {
     const double back = std::max(low_, from - at_degeneracy * width_);
     piece.falling = mu > low_ ? side_of(piece, mu, back, why) : Side{};
     if (!why.empty()) return doubt(mu, point.label + ": " + why), std::nullopt;
-    if (mu >= to) stand(piece, piece.growing, mu, end_of_range(curves_, 1));
-    if (mu <= low_) stand(piece, piece.falling, mu, end_of_range(curves_, -1));
+    const auto edge = [&](int sense) {
+      return curves_.name() + " " + end_of_range(curves_, sense);
+    };
+    if (mu >= to) piece.growing = side_without_way(piece.start, edge(1));
+    if (mu <= low_) piece.falling = side_without_way(piece.start, edge(-1));
     return piece;
-  }
-
-  /// A side without a way: the point is at the edge of the range.
-  void stand(const LoadPiece& piece, Side& side, double mu, const std::string& what) const {
-    const CriticalStart& at = piece.start;
-    side.curve.points = {
-        {.x = at.x, .lambda = at.lambda, .mu = mu, .dx = Vector::Zero(at.x.size())}};
-    side.curve.stop = continuation::StopReason::event;
-    side.curve.stop_detail = curves_.name() + " " + what;
-    side.end = mu;
   }
 
   /// Pieces between the values of the range.
@@ -235,7 +228,7 @@ class LoadsOverParameter {
     if (side.end != low_ && side.end != high_) return;
     const FirstUnwanted& first = first_at(side.end);
     if (!first.point || !is_alone(side.end) ||
-        is_same_load_at_ends(first.point->hit.point.lambda, side.curve.points.back().lambda))
+        is_same_load_at_ends(first.point->hit.point.lambda, load_at_end(side)))
       return;
     alone_.push_back(side.end);
     cut(piece.start, side, side.end - sense * closest_bracket * width_);
@@ -301,27 +294,41 @@ class LoadsOverParameter {
 
   bool meet(double a, double b) const { return std::abs(a - b) <= at_degeneracy * width_; }
 
+  /// Just beside a value at which what comes first stands alone there may be pieces that end before the next value.
+  /// @returns false where it is not known what comes first there
+  bool look_beside(double mu) {
+    for (const double side : sides) {
+      const double beside = mu + side * next_piece * width_;
+      if (beside < low_ || beside > high_) continue;
+      const FirstUnwanted& first = first_at(beside);
+      if (!first.why.empty()) return false;
+      if (!first.point || is_reached(curves_, pieces_, beside, first.point->hit.point.lambda,
+                                     at_degeneracy * width_))
+        continue;
+      const auto [from, to] = room_beside(pieces_, beside, low_, high_);
+      auto piece = piece_of(*first.point, beside, from, to);
+      if (piece) insert_in_order(std::move(*piece), pieces_);
+    }
+    return true;
+  }
+
   /// Values at which what comes first stands alone belong to the pieces that come to it with its load. Where all is known
   /// beside, and has another load, the value is a place of its own.
   void tell_apart() {
     std::vector<double> own;
     for (const double mu : std::set<double>(alone_.begin(), alone_.end())) {
       const SpecialPoint& point = *first_at(mu).point;
-      const double lambda = point.hit.point.lambda;
-      if (is_reached(curves_, pieces_, mu, lambda, at_degeneracy * width_)) continue;
-      const bool apart = std::all_of(std::begin(sides), std::end(sides), [&](double side) {
-        const double beside = mu + side * next_piece * width_;
-        if (beside < low_ || beside > high_) return true;
-        const FirstUnwanted& first = first_at(beside);
-        return first.why.empty() &&
-               !(first.point && is_same_load_at_ends(lambda, first.point->hit.point.lambda));
-      });
-      if (apart)
+      const auto belongs = [&] {
+        return is_reached(curves_, pieces_, mu, point.hit.point.lambda, at_degeneracy * width_);
+      };
+      if (belongs()) continue;
+      const bool is_known = look_beside(mu);
+      if (belongs()) continue;
+      if (is_known)
         own.push_back(mu);
       else
-        doubt(mu,
-              point.label +
-                  " does not move with this parameter, and no critical point beside comes to it");
+        doubt(mu, point.label +
+                      " stands alone at this value, and what comes first beside is not known");
     }
     alone_ = std::move(own);
   }

@@ -88,5 +88,90 @@ TEST(LoadsOfOneValue, ARangeThatMissesTheValueHasTheLoadOfItsNeighboursThroughou
   EXPECT_TRUE(result.doubts.empty());
 }
 
+TEST(LoadsOfOneValue, PiecesThatComeToItAndEndBeforeTheNextValueAreFollowed) {
+  // An asymmetric hinge, torque T = q + q^2/2 + q^3: limit points for small tilts of one sign only, from the transcritical branch
+  // point of the upright strut to the cusp at T + T'' = 0, tan(q - e) = T/T' (the sign of e is that of the load's side).
+  const auto result = run(R"toml(
+[parameters]
+e = 0
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "s"
+elements = [
+  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0.5, 1] } },
+  { rigid = [0, 1] },
+]
+[[study]]
+name = "tilt"
+kind = "critical_load"
+control = "load"
+direction = ["sin(e)", "-cos(e)"]
+until = { lambda = [-0.2, 1.4], s.q = [-1.5, 1.5] }
+critical_load = { of = "loss_of_stability", parameter = "e", range = [-0.1, 0.1], values = 5 }
+)toml")
+                          .of("tilt");
+  EXPECT_TRUE(result.doubts.empty());
+  ASSERT_EQ(result.branches.size(), 1U);
+  double q = -0.14;  // of T + T'' = 1 + 7 q + q^2/2 + q^3
+  for (int i = 0; i < 20; ++i) q -= (1 + q * (7 + q * (0.5 + q))) / (7 + q * (1 + 3 * q));
+  const double torque = q * (1 + q * (0.5 + q)), slope = 1 + q * (1 + 3 * q);
+  const double tilt = q - std::atan(torque / slope);
+  const auto& rows = result.branches.front().samples;
+  EXPECT_NEAR(tilt_at(rows.front()), 0, 1e-9);
+  EXPECT_NEAR(load_at(rows.front()), 1, 1e-9);
+  EXPECT_NEAR(tilt_at(rows.back()), tilt, 1e-9);
+  EXPECT_NEAR(load_at(rows.back()), torque / std::sin(q - tilt), 1e-9);
+}
+
+TEST(LoadsOfOneValue, SpringsThatSwitchAtOnceThereLeaveNoDoubt) {
+  // A flat truss that is pressed between two stops, which meet it at once; tilted, one of them is the first.
+  const std::string truss = R"toml(
+[parameters]
+psi = 0
+[[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "t"
+at = [0, 0.5]
+[[bar]]
+from = "l"
+to = "t"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "t"
+stiffness = 1
+[[spring]]
+repeat = { i = [0, 1] }
+name = "s{i}"
+from_at = ["0.8*(2*i-1)", -0.5]
+to = "t"
+law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
+[[spring]]
+name = "v"
+shape = "line"
+of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
+stiffness = 0.02
+[[study]]
+name = "tilt"
+kind = "critical_load"
+control = "load"
+direction = ["sin(psi)", "-cos(psi)"]
+until = { lambda = [-0.01, 0.3], t.y = [-0.6, 0.6] }
+critical_load = { of = "loss_of_stability", parameter = "psi", range = [-0.1, 0.1], values = )toml";
+  const auto hits = run(truss + "5 }\n").of("tilt"), misses = run(truss + "4 }\n").of("tilt");
+  EXPECT_EQ(hits.doubts, misses.doubts);
+  EXPECT_TRUE(hits.doubts.empty());
+}
+
 }  // namespace
 }  // namespace springfold::io
