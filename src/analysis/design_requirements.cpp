@@ -8,6 +8,7 @@
 #include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
 #include "design_modes.hpp"
+#include "first_unwanted.hpp"
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -38,6 +39,17 @@ std::vector<Vector> peaks(const RangeNodes& range, const Vector& values) {
     if (-value > inside[i]) all.back() = range_weights(row);
   }
   return all;
+}
+
+/// A start that is unstable itself has lost its stability before the path begins. No parameter is known to mend it by its rate:
+/// the search comes to stable ones from elsewhere.
+bool is_lost_at_start(const DesignPath& path, const CriticalRequirement& wanted) {
+  if (wanted.unwanted != Unwanted::loss_of_stability) return false;
+  CriticalPointSettings settings;
+  settings.unwanted = wanted.unwanted;
+  settings.stability = wanted.stability;
+  const auto modes = unstable_at_start(path.base(), settings);
+  return modes && *modes > 0;
 }
 
 }  // namespace
@@ -153,6 +165,12 @@ bool Requirements::add_critical(const DesignPath& path, const Vector& values,
   const auto blank = unknown();
   for (std::size_t i = 0; i < settings_.critical.size(); ++i) {
     const CriticalRequirement& wanted = settings_.critical[i];
+    if (is_lost_at_start(path, wanted)) {
+      sheet.begin(blank[i], undefined);
+      const std::size_t count = modes_together + (ways[i] == Way::climbing ? 1 : 0);
+      for (std::size_t k = 0; k < count; ++k) sheet.add(k == 0 ? 1 : -1, still);
+      continue;
+    }
     const FirstModes found = first_modes(case_, values, path, wanted, observer);
     const SpecialPoint* const first = found.first;
     if (first == nullptr && !path.doubt().empty()) {

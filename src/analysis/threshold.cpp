@@ -263,7 +263,7 @@ class Threshold {
 
   void found(double mu, bool any) {
     report_.found = true;
-    report_.value = mu * curves_.scale();
+    report_.value = std::clamp(mu * curves_.scale(), study_.critical.low, study_.critical.high);
     report_.decides = any ? decides_ : "the range begins beyond it";
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;

@@ -145,5 +145,37 @@ TEST(UnstableDesign, PointsOfACurveThatBeginsUnstableAreMetWithADoubt) {
   EXPECT_TRUE(doubts_start(result));
 }
 
+TEST(UnstableDesign, AStartThatIsUnstableHasNotTheCriticalLoadThatIsWanted) {
+  // A strut that bears P0 = 1.1 before: its critical load is k - P0, and it stands for k > P0 only.
+  const auto result = run(R"toml(
+[parameters]
+k = 1
+P0 = 1.1
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "s"
+elements = [
+  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "linear", stiffness = "k" } },
+  { rigid = [0, 1] },
+]
+[[study]]
+name = "s"
+kind = "design"
+control = "load"
+direction = [0, -1]
+load = [0, "-P0"]
+until = { lambda = [-0.9, 3], s.q = [-1.5, 1.5] }
+design = { parameters = { k = [0.1, 3] }, critical_load = { at_least = 1.2, of = "loss_of_stability" } }
+)toml")
+                          .of("s");
+  ASSERT_TRUE(result.design);
+  EXPECT_EQ(result.design->status, analysis::DesignStatus::met) << result.design->message;
+  EXPECT_NEAR(result.design->parameters.front().after, 2.3, 1e-9);
+  EXPECT_TRUE(result.design->verified);
+}
+
 }  // namespace
 }  // namespace springfold::io
