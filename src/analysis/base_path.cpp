@@ -282,12 +282,20 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
   label_events(rows, 0, member.quantities());
   path.branch = std::move(rows.front().branch);
+  // A path that several pieces continue ends at a kink, which is the special point.
+  const auto is_end_at_kink = [&](const Event& event) {
+    return event.kind == EventKind::unresolved &&
+           std::any_of(path.branch.events.begin(), path.branch.events.end(),
+                       [&](const Event& other) {
+                         return other.kind == EventKind::branching_kink && other.row == event.row;
+                       });
+  };
   for (const Event& event : path.branch.events) {
     const double s = path.branch.samples[event.row].values.front();
     const Hit* hit = s < 0   ? hit_at(backward, -s)
                      : s > 0 ? hit_at(forward, s)
                              : hit_at_start(on_start, event.kind);
-    if (hit != nullptr && event.kind != EventKind::end_of_range)
+    if (hit != nullptr && event.kind != EventKind::end_of_range && !is_end_at_kink(event))
       path.points.push_back({event.label, event.kind, event.row, *hit});
   }
   path.forward = forward;
@@ -333,6 +341,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return start;
     case EventKind::switching:
     case EventKind::corner_limit_point:
+    case EventKind::branching_kink:
       if (auto starts = starts_at_switching(curves, point, start); starts.size() == 1)
         return std::move(starts.front());
       why = several_switch(point);
@@ -356,7 +365,8 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
-  if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point) {
+  if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point ||
+      point.kind == EventKind::branching_kink) {
     auto starts = starts_at_switching(curves, point, start_at(member, point));
     if (starts.empty()) why = several_switch(point);
     return starts;

@@ -1,0 +1,102 @@
+// Springs that switch at once and leave the path unstable, or several ways on: a critical load like any other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "case_runs.hpp"
+
+namespace springfold::io {
+namespace {
+
+constexpr double ka = 2, T = 0.1, span = 0.8;
+const double length = std::sqrt(1 + span * span);
+
+/// A strut of stiffness ka and height 1 between two equal cables under the tension T. Both go slack at once, at the load
+/// ka (1 - height) of the height at which a cable is as long as it is without force.
+double height_of_slack(double tension) {
+  return std::sqrt((length - tension) * (length - tension) - span * span);
+}
+const double load = ka * (1 - height_of_slack(T));
+
+Ran strut(const std::string& study) {
+  return run(R"toml(
+[parameters]
+kq = 0.02
+ka = 2
+T = 0.1
+[[body]]
+name = "top"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "mast"
+elements = [
+  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "linear", stiffness = "kq" } },
+  { joint = "prismatic", axis = "y", name = "a", role = "virtual", stiffness = "ka" },
+  { rigid = [0, 1] },
+]
+[[node]]
+repeat = { i = [0, 1] }
+name = "n{i}"
+at = ["0.8*(2*i-1)", 0]
+fixed = true
+[[bar]]
+repeat = { i = [0, 1] }
+name = "c{i}"
+from = "n{i}"
+to = "top"
+stiffness = 1
+pretension = "T"
+tension_only = true
+[[study]]
+name = "s"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-0.2, 0.3], mast.q = [-1, 1] }
+)toml" + study);
+}
+
+TEST(KinksOfSeveralSprings, HaveTheRatesOfTheirClosedForm) {
+  const auto result =
+      strut("kind = \"sensitivity\"\nsensitivity = { parameters = [\"T\", \"ka\", \"kq\"] }\n")
+          .of("s");
+  const auto& events = result.branches.at(0).events;
+  const auto kink = std::find_if(events.begin(), events.end(), [](const auto& event) {
+    return event.kind == analysis::EventKind::branching_kink;
+  });
+  ASSERT_NE(kink, events.end());
+  EXPECT_NEAR(value(result, kink->row, "lambda"), load, 1e-10);
+  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(T)"), ka * (length - T) / height_of_slack(T),
+              1e-8);
+  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(ka)"), load / ka, 1e-8);
+  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(kq)"), 0, 1e-8);
+}
+
+TEST(KinksOfSeveralSprings, AreNoLossOfStabilityWhereTheFootBearsTheStrutAlone) {
+  // Without cables the shortened strut stands up to load * height = kq.
+  const auto result = strut(
+                          "kind = \"threshold\"\nthreshold = { of = \"loss_of_stability\", "
+                          "parameter = \"kq\", range = [0.02, 1] }\n")
+                          .of("s");
+  ASSERT_TRUE(result.threshold && result.threshold->found);
+  // Up to the end of the range of loads, 0.3.
+  EXPECT_NEAR(result.threshold->value, 0.3 * (1 - 0.3 / ka), 1e-6);
+  EXPECT_TRUE(result.doubts.empty());
+}
+
+TEST(KinksOfSeveralSprings, AreTheFirstCriticalLoadOverTheTension) {
+  const auto result = strut(
+                          "kind = \"critical_load\"\ncritical_load = { of = "
+                          "\"loss_of_stability\", parameter = \"T\", range = [0.06, 0.11], "
+                          "values = 6 }\n")
+                          .of("s");
+  EXPECT_TRUE(result.doubts.empty());
+  ASSERT_EQ(result.branches.size(), 1U);
+  for (const auto& row : result.branches.front().samples)
+    EXPECT_NEAR(row.values[1], ka * (1 - height_of_slack(row.values.back())), 1e-10);
+}
+
+}  // namespace
+}  // namespace springfold::io
