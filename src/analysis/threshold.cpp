@@ -10,6 +10,7 @@
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "limits.hpp"
+#include "load_pieces.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -59,7 +60,12 @@ class Threshold {
       const auto bad = unwanted_at(mu);
       if (!why_.empty()) return doubt(mu);
       if (!bad) return found(any ? last_ : begin, any);
-      if (!follow(*bad, mu)) return;
+      if (stands_alone(curves_, *curves_.at(mu), *bad)) {
+        last_ = mu;
+        decides_ = bad->label + " stands at this value alone";
+      } else if (!follow(*bad, mu)) {
+        return;
+      }
       any = true;
       mu = last_ + towards_ * nearest_beside * std::max(std::abs(last_), 1e-3);
       // What ends beside where it began is taken up again a little farther on.

@@ -26,15 +26,19 @@ double form(const Augmented& s, const CurvePoint& p, const Vector& w, const Vect
 Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
   const auto place = s.place(p.x, p.lambda);
   if (!place) return Degeneracy::cusp;
-  const Vector w = place->W.col(0).normalized();
   const Index n = s.n();
-  const Vector by_lambda = place->base.J.col(n);
-  Vector along = Vector::Zero(n + 1);
-  along.head(n) = place->V.col(0).normalized();
-  const double bending = std::abs(form(s, p, w, along, along));
-  if (!(std::abs(w.dot(by_lambda)) < bending)) return Degeneracy::cusp;
-  const Matrix V = jacobi_svd(place->base.J, SingularVectors::none, SingularVectors::full).V;
-  const Vector a = V.col(n), b = V.col(n - 1);
+  const Vector sizes = jacobi_svd(place->base.A).values;
+  const bool is_simple = n < 2 || sizes[n - 2] > poor * sizes[0];
+  if (is_simple) {
+    const Vector w = place->W.col(0).normalized();
+    Vector along = Vector::Zero(n + 1);
+    along.head(n) = place->V.col(0).normalized();
+    const double bending = std::abs(form(s, p, w, along, along));
+    if (!(std::abs(w.dot(place->base.J.col(n))) < bending)) return Degeneracy::cusp;
+  }
+  // Where another mode vanishes, one pair of borders does not tell the null vectors: they are those of [dF/dx dF/dlambda].
+  const Svd svd = jacobi_svd(place->base.J, SingularVectors::thin, SingularVectors::full);
+  const Vector w = svd.U.col(n - 1), a = svd.V.col(n), b = svd.V.col(n - 1);
   const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
 }
