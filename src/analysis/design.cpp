@@ -167,15 +167,15 @@ class Design {
     const bool climbs = std::any_of(
         found.limiting.begin(), found.limiting.end(),
         [&](std::size_t i) { return i < found.ways.size() && found.ways[i] == Way::climbing; });
-    const bool jumps = found.status == DesignStatus::met && !(found.optimality < 1);
-    if (climbs && !jumps) verify_birth(found);
-    doubt_unstable_start(found, climbs && !jumps);
+    const bool is_birth = climbs && !found.jumps;
+    if (is_birth) verify_birth(found);
+    doubt_unstable_start(found, is_birth);
     doubt_broken_rule(found);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
     if (!report_.verified)
       result_.doubts.push_back("traced again, the path does not confirm the design: " +
-                               cause(climbs && !jumps, rows_fit));
+                               cause(is_birth, rows_fit));
   }
 
   /// On the limit itself limit points are one to rounding: what counts is the designs beside it.
@@ -276,7 +276,8 @@ class Design {
       case DesignStatus::met:
         report_.message = "met with changes of " + rounded(report_.change, digits) +
                           (limits.empty() ? "" : ", decided by: " + limits);
-        if (limits.empty()) report_.message += ", where a requirement jumps";
+        if (found.jumps) report_.message += ", where a requirement jumps";
+        if (!found.is_least) report_.message += "; not shown to be the least change";
         return;
       case DesignStatus::cannot_be_met:
         report_.message =

@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace springfold::analysis {
 namespace {
 
-/// An inequality or a bound that is as near to its limit decides with others.
-constexpr double decides_within = 1e-7;
-/// Multipliers that are smaller, relative to the objective's slope, are none.
-constexpr double no_multiplier = 1e-7;
-/// Below this residual a point is a minimum; beyond it a jump of the requirements ended the search.
-constexpr double optimal = 1e-5;
-/// Changes are drawn back to what still meets the requirements this closely, relative.
-constexpr double closely = 1e-14;
-/// A rough search meets the requirements this well, and ends as near to others that end at the same place.
-constexpr double roughly_met = 1e-3, alike = 1e-2;
-/// So many ends of rough searches are followed to the end.
-constexpr int most_followed = 6;
+/// A rough search meets the requirements this well.
+constexpr double roughly_met = 1e-3;
+/// The end of a rough search is followed if fewer other ends before it are better.
+constexpr int most_followed = 3;
 /// Two designs whose sizes differ by less are equally good: the first one is kept.
 constexpr double same_size = 1e-9;
 
@@ -167,23 +158,19 @@ Vector DesignSearch::least_violation(const std::vector<Way>& ways, const Vector&
   return search_minimum(problem, x, how).head(n);
 }
 
-bool DesignSearch::meets(const Vector& changes) {
-  for (const auto& ways : all_ways()) {
-    const auto at = assess(changes, ways);
-    if (at && at->g.maxCoeff() <= design_tolerance) return true;
+std::optional<Assessment> DesignSearch::nearest(const Vector& changes, const std::vector<Way>& ways,
+                                                const std::vector<std::size_t>& only) {
+  std::vector<std::vector<Way>> all = all_ways();
+  std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one == ways; });
+  std::optional<Assessment> best;
+  for (const auto& one : all) {
+    const auto at = assess(changes, one);
+    if (!at || (best && most_missed(*best, only) <= most_missed(*at, only))) continue;
+    best = at;
+    best->dg = at->dg * units_.asDiagonal();
+    if (holds(best, only)) break;
   }
-  return false;
-}
-
-/// Where requirements jump no derivative leads to the place: it is bracketed on the way back to the case.
-Vector DesignSearch::drawn_back(Vector changes) {
-  double bad = 0, good = 1;
-  while (good - bad > closely && !stopped_) {
-    const double middle = bad + 0.5 * (good - bad);
-    if (middle <= bad || middle >= good) break;
-    (meets(middle * changes) ? good : bad) = middle;
-  }
-  return good * changes;
+  return best;
 }
 
 double DesignSearch::violation_at(const Vector& changes, const std::vector<Way>& ways) {
@@ -209,18 +196,18 @@ std::optional<DesignSearch::Candidate> DesignSearch::search_from(const std::vect
 
 std::vector<DesignSearch::Candidate> DesignSearch::candidates() {
   std::vector<Candidate> list;
-  for (const auto& ways : all_ways())
-    for (const Vector& from : starts()) {
+  for (const Vector& from : starts())
+    for (const auto& ways : all_ways()) {
       if (stopped_) return {};
       if (auto found = search_from(ways, from, Depth::roughly)) list.push_back(std::move(*found));
     }
-  const auto better = [this](const Candidate& a, const Candidate& b) {
-    const bool a_meets = a.violation <= roughly_met, b_meets = b.violation <= roughly_met;
-    if (a_meets != b_meets) return a_meets;
-    return a_meets ? size_of(a.changes) < size_of(b.changes) : misses_less(a, b);
-  };
-  std::stable_sort(list.begin(), list.end(), better);
   return list;
+}
+
+bool DesignSearch::is_better(const Candidate& a, const Candidate& b) const {
+  const bool a_meets = a.violation <= roughly_met, b_meets = b.violation <= roughly_met;
+  if (a_meets != b_meets) return a_meets;
+  return a_meets ? size_of(a.changes) < size_of(b.changes) : misses_less(a, b);
 }
 
 /// A miss of what is wanted as it is worded, a load that is too low, comes before that of the other way to meet it, no critical
@@ -237,105 +224,101 @@ bool DesignSearch::misses_less(const Candidate& a, const Candidate& b) const {
   return of_a != of_b ? of_a < of_b : a.violation < b.violation;
 }
 
-/// The first ones that are not alike are followed to the end.
+bool DesignSearch::is_same(const Candidate& a, const Candidate& b) const {
+  return a.ways == b.ways && are_alike(a.changes, b.changes);
+}
+
+/// Those that few before them are better than. What comes later changes nothing for the ones before: more starts never lead
+/// to a worse answer.
+std::vector<const DesignSearch::Candidate*> DesignSearch::promising(
+    const std::vector<Candidate>& list) const {
+  std::vector<const Candidate*> apart, chosen;
+  for (const Candidate& one : list) {
+    const auto same = [&](const Candidate* other) { return is_same(*other, one); };
+    if (std::any_of(apart.begin(), apart.end(), same)) continue;
+    const auto better = std::count_if(
+        apart.begin(), apart.end(), [&](const Candidate* other) { return is_better(*other, one); });
+    apart.push_back(&one);
+    if (better < most_followed) chosen.push_back(&one);
+  }
+  return chosen;
+}
+
+/// What is a jump in one way may be none in another: with the way in which the place leads nearest to a minimum, and with
+/// the first one of equal ones.
+FoundDesign DesignSearch::smoothest(FoundDesign design) {
+  conditions(design);
+  FoundDesign best;
+  for (const auto& ways : all_ways()) {
+    const auto found = search_from(ways, design.changes, Depth::to_the_end);
+    if (!found || found->violation > design_tolerance) continue;
+    FoundDesign other{.status = DesignStatus::met, .changes = found->changes, .ways = ways};
+    conditions(other);
+    const bool is_first = best.changes.size() == 0;
+    if (is_first || other.optimality < best.optimality * (1 - same_size)) best = other;
+  }
+  if (best.changes.size() == 0) return design;
+  return best.is_least || best.optimality <= design.optimality ? best : design;
+}
+
+/// To the end, and where a requirement jumps there, along the boundary to the least change.
+/// @returns nothing if that leads to a known end
+std::optional<FoundDesign> DesignSearch::followed(const Candidate& from, KnownEnds& known) {
+  const auto found = search_from(from.ways, from.changes, Depth::to_the_end);
+  if (!found) return std::nullopt;
+  FoundDesign design;
+  const bool is_met = found->violation <= design_tolerance;
+  design.status = is_met ? DesignStatus::met : DesignStatus::cannot_be_met;
+  design.changes = found->changes;
+  design.ways = from.ways;
+  design.violation = is_met ? 0 : found->violation;
+  conditions(design);
+  if (!is_met || design.is_least) return design;
+  for (const Vector& other : known.missed)
+    if (are_alike(other, design.changes)) return std::nullopt;
+  known.missed.push_back(design.changes);
+  JumpProblem problem{.low = low_, .high = high_, .is_sum = variables_.is_sum};
+  problem.judge = [&](const Vector& u, const std::vector<std::size_t>& only) {
+    return nearest(u, design.ways, only);
+  };
+  problem.stopped = [this] { return stopped_; };
+  JumpEnd end = drawn_back(problem, design.changes);
+  if (end.jumps && !end.jumping.empty())
+    end = least_on_boundary(problem, std::move(end), known.least);
+  if (end.is_known) return std::nullopt;
+  if (end.slope.size() > 0) known.least.push_back(end.changes);
+  design.changes = end.changes;
+  if (!end.jumps) return smoothest(design);
+  design.jumps = end.jumps;
+  design.jumping = end.jumping;
+  design.jump_slope = end.slope;
+  conditions(design);
+  return design;
+}
+
 FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
   FoundDesign best;
-  std::vector<const Candidate*> done;
-  for (const Candidate& one : list) {
-    const bool known = std::any_of(done.begin(), done.end(), [&](const Candidate* other) {
-      return other->ways == one.ways &&
-             (other->changes - one.changes).norm() <= alike * (1 + one.changes.norm());
-    });
-    if (known || std::ssize(done) >= most_followed || stopped_) continue;
-    done.push_back(&one);
-    const auto found = search_from(one.ways, one.changes, Depth::to_the_end);
+  KnownEnds ends;
+  for (const Candidate* one : promising(list)) {
+    if (stopped_) break;
+    const auto found = followed(*one, ends);
     if (!found) continue;
-    const bool meets_all = found->violation <= design_tolerance;
-    const bool best_meets = best.status == DesignStatus::met;
+    const bool is_met = found->status == DesignStatus::met;
+    const bool best_is_met = best.status == DesignStatus::met;
     const bool better =
-        best.changes.size() == 0 || (meets_all && !best_meets) ||
-        (meets_all && size_of(found->changes) < size_of(best.changes) * (1 - same_size)) ||
-        (!meets_all && !best_meets &&
-         misses_less(*found, {best.ways, best.changes, best.violation}));
-    if (!better) continue;
-    best.status = meets_all ? DesignStatus::met : DesignStatus::cannot_be_met;
-    best.changes = found->changes;
-    best.ways = one.ways;
-    best.violation = meets_all ? 0 : found->violation;
+        best.changes.size() == 0 || (is_met && !best_is_met) ||
+        (is_met && size_of(found->changes) < size_of(best.changes) * (1 - same_size)) ||
+        (!is_met && !best_is_met &&
+         misses_less({found->ways, found->changes, found->violation},
+                     {best.ways, best.changes, best.violation}));
+    if (better) best = *found;
   }
   return best;
 }
 
-/// Karush, Kuhn and Tucker: the objective's slope is balanced by those of the inequalities and bounds that decide.
-void DesignSearch::conditions(FoundDesign& design) {
-  const Index n = low_.size();
-  design.bounds.assign(static_cast<std::size_t>(n), BoundState::free);
-  design.limiting.clear();
-  design.multipliers.clear();
-  design.optimality = std::numeric_limits<double>::quiet_NaN();
-  const auto at = assess(design.changes, design.ways);
-  if (!at) return;
-  const bool is_met = design.status == DesignStatus::met;
-  const Vector v = is_met ? to_variables(design.changes) : design.changes;
-  InequalityValues values = values_at(*at, is_met ? v : to_variables(design.changes));
-  if (!is_met) values.dg = at->dg * units_.asDiagonal();
-  const Vector low = is_met ? variables_.low : low_, high = is_met ? variables_.high : high_;
-  const Index extra = is_met ? 0 : 1;
-  Vector df = Vector::Zero(v.size() + extra);
-  if (is_met)
-    df = values.df;
-  else
-    df[v.size()] = 1;
-  std::vector<Vector> rows;
-  std::vector<std::pair<bool, Index>> what;  // a bound or an inequality, which
-  for (Index i = 0; i < at->g.size(); ++i) {
-    if (at->g[i] < design.violation - decides_within * std::max(1.0, design.violation)) continue;
-    Vector row = Vector::Zero(df.size());
-    row.head(v.size()) = values.dg.row(i).transpose();
-    if (!is_met) row[v.size()] = -1;
-    rows.push_back(row);
-    what.emplace_back(false, i);
-  }
-  for (Index i = 0; i < v.size(); ++i)
-    for (const double side : {-1.0, 1.0}) {
-      const double bound = side < 0 ? low[i] : high[i];
-      if (std::abs(v[i] - bound) > decides_within * std::max(1.0, std::abs(bound))) continue;
-      rows.push_back(side * Vector::Unit(df.size(), i));
-      what.emplace_back(true, side < 0 ? -i - 1 : i + 1);
-    }
-  Matrix all(std::ssize(rows), df.size());
-  for (Index i = 0; i < all.rows(); ++i) all.row(i) = rows[static_cast<std::size_t>(i)].transpose();
-  const Vector m = multipliers(df, all);
-  const Vector rest = all.rows() > 0 ? Vector(df + all.transpose() * m) : df;
-  const double size = df.norm();
-  design.optimality = size > 0 ? rest.norm() / size : 0;
-  for (Index i = 0; i < m.size(); ++i) {
-    const auto [is_bound, which] = what[static_cast<std::size_t>(i)];
-    const double weight = m[i] * all.row(i).norm();
-    if (weight <= no_multiplier * std::max(size, no_multiplier)) continue;
-    if (!is_bound) {
-      const std::size_t requirement = at->of[static_cast<std::size_t>(which)];
-      const auto known = std::find(design.limiting.begin(), design.limiting.end(), requirement);
-      if (known == design.limiting.end()) {
-        design.limiting.push_back(requirement);
-        design.multipliers.push_back(m[i]);
-      } else {
-        design.multipliers[static_cast<std::size_t>(known - design.limiting.begin())] += m[i];
-      }
-      continue;
-    }
-    const Index variable = std::abs(which) - 1;
-    const bool falls = is_met && variables_.is_sum && variable >= n;
-    if (is_met && variables_.is_sum && which < 0) continue;  // no change in this direction
-    const bool is_low = falls || which < 0;
-    design.bounds[static_cast<std::size_t>(variable % n)] =
-        is_low ? BoundState::at_low : BoundState::at_high;
-  }
-}
-
 FoundDesign DesignSearch::run() {
   FoundDesign best;
-  if (meets(Vector::Zero(low_.size()))) {
+  if (holds(nearest(Vector::Zero(low_.size()), first_ways(), {}))) {
     best.status = DesignStatus::met_at_start;
     best.changes = Vector::Zero(low_.size());
     best.ways = first_ways();
@@ -352,25 +335,7 @@ FoundDesign DesignSearch::run() {
     best.bounds.assign(static_cast<std::size_t>(low_.size()), BoundState::free);
     return best;
   }
-  conditions(best);
-  if (best.status == DesignStatus::met && !(best.optimality <= optimal)) {
-    best.changes = drawn_back(best.changes);
-    conditions(best);
-  }
   return best;
-}
-
-Vector DesignSearch::inwards(const FoundDesign& design, double size) {
-  const auto at = assess(design.changes, design.ways);
-  Vector way = Vector::Zero(low_.size());
-  if (!at) return way;
-  for (Index i = 0; i < at->g.size(); ++i) {
-    if (at->g[i] < -decides_within) continue;
-    const Vector slope = units_.cwiseProduct(at->dg.row(i).transpose());
-    if (slope.norm() > 0) way -= slope.normalized();
-  }
-  if (way.norm() > 0) way = size * way.normalized();
-  return (design.changes + way).cwiseMax(low_).cwiseMin(high_) - design.changes;
 }
 
 }  // namespace springfold::analysis

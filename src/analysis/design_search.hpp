@@ -1,7 +1,7 @@
 // The search for the design with the least changes. Private to analysis.
 #pragma once
 
-#include "design_requirements.hpp"
+#include "design_jump.hpp"
 #include "least_change.hpp"
 #include "springfold/analysis/run.hpp"
 
@@ -13,6 +13,10 @@ struct FoundDesign {
   std::vector<Way> ways{};  ///< in which the critical requirements are met
   double violation = 0;     ///< the largest of the scaled requirements, if they cannot be met
   double optimality = 0;    ///< as DesignReport::optimality
+  bool jumps = false;       ///< next to the answer a requirement is missed by far
+  bool is_least = false;    ///< the change is stationary
+  std::vector<std::size_t> jumping{};   ///< requirements that jump there
+  Vector jump_slope{};                  ///< as JumpEnd::slope
   std::vector<std::size_t> limiting{};  ///< requirements that decide, with their multipliers
   std::vector<double> multipliers{};
   std::vector<BoundState> bounds{};  ///< per parameter: at which it is held
@@ -55,15 +59,30 @@ class DesignSearch {
   };
   Vector least_changes(const std::vector<Way>& ways, const Vector& from, Depth how);
   Vector least_violation(const std::vector<Way>& ways, const Vector& from, Depth how);
-  bool meets(const Vector& changes);
-  Vector drawn_back(Vector changes);
-  bool misses_less(const Candidate& a, const Candidate& b) const;
+  /// As JumpProblem::judge. @param ways  are looked at first
+  std::optional<Assessment> nearest(const Vector& changes, const std::vector<Way>& ways,
+                                    const std::vector<std::size_t>& only);
   double violation_at(const Vector& changes, const std::vector<Way>& ways);
   /// Looks for a design from one start. @returns nothing where the start cannot be judged
   std::optional<Candidate> search_from(const std::vector<Way>& ways, const Vector& from, Depth how);
-  /// All ways and starts, the best first.
+  /// All ways from every start, in this order.
   std::vector<Candidate> candidates();
+  bool is_better(const Candidate& a, const Candidate& b) const;
+  bool misses_less(const Candidate& a, const Candidate& b) const;
+  bool is_same(const Candidate& a, const Candidate& b) const;
+  std::vector<const Candidate*> promising(const std::vector<Candidate>& list) const;
+  FoundDesign smoothest(FoundDesign design);
   FoundDesign best_of(const std::vector<Candidate>& list);
+  /// Ends of searches where requirements jump.
+  struct KnownEnds {
+    std::vector<Vector> missed{};  ///< of those by derivatives
+    std::vector<Vector> least{};   ///< of those along the boundary
+  };
+  std::optional<FoundDesign> followed(const Candidate& from, KnownEnds& known);
+  /// What decides an answer: see design_conditions.cpp.
+  struct Conditions;
+  Conditions balance(const FoundDesign& design, const Assessment& at) const;
+  void name_bound(FoundDesign& design, Index which) const;
   void conditions(FoundDesign& design);
 
   const Study& study_;
