@@ -28,7 +28,7 @@ constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;
 constexpr int most_pieces = 200;
-constexpr double sides[] = {-1, 1};
+constexpr double both_senses[] = {-1, 1};
 
 class LoadsOverParameter {
  public:
@@ -297,7 +297,7 @@ class LoadsOverParameter {
   /// Just beside a value at which what comes first stands alone there may be pieces that end before the next value.
   /// @returns false where it is not known what comes first there
   bool look_beside(double mu) {
-    for (const double side : sides) {
+    for (const double side : both_senses) {
       const double beside = mu + side * next_piece * width_;
       if (beside < low_ || beside > high_) continue;
       const FirstUnwanted& first = first_at(beside);

@@ -10,15 +10,15 @@
 namespace springfold::io {
 namespace {
 
-constexpr double ka = 2, T = 0.1, span = 0.8;
-const double length = std::sqrt(1 + span * span);
+constexpr double strut_stiffness = 2, cable_tension = 0.1, half_span = 0.8;
+const double cable_length = std::sqrt(1 + half_span * half_span);
 
 /// A strut of stiffness ka and height 1 between two equal cables under the tension T. Both go slack at once, at the load
 /// ka (1 - height) of the height at which a cable is as long as it is without force.
 double height_of_slack(double tension) {
-  return std::sqrt((length - tension) * (length - tension) - span * span);
+  return std::sqrt((cable_length - tension) * (cable_length - tension) - half_span * half_span);
 }
-const double load = ka * (1 - height_of_slack(T));
+const double load_of_slack = strut_stiffness * (1 - height_of_slack(cable_tension));
 
 Ran strut(const std::string& study) {
   return run(R"toml(
@@ -67,10 +67,11 @@ TEST(KinksOfSeveralSprings, HaveTheRatesOfTheirClosedForm) {
     return event.kind == analysis::EventKind::branching_kink;
   });
   ASSERT_NE(kink, events.end());
-  EXPECT_NEAR(value(result, kink->row, "lambda"), load, 1e-10);
-  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(T)"), ka * (length - T) / height_of_slack(T),
+  EXPECT_NEAR(value(result, kink->row, "lambda"), load_of_slack, 1e-10);
+  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(T)"),
+              strut_stiffness * (cable_length - cable_tension) / height_of_slack(cable_tension),
               1e-8);
-  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(ka)"), load / ka, 1e-8);
+  EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(ka)"), load_of_slack / strut_stiffness, 1e-8);
   EXPECT_NEAR(value(result, kink->row, "d(lambda)/d(kq)"), 0, 1e-8);
 }
 
@@ -82,7 +83,7 @@ TEST(KinksOfSeveralSprings, AreNoLossOfStabilityWhereTheFootBearsTheStrutAlone) 
                           .of("s");
   ASSERT_TRUE(result.threshold && result.threshold->found);
   // Up to the end of the range of loads, 0.3.
-  EXPECT_NEAR(result.threshold->value, 0.3 * (1 - 0.3 / ka), 1e-6);
+  EXPECT_NEAR(result.threshold->value, 0.3 * (1 - 0.3 / strut_stiffness), 1e-6);
   EXPECT_TRUE(result.doubts.empty());
 }
 
@@ -95,7 +96,7 @@ TEST(KinksOfSeveralSprings, AreTheFirstCriticalLoadOverTheTension) {
   EXPECT_TRUE(result.doubts.empty());
   ASSERT_EQ(result.branches.size(), 1U);
   for (const auto& row : result.branches.front().samples)
-    EXPECT_NEAR(row.values[1], ka * (1 - height_of_slack(row.values.back())), 1e-10);
+    EXPECT_NEAR(row.values[1], strut_stiffness * (1 - height_of_slack(row.values.back())), 1e-10);
 }
 
 }  // namespace
