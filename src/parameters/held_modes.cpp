@@ -113,6 +113,19 @@ double HeldFamily::unfolding_of_rate(const CriticalPoint& point) const {
   return point.dx.tail(start_.held_right.cols()).lpNorm<Eigen::Infinity>();
 }
 
+bool parts_modes(const Family& family, const CriticalStart& start, const CriticalPoint& rate) {
+  const auto eigenvalues = [&](double t) -> std::optional<Vector> {
+    BaseTerms at;
+    if (!base_terms(family, start.x + t * rate.dx, start.lambda + t * rate.dlambda, start.mu + t,
+                    start.piece, at))
+      return std::nullopt;
+    return Vector((start.held_left.transpose() * at.A * start.held_right).reshaped());
+  };
+  const auto change = derivative_at_zero(eigenvalues, family.step);
+  const double size = std::max(1.0, rate.dx.lpNorm<Eigen::Infinity>());
+  return !change || change->lpNorm<Eigen::Infinity>() > poor * size;
+}
+
 CriticalCurve follow_held(const Family& family, const CriticalStart& start, bool growing,
                           std::vector<CriticalEvent> events, const TraceOptions& options,
                           const std::function<bool(const CriticalPoint&)>& observer,

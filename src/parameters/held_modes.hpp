@@ -63,6 +63,9 @@ class HeldFamily {
   Family held_{};
 };
 
+/// Does the limit point that moves at this rate leave the zeros of the eigenvalues of the held modes behind?
+bool parts_modes(const Family& family, const CriticalStart& start, const CriticalPoint& rate);
+
 /// follow_critical() in the family in which the modes are held, as far as the parameter keeps the branch.
 CriticalCurve follow_held(const Family& family, const CriticalStart& start, bool growing,
                           std::vector<CriticalEvent> events, const TraceOptions& options,

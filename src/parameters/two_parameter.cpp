@@ -361,7 +361,8 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
     if (!point) return std::nullopt;
     const double size = std::max(1.0, point->dx.lpNorm<Eigen::Infinity>());
     if (held.unfolding_of_rate(*point) > kept_within * size) return std::nullopt;
-    return held.own(*point);
+    const CriticalPoint own = held.own(*point);
+    return parts_modes(family, start, own) ? std::nullopt : std::optional{own};
   }
   const auto system = system_at(family, start);
   if (!system) return std::nullopt;

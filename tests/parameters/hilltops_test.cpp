@@ -95,6 +95,29 @@ TEST(Hilltops, HaveNoCurveOverAParameterThatPartsTheUnits) {
   EXPECT_FALSE(follow_critical(parted, *start, true, {}, {.maximum_points = 20}).kept);
 }
 
+TEST(Hilltops, HaveNoRateByAParameterThatMovesTheBranchPointAlone) {
+  // Two equal units and a spring between them, which their common path does not feel.
+  const auto coupled = family_of<Given>([](double mu) {
+    return Given{[mu](const Vector& x, double lambda) {
+                   const auto u = x.array();
+                   const double pull = mu * (x[0] - x[1]);
+                   return Vector((2 * u - 3 * u.square() + u.cube() - lambda).matrix() +
+                                 Vector{{pull, -pull}});
+                 },
+                 [mu](const Vector& x, double) {
+                   const auto u = x.array();
+                   return Matrix(Matrix((2 - 6 * u + 3 * u.square()).matrix().asDiagonal()) +
+                                 mu * Matrix{{1, -1}, {-1, 1}});
+                 },
+                 [](const Vector& x, double) { return Vector(-Vector::Ones(x.size())); }, 2};
+  });
+  CriticalStart at = turn_of_all(2, 2);
+  at.mu = 0;
+  const auto start = hilltop_start(coupled, at, together(2));
+  ASSERT_TRUE(start);
+  EXPECT_FALSE(critical_rate(coupled, *start));
+}
+
 TEST(Hilltops, AreNoneWhereLambdaGoesOn) {
   const Family family = units(2, 0);
   EXPECT_FALSE(hilltop_start(family, turn_of_all(2, 2), {Vector::Ones(2).normalized(), 0.1}));
