@@ -60,12 +60,11 @@ class Threshold {
       const auto bad = unwanted_at(mu);
       if (!why_.empty()) return doubt(mu);
       if (!bad) return found(any ? last_ : begin, any);
-      if (stands_alone(curves_, *curves_.at(mu), *bad)) {
-        last_ = mu;
-        decides_ = bad->label + " stands at this value alone";
-      } else if (!follow(*bad, mu)) {
+      is_alone_ = stands_alone(curves_, *curves_.at(mu), *bad);
+      if (is_alone_)
+        stand(*bad, mu);
+      else if (!follow(*bad, mu))
         return;
-      }
       any = true;
       mu = last_ + towards_ * nearest_beside * std::max(std::abs(last_), 1e-3);
       // What ends beside where it began is taken up again a little farther on.
@@ -100,6 +99,13 @@ class Threshold {
     const int sheet = before != nullptr ? before->sheet : 0;
     const Member* behind = curves_.at(mu + side);
     return before != nullptr && (behind == nullptr || behind->sheet != sheet);
+  }
+
+  /// An unwanted point that no value beside has: behind it others may come.
+  void stand(const SpecialPoint& bad, double mu) {
+    last_ = mu;
+    decides_ = bad.label + " stands at this value alone";
+    result_.branches.push_back(row_alone(curves_, *curves_.at(mu), bad));
   }
 
   /// Follows an unwanted point to where it is gone. @returns false where the search is over
@@ -276,8 +282,11 @@ class Threshold {
     if (any) {
       if (lacks_start(mu + towards_ * nearest_beside * std::max(std::abs(mu), 1e-3)))
         report_.message += ", beyond which there is no start";
-      const auto distance =
-          confirmed_beside([&](double inwards) { return is_clear_at(mu, inwards); });
+      const auto is_clear = [&](double inwards) {
+        // Before a value that stands alone nothing unwanted happens either.
+        return is_alone_ && inwards < 0 ? std::optional{false} : is_clear_at(mu, inwards);
+      };
+      const auto distance = confirmed_beside(is_clear);
       report_.verified = distance.has_value();
       if (distance) report_.message += words_of_distance(*distance);
       if (!report_.verified)
@@ -312,6 +321,7 @@ class Threshold {
   ThresholdReport& report_;
   double towards_ = 1;
   double last_ = 0;        ///< where the last piece ended
+  bool is_alone_ = false;  ///< it is a value, not a piece
   bool is_clear_ = false;  ///< there the path no longer came to its point
   bool at_start_ = false;  ///< its point is the start there
   std::string decides_{}, why_{};
