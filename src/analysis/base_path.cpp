@@ -8,6 +8,7 @@
 #include "held_twice.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
+#include "merged_hits.hpp"
 #include "settle_units.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
@@ -271,6 +272,8 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
           : follow(rays.rays[1]);
   path.lambda_unit = crawl.factor();
   if (path.lambda_unit > 1) return path;
+  forward = with_hits_merged(std::move(forward), evaluator);
+  backward = with_hits_merged(std::move(backward), evaluator);
   const auto forward_end = end_at_zero_length(problem, forward);
   const auto backward_end = end_at_zero_length(problem, backward);
   BranchSource source{.backward = backward, .forward = forward};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "force_events.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/number_text.hpp"
 #include "springfold/parameters/two_parameter.hpp"
@@ -38,7 +39,7 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
     case EventKind::branch_point:
     case EventKind::branching_kink:
       return !only_turns || turns_back(member, path, point, "lambda") ||
-             (dead && turns_back(member, path, point, "force"));
+             (dead && (point.hit.tag == force_limit || turns_back(member, path, point, "force")));
     case EventKind::unresolved:
       return !only_turns;
     case EventKind::switching: {

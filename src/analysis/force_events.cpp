@@ -85,8 +85,10 @@ continuation::Curve with_merged_force_events(continuation::Curve curve,
            stands_still_beside(hit, curve, evaluator);
   });
   for (Hit& hit : curve.hits)
-    if (hit.kind == HitKind::branch_point && is_met_at(hit, curve.hits, is_force_limit))
+    if (hit.kind == HitKind::branch_point && is_met_at(hit, curve.hits, is_force_limit)) {
       hit.name += ", the force turns back";
+      hit.tag = force_limit;
+    }
   const std::vector<Hit> all = curve.hits;
   std::erase_if(curve.hits, [&](const Hit& hit) {
     if (is_force_limit(hit))
