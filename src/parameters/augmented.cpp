@@ -159,19 +159,6 @@ double Augmented::parting(const Vector& X, double mu) const {
   return here ? here->G.lpNorm<Eigen::Infinity>() : infinity;
 }
 
-double Augmented::rate_of_parting(const Vector& X, double mu, const Vector& rate) const {
-  if (k_ < 2) return 0;
-  const auto parted = [&](double t) -> std::optional<Vector> {
-    const auto there = place(X + t * rate, mu + t);
-    return there ? std::optional{Vector(there->G.reshaped())} : std::nullopt;
-  };
-  if (const auto G = derivative_at_zero(parted, family_.step)) return G->lpNorm<Eigen::Infinity>();
-  const double h = 2 * family_.step;
-  const auto near = place(X + h * rate, mu + h), far = place(X + 2 * h * rate, mu + 2 * h);
-  if (!near || !far) return infinity;
-  return ((4 * near->G - far->G) / (2 * h)).lpNorm<Eigen::Infinity>();  // without the second order
-}
-
 Vector Augmented::start_unknowns() const {
   Vector X = Vector::Zero(size());
   X.head(n_) = start_.x;
@@ -193,7 +180,8 @@ std::optional<double> Augmented::surface(const Vector& x, double lambda, double 
 }
 
 /// Exact for switches; differences for a function of the caller.
-std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda, double mu) const {
+std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda, double mu,
+                                                  double* error) const {
   Vector gradient(n_ + 1);
   if (!start_.value) {
     const auto problem = family_.at(mu);
@@ -205,6 +193,7 @@ std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda
     return gradient;
   }
   for (Index i = 0; i <= n_; ++i) {
+    double off = 0;
     const auto rate = derivative_at_zero(
         [&](double t) -> std::optional<Vector> {
           Vector at = x;
@@ -213,8 +202,9 @@ std::optional<Vector> Augmented::surface_gradient(const Vector& x, double lambda
           if (!value) return std::nullopt;
           return Vector::Constant(1, *value);
         },
-        directional_step);
+        directional_step, &off);
     if (!rate) return std::nullopt;
+    if (error != nullptr) *error = std::max(*error, off);
     gradient[i] = (*rate)[0];
   }
   return gradient;
@@ -260,12 +250,6 @@ bool Augmented::derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& d
   const bool defined = put_derivatives(X, mu, *here, exactness, dF_dX, dF_dmu);
   spare_ = std::move(here->at.base);
   return defined;
-}
-
-bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
-  if (!derivatives(X, mu, dF_dX, dF_dmu)) return false;
-  const Differences* exact = known_differences(X, mu);
-  return exact == nullptr || exact->error <= root_of_rounding;
 }
 
 bool Augmented::equations(const Vector& X, double mu, Vector& F, Matrix& dF_dX,

@@ -61,7 +61,9 @@ class Augmented {
   std::optional<BorderedPlace> place(const Vector& X, double mu) const;
   /// The switch, or the caller's function.
   std::optional<double> surface(const Vector& x, double lambda, double mu) const;
-  std::optional<Vector> surface_gradient(const Vector& x, double lambda, double mu) const;
+  /// @param error  expected of differences, relative, if it is larger
+  std::optional<Vector> surface_gradient(const Vector& x, double lambda, double mu,
+                                         double* error = nullptr) const;
 
  private:
   bool is_bordered() const;

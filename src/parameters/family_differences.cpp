@@ -55,7 +55,8 @@ std::optional<SixPoints> six_points(const SampledFunction& quotient, double h) {
   return found;
 }
 
-std::optional<Vector> limit_of(const SampledFunction& quotient, double step) {
+std::optional<Vector> limit_of(const SampledFunction& quotient, double step,
+                               double* error = nullptr) {
   std::optional<SixPoints> best;
   for (double h = step; h >= narrowest * step; h /= wider) {
     auto found = six_points(quotient, h);
@@ -64,18 +65,20 @@ std::optional<Vector> limit_of(const SampledFunction& quotient, double step) {
     if (!best || left < best->expected_error) best = std::move(found);
     if (left <= one_place * std::max(1.0, best->value.lpNorm<Eigen::Infinity>())) break;
   }
+  if (best && error != nullptr)
+    *error = best->expected_error / std::max(1.0, best->value.lpNorm<Eigen::Infinity>());
   return best ? std::optional<Vector>(std::move(best->value)) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step) {
+std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step, double* error) {
   const auto quotient = [&](double t) -> std::optional<Vector> {
     const auto above = f(t), below = f(-t);
     if (!above || !below) return std::nullopt;
     return Vector((*above - *below) / (2 * t));
   };
-  return limit_of(quotient, step);
+  return limit_of(quotient, step, error);
 }
 
 std::optional<Vector> second_derivative_at_zero(const SampledFunction& f, double step) {

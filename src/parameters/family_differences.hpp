@@ -31,7 +31,8 @@ using SampledFunction = std::function<std::optional<Vector>(double)>;
 
 /// Derivative at zero by six-point differences, with shorter steps where the function bends so much that the first ones do not
 /// resolve it: the orders of one step's places disagree. Nothing where f has no value at one of them.
-std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step);
+std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step,
+                                         double* error = nullptr);
 /// The same for the second derivative.
 std::optional<Vector> second_derivative_at_zero(const SampledFunction& f, double step);
 

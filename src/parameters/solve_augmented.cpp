@@ -82,4 +82,25 @@ std::optional<Vector> second_order_force(const Family& family, const CriticalSta
   return Vector(-left * (16 * closer - farther) / 15);
 }
 
+bool Augmented::sure_derivatives(const Vector& X, double mu, Matrix& dF_dX, Vector& dF_dmu) const {
+  if (!derivatives(X, mu, dF_dX, dF_dmu)) return false;
+  double off = 0;  // of a function of the caller, which may bend within the step of differences
+  if (!is_bordered() && !surface_gradient(state(X), lambda(X), mu, &off)) return false;
+  const Differences* exact = known_differences(X, mu);
+  return off <= root_of_rounding && (exact == nullptr || exact->error <= root_of_rounding);
+}
+
+double Augmented::rate_of_parting(const Vector& X, double mu, const Vector& rate) const {
+  if (k_ < 2) return 0;
+  const auto parted = [&](double t) -> std::optional<Vector> {
+    const auto there = place(X + t * rate, mu + t);
+    return there ? std::optional{Vector(there->G.reshaped())} : std::nullopt;
+  };
+  if (const auto G = derivative_at_zero(parted, family_.step)) return G->lpNorm<Eigen::Infinity>();
+  const double h = 2 * family_.step;
+  const auto near = place(X + h * rate, mu + h), far = place(X + 2 * h * rate, mu + 2 * h);
+  if (!near || !far) return infinity;
+  return ((4 * near->G - far->G) / (2 * h)).lpNorm<Eigen::Infinity>();  // without the second order
+}
+
 }  // namespace springfold::continuation
