@@ -130,7 +130,7 @@ class Follower {
     const CurvePoint here{.x = X, .lambda = mu, .tangent = ray.tangent};
     for (Watch& watch : watches)
       if ((watch.kind == Degeneracy::user || watch.kind == Degeneracy::two_switches) &&
-          !stand_on_one_side(watch, here)) {
+          !stand_on_one_side(system, watch, here)) {
         end_at_start(watch, here, n);
         return false;
       }
@@ -199,12 +199,16 @@ class Follower {
 
   /// A value that is zero where a stretch begins has the sign, there and wherever it is zero to rounding, with which it leaves
   /// it: what defines the curve, or stands still along it, crosses nothing. @returns false where the way leads outside
-  static bool stand_on_one_side(Watch& watch, const CurvePoint& here) {
+  static bool stand_on_one_side(const Augmented& system, Watch& watch, const CurvePoint& here) {
     const double value = watch.value(here);
     if (!(std::abs(value) <= function_noise)) return true;
     CurvePoint ahead = here;
     ahead.x += told_apart * here.tangent.dx;
     ahead.lambda += told_apart * here.tangent.dlambda;
+    // Where members have starts of their own, the tangent is known less well than a point.
+    const auto corrected = solve_at(system, ahead.x, ahead.lambda);
+    if (corrected && (*corrected - ahead.x).norm() <= told_apart * small_share)
+      ahead.x = *corrected;
     const double there = watch.value(ahead);
     const bool leaves = std::abs(there) > told_apart * root_of_rounding + function_noise;
     const double inside = watch.inside != 0 ? watch.inside : 1;

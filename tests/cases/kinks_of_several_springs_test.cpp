@@ -99,5 +99,70 @@ TEST(KinksOfSeveralSprings, AreTheFirstCriticalLoadOverTheTension) {
     EXPECT_NEAR(row.values[1], strut_stiffness * (1 - height_of_slack(row.values.back())), 1e-10);
 }
 
+TEST(KinksOfSeveralSprings, HaveACurveOverTheTension) {
+  const auto result = strut(
+                          "kind = \"critical_curve\"\ncritical_curve = { of = \"KB1\", "
+                          "parameter = \"T\", range = [0.05, 0.11] }\n")
+                          .of("s");
+  ASSERT_FALSE(result.branches.empty());
+  const auto& rows = result.branches.front().samples;
+  EXPECT_GT(rows.size(), 3U);
+  for (const auto& row : rows)
+    EXPECT_NEAR(row.values[1], strut_stiffness * (1 - height_of_slack(row.values.back())), 1e-10);
+}
+
+TEST(KinksOfSeveralSprings, AreFollowedUnderAPrescribedDisplacementAsUnderALoad) {
+  // A flat truss of height 0.5 between two springs that push until they are as long as at the height 0.2, both at once.
+  const auto result = run(R"toml(
+[parameters]
+kv = 0.02
+[[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "t"
+at = [0, 0.5]
+[[bar]]
+from = "l"
+to = "t"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "t"
+stiffness = 1
+[[spring]]
+repeat = { i = [0, 1] }
+name = "s{i}"
+from_at = ["0.8*(2*i-1)", -0.5]
+to = "t"
+law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
+[[spring]]
+name = "v"
+shape = "line"
+of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
+stiffness = "kv"
+[[study]]
+name = "s"
+kind = "critical_curve"
+control = "mixed"
+direction = [0, -1]
+until = { t.y = [-0.6, 0.55] }
+critical_curve = { of = "CL1", parameter = "kv", range = [0, 0.1] }
+)toml");
+  const auto& s = result.of("s");
+  EXPECT_TRUE(complete(s));
+  ASSERT_FALSE(s.branches.empty());
+  const auto& rows = s.branches.front().samples;
+  EXPECT_GT(rows.size(), 3U);
+  EXPECT_NEAR(rows.front().values.back(), 0, 1e-12);
+  EXPECT_NEAR(rows.back().values.back(), 0.1, 1e-12);
+  for (std::size_t row = 0; row < rows.size(); ++row) EXPECT_NEAR(value(s, row, "t.y"), 0.2, 1e-9);
+}
+
 }  // namespace
 }  // namespace springfold::io
