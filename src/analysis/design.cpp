@@ -142,8 +142,12 @@ class Design {
     constexpr double rounding_change = 1e-12;  // of a parameter's unit
     if (found.status != DesignStatus::met) return false;
     Vector changes = found.changes;
-    for (double& change : changes)
-      if (std::abs(change) < rounding_change) change = 0;
+    // What a jump needs is told by its distance from it, and what a parameter needs that is said to be at its bound by the bound.
+    for (Index i = 0; i < changes.size(); ++i) {
+      const bool at_bound = found.bounds[static_cast<std::size_t>(i)] != BoundState::free;
+      const double nothing = found.jumps || at_bound ? nearest_beside : rounding_change;
+      if (std::abs(changes[i]) < nothing) changes[i] = 0;
+    }
     if (changes == found.changes) return false;
     const auto holds_at = [&](const Vector& at) {
       const auto there = search_.assess(at, search_.first_ways());
