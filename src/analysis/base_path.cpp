@@ -368,8 +368,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
-  if (point.kind == EventKind::switching || point.kind == EventKind::corner_limit_point ||
-      point.kind == EventKind::branching_kink) {
+  if (is_at_switching(point.kind)) {
     auto starts = starts_at_switching(curves, point, start_at(member, point));
     if (starts.empty()) why = several_switch(point);
     return starts;

@@ -15,6 +15,12 @@ struct SpecialPoint {
   continuation::Hit hit{};  ///< walked away from the start
 };
 
+/// Kinds that lie on the surface of a switch.
+inline bool is_at_switching(EventKind kind) {
+  return kind == EventKind::switching || kind == EventKind::corner_limit_point ||
+         kind == EventKind::branching_kink;
+}
+
 struct BasePath {
   Branch branch{};
   std::vector<SpecialPoint> points{};  ///< in the order of the branch

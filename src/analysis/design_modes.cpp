@@ -14,9 +14,7 @@ namespace {
 constexpr double beside = 0x1p-10;
 
 FirstModes modes_of(const DesignPath& path, const CriticalRequirement& wanted) {
-  CriticalPointSettings settings;
-  settings.unwanted = wanted.unwanted;
-  settings.stability = wanted.stability;
+  const CriticalPointSettings settings = settings_of(wanted);
   FirstModes found;
   for (const SpecialPoint& point : path.path().points) {
     if (!is_unwanted(path.base(), settings, path.path(), point)) continue;
@@ -40,6 +38,13 @@ bool knows_rates(const FirstModes& found) {
 }
 
 }  // namespace
+
+CriticalPointSettings settings_of(const CriticalRequirement& wanted) {
+  CriticalPointSettings settings;
+  settings.unwanted = wanted.unwanted;
+  settings.stability = wanted.stability;
+  return settings;
+}
 
 FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignPath& path,
                        const CriticalRequirement& wanted, const Observer& observer) {

@@ -20,6 +20,9 @@ struct FirstModes {
 /// So many modes are told apart.
 inline constexpr std::size_t modes_together = 3;
 
+/// What counts as unwanted for a requirement.
+CriticalPointSettings settings_of(const CriticalRequirement& wanted);
+
 /// Where modes of one point are parted by a parameter each has a rate of its own, which the point itself does not tell: they
 /// are those of a design beside this one, where the modes are apart.
 /// @param values  of the design's parameters, whose path it is

@@ -45,10 +45,7 @@ std::vector<Vector> peaks(const RangeNodes& range, const Vector& values) {
 /// the search comes to stable ones from elsewhere.
 bool is_lost_at_start(const DesignPath& path, const CriticalRequirement& wanted) {
   if (wanted.unwanted != Unwanted::loss_of_stability) return false;
-  CriticalPointSettings settings;
-  settings.unwanted = wanted.unwanted;
-  settings.stability = wanted.stability;
-  const auto modes = unstable_at_start(path.base(), settings);
+  const auto modes = unstable_at_start(path.base(), settings_of(wanted));
   return modes && *modes > 0;
 }
 

@@ -26,6 +26,12 @@ inline constexpr const char* grows_without_bound =
     "lambda grows without bound while hardly anything moves: a limit of lambda in until says how "
     "far it is to be followed";
 
+/// Did its observer end the curve, for whatever reason?
+inline bool was_ended(const continuation::Curve& curve) {
+  return curve.stop == continuation::StopReason::observer ||
+         curve.stop == continuation::StopReason::unbounded;
+}
+
 /// The observer of this curve ended it there.
 inline void end_without_bound(continuation::Curve& curve) {
   curve.stop = continuation::StopReason::unbounded;

@@ -105,10 +105,7 @@ bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialP
   if (point.kind == EventKind::branch_point)
     return start && !critical_rate(curves.family(), *start);
   // Several springs that switch at once, each with a curve of its own.
-  const bool switches = point.kind == EventKind::switching ||
-                        point.kind == EventKind::corner_limit_point ||
-                        point.kind == EventKind::branching_kink;
-  return switches && !start && point.hit.switches.size() > 1;
+  return is_at_switching(point.kind) && !start && point.hit.switches.size() > 1;
 }
 
 bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,

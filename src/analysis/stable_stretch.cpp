@@ -18,10 +18,6 @@ namespace {
 /// No limit of the study is met.
 bool ends(const continuation::Curve& curve) { return curve.stop != StopReason::event; }
 
-bool was_ended(const continuation::Curve& curve) {
-  return curve.stop == StopReason::observer || curve.stop == StopReason::unbounded;
-}
-
 /// At a kink the curve goes on in several ways or in none, or it is no curve of its own beyond: what happens there is a
 /// matter of jumps and of handing over.
 bool ends_at_a_kink(const continuation::Curve& curve) {

@@ -1,5 +1,6 @@
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
+#include "lambda_crawl.hpp"
 #include "neutral_motions.hpp"
 #include "vanishing_lengths.hpp"
 #include "zero_lengths.hpp"
@@ -32,9 +33,7 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
 Stop stop_of(const Curve& curve) {
   if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
-  if (curve.stop == StopReason::unbounded ||
-      (curve.stop == StopReason::observer && !curve.stop_detail.empty()))
-    return {curve.stop_detail, false};
+  if (was_ended(curve) && !curve.stop_detail.empty()) return {curve.stop_detail, false};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
   const bool is_refused =

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -113,40 +114,7 @@ TEST(KinksOfSeveralSprings, HaveACurveOverTheTension) {
 
 TEST(KinksOfSeveralSprings, AreFollowedUnderAPrescribedDisplacementAsUnderALoad) {
   // A flat truss of height 0.5 between two springs that push until they are as long as at the height 0.2, both at once.
-  const auto result = run(R"toml(
-[parameters]
-kv = 0.02
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "t"
-at = [0, 0.5]
-[[bar]]
-from = "l"
-to = "t"
-stiffness = 1
-[[bar]]
-from = "r"
-to = "t"
-stiffness = 1
-[[spring]]
-repeat = { i = [0, 1] }
-name = "s{i}"
-from_at = ["0.8*(2*i-1)", -0.5]
-to = "t"
-law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
-[[spring]]
-name = "v"
-shape = "line"
-of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
-stiffness = "kv"
-[[study]]
+  const auto result = run(truss_between_springs + R"toml([[study]]
 name = "s"
 kind = "critical_curve"
 control = "mixed"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -16,25 +17,15 @@ namespace {
 const double load_of_tilted = 0.8 / std::sin(0.8);
 
 std::string tilted_strut(const std::string& range) {
-  return R"toml(
-[parameters]
-e = 0
-[[body]]
-name = "tip"
-task_space = "xy"
-pose = [0, 1]
-[[chain]]
-name = "strut"
-elements = [
-  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [-0.8, 0.8], stiffnesses = [0.2, 1, 0.2] } },
-  { rigid = [0, 1] },
-]
-[[study]]
+  return strut_on_hinge(
+             "{ law = \"piecewise_linear\", breakpoints = [-0.8, 0.8], stiffnesses = [0.2, 1, 0.2] "
+             "}") +
+         R"toml([[study]]
 name = "tilt"
 kind = "critical_load"
 control = "load"
 direction = ["sin(e)", "-cos(e)"]
-until = { lambda = [-0.1, 3], strut.q = [-2, 2] }
+until = { lambda = [-0.1, 3], s.q = [-2, 2] }
 critical_load = { of = "loss_of_stability", parameter = "e", )toml" +
          range + " }\n";
 }
@@ -91,20 +82,9 @@ TEST(LoadsOfOneValue, ARangeThatMissesTheValueHasTheLoadOfItsNeighboursThroughou
 TEST(LoadsOfOneValue, PiecesThatComeToItAndEndBeforeTheNextValueAreFollowed) {
   // An asymmetric hinge, torque T = q + q^2/2 + q^3: limit points for small tilts of one sign only, from the transcritical branch
   // point of the upright strut to the cusp at T + T'' = 0, tan(q - e) = T/T' (the sign of e is that of the load's side).
-  const auto result = run(R"toml(
-[parameters]
-e = 0
-[[body]]
-name = "tip"
-task_space = "xy"
-pose = [0, 1]
-[[chain]]
-name = "s"
-elements = [
-  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0.5, 1] } },
-  { rigid = [0, 1] },
-]
-[[study]]
+  const auto result =
+      run(strut_on_hinge("{ law = \"polynomial\", coefficients = [0, 1, 0.5, 1] }") +
+          R"toml([[study]]
 name = "tilt"
 kind = "critical_load"
 control = "load"
@@ -112,7 +92,7 @@ direction = ["sin(e)", "-cos(e)"]
 until = { lambda = [-0.2, 1.4], s.q = [-1.5, 1.5] }
 critical_load = { of = "loss_of_stability", parameter = "e", range = [-0.1, 0.1], values = 5 }
 )toml")
-                          .of("tilt");
+          .of("tilt");
   EXPECT_TRUE(result.doubts.empty());
   ASSERT_EQ(result.branches.size(), 1U);
   double q = -0.14;  // of T + T'' = 1 + 7 q + q^2/2 + q^3
@@ -128,40 +108,7 @@ critical_load = { of = "loss_of_stability", parameter = "e", range = [-0.1, 0.1]
 
 TEST(LoadsOfOneValue, SpringsThatSwitchAtOnceThereLeaveNoDoubt) {
   // A flat truss that is pressed between two stops, which meet it at once; tilted, one of them is the first.
-  const std::string truss = R"toml(
-[parameters]
-psi = 0
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "t"
-at = [0, 0.5]
-[[bar]]
-from = "l"
-to = "t"
-stiffness = 1
-[[bar]]
-from = "r"
-to = "t"
-stiffness = 1
-[[spring]]
-repeat = { i = [0, 1] }
-name = "s{i}"
-from_at = ["0.8*(2*i-1)", -0.5]
-to = "t"
-law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
-[[spring]]
-name = "v"
-shape = "line"
-of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
-stiffness = 0.02
-[[study]]
+  const std::string truss = truss_between_springs + R"toml([[study]]
 name = "tilt"
 kind = "critical_load"
 control = "load"

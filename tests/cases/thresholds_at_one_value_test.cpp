@@ -4,28 +4,16 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
 
 /// The torque of the hinge is q + d q^3; upright the strut branches at lambda = 1.
 analysis::StudyResult tilts_without_loss(const std::string& d, const std::string& range) {
-  return run(R"toml(
-[parameters]
-e = 0
-d = )toml" + d +
-             R"toml(
-[[body]]
-name = "tip"
-task_space = "xy"
-pose = [0, 1]
-[[chain]]
-name = "s"
-elements = [
-  { joint = "revolute", axis = "z", name = "q", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, "d"], falling = true } },
-  { rigid = [0, 1] },
-]
-[[study]]
+  return run(strut_on_hinge("{ law = \"polynomial\", coefficients = [0, 1, 0, " + d +
+                            "], falling = true }") +
+             R"toml([[study]]
 name = "s"
 kind = "threshold"
 control = "load"
