@@ -204,6 +204,46 @@ std::optional<Hit> switching_between(const Following& t, const Curve& backward,
   return both.hits.empty() ? std::nullopt : std::optional<Hit>(moved_to_start(both.hits.front()));
 }
 
+/// What a short curve through the start meets there and the two curves do not.
+void add_hits_through(const Following& t, const BranchSource& source, const CurvePoint& before,
+                      double way, const continuation::TraceOptions& options,
+                      const std::vector<continuation::Event>& events, std::vector<Hit>& hits) {
+  constexpr double beyond = 1.5;  // of the way: behind the start
+  const auto observe = [&](const CurvePoint& point) { return point.s < beyond * way; };
+  Curve through = trace(t.problem, before.x, before.lambda, {before.piece, before.tangent}, events,
+                        options, observe);
+  through = with_hits_merged(std::move(through), t.evaluator);
+  const CurvePoint& start = source.forward.points.front();
+  for (Hit& hit : through.hits) {
+    if (!lies_at(start, hit) || is_met_by(source.backward, hit) || is_met_by(source.forward, hit))
+      continue;
+    if (hit.kind == HitKind::unresolved) hit = settled(hit, t.problem, source).value_or(hit);
+    const bool is_known = std::any_of(hits.begin(), hits.end(),
+                                      [&](const Hit& other) { return is_same_kind(other, hit); });
+    if (is_known) continue;
+    hits.push_back(placed_at(start, std::move(hit)));
+  }
+}
+
+/// A switching at the start that no hit tells is added; one that is told of some of its springs is told of all.
+void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
+                        std::vector<Hit>& hits) {
+  const auto is_switching = [](const Hit& hit) {
+    return !hit.switches.empty() || hit.kind == HitKind::unresolved;
+  };
+  const auto told = std::ranges::find_if(hits, is_switching);
+  const bool in_part = told != hits.end() &&
+                       std::ranges::none_of(told + 1, hits.end(), is_switching) &&
+                       (told->kind == HitKind::kink || told->kind == HitKind::corner);
+  if (told != hits.end() && !in_part) return;
+  auto hit = switching_between(t, backward, forward);
+  if (!hit) return;
+  if (told == hits.end())
+    hits.push_back(std::move(*hit));
+  else if (told->switches.size() < hit->switches.size())
+    *told = std::move(*hit);
+}
+
 }  // namespace
 
 std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
@@ -221,27 +261,9 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
   options.verify_arcs = false;
   options.step.initial = options.step.maximum = way;
   options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
-  const auto before = point_before(t, backward, options);
-  if (!before) return hits;
-  constexpr double beyond = 1.5;  // of the way: behind the start
-  const auto observe = [&](const CurvePoint& point) { return point.s < beyond * way; };
-  Curve through = trace(t.problem, before->x, before->lambda, {before->piece, before->tangent},
-                        events, options, observe);
-  through = with_hits_merged(std::move(through), t.evaluator);
-  const CurvePoint& start = forward.points.front();
-  for (Hit& hit : through.hits) {
-    if (!lies_at(start, hit) || is_met_by(backward, hit) || is_met_by(forward, hit)) continue;
-    if (hit.kind == HitKind::unresolved) hit = settled(hit, t.problem, source).value_or(hit);
-    const bool is_known = std::any_of(hits.begin(), hits.end(),
-                                      [&](const Hit& other) { return is_same_kind(other, hit); });
-    if (is_known) continue;
-    hits.push_back(placed_at(start, std::move(hit)));
-  }
-  const bool is_told = std::ranges::any_of(hits, [](const Hit& hit) {
-    return !hit.switches.empty() || hit.kind == HitKind::unresolved;
-  });
-  if (!is_told)
-    if (auto hit = switching_between(t, backward, forward)) hits.push_back(std::move(*hit));
+  if (const auto before = point_before(t, backward, options))
+    add_hits_through(t, source, *before, way, options, events, hits);
+  complete_switching(t, backward, forward, hits);
   return hits;
 }
 
