@@ -180,20 +180,23 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
   return hit;
 }
 
-/// The two curves of an ordinary start that lie in different pieces meet at the switching between them, however slowly its
-/// springs leave their thresholds: across a stiff member no step sees it.
+/// The two ways of an ordinary start that lie in different pieces meet at the switching between them, however slowly its
+/// springs leave their thresholds: across a stiff member no step sees it, and values on it are rounding.
 std::optional<Hit> switching_between(const Following& t, const Curve& backward,
                                      const Curve& forward) {
   const CurvePoint &before = backward.points.front(), &after = forward.points.front();
-  Vector behind, ahead;
-  if (!t.problem.switches(next_point(backward)->x, next_point(backward)->lambda, behind) ||
-      !t.problem.switches(next_point(forward)->x, next_point(forward)->lambda, ahead))
-    return std::nullopt;
+  const continuation::Rays ways =
+      rays_from(t.problem, after.x, after.lambda, after.piece, options_of(t.study.trace));
+  if (ways.rays.size() != 2 || !ways.complete) return std::nullopt;
+  const continuation::Ray &one = ways.rays[0], &other = ways.rays[1];
   Hit hit{.kind = HitKind::kink, .point = turned_round(before), .leaving = {after}};
-  for (Index j = 0; j < ahead.size(); ++j) {
-    const int from = before.piece[static_cast<std::size_t>(j)],
-              to = after.piece[static_cast<std::size_t>(j)];
-    if (from != to && from * behind[j] > 0 && to * ahead[j] > 0) hit.switches.push_back(j);
+  for (std::size_t k = 0; k < one.piece.size(); ++k) {
+    const auto j = static_cast<Index>(k);
+    const auto rests_on = [j](const continuation::Ray& ray) {
+      return std::ranges::find(ray.resting, j) != ray.resting.end();
+    };
+    if (one.piece[k] != other.piece[k] && !rests_on(one) && !rests_on(other))
+      hit.switches.push_back(j);
   }
   if (hit.switches.empty()) return std::nullopt;
   for (const Index j : hit.switches)

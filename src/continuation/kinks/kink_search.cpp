@@ -272,6 +272,14 @@ double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
 }
 
+/// Is the switch's rate at a point of the curve clear of what rounding makes of it?
+bool moves_off(const Walker& walker, const Workspace::Switches& at, Index j, const CurvePoint& p) {
+  const double rate = std::abs(rate_along(at, j, p));
+  if (rate > one_place) return true;
+  if (!(rate > 0)) return false;
+  return rate > error_of_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
+}
+
 /// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
 /// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
 /// zero. What runs along its surface, or is led by rounding, acts here.
@@ -280,7 +288,8 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
                        Index j) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
   const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
-  if (!(length > one_place) || !(std::min(std::abs(rate), std::abs(rate_before)) > one_place))
+  if (!(length > one_place) || !moves_off(walker, before, j, from) ||
+      !moves_off(walker, here, j, kink))
     return false;
   constexpr double alike = 0.25;
   const bool follows =
@@ -301,12 +310,15 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
   return active;
 }
 
-/// Is the switch's rate at a point of the curve clear of what rounding makes of it?
-bool moves_off(const Walker& walker, const Workspace::Switches& at, Index j, const CurvePoint& p) {
-  const double rate = std::abs(rate_along(at, j, p));
-  if (rate > one_place) return true;
-  if (!(rate > 0)) return false;
-  return rate > error_of_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
+/// A switch that is zero where the step begins, and that no value on the step tells from zero, leaves its surface where its rates
+/// are sure to: across a stiff member values are rounding for long, and rates are not.
+bool moves_away(const SwitchOnStep& f, const CurvePoint& to, const Cubic& ends,
+                const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
+  const double most = std::max(std::abs(ends.f0), std::abs(ends.f1));
+  if (!(most <= f.noise) || !(std::min(ends.d0, ends.d1) > 0)) return false;
+  const auto middle = point_at(f.walker, f.from, uneven_share(0) * f.h);
+  return middle && rate_at(f, *middle) > 0 && moves_off(f.walker, at.first, f.j, f.from) &&
+         moves_off(f.walker, at.second, f.j, to);
 }
 
 }  // namespace
@@ -366,6 +378,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
                                error_of_value(walker, to, last.dg_dx, last.dg_dlambda, j));
       if (on_step.noise < noise) crossing = crossing_of(on_step, ends, contains(left, j));
     }
+    if (!crossing.clear && moves_away(on_step, to, ends, {first, last})) continue;
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||
