@@ -86,44 +86,6 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
   return false;
 }
 
-/// How well a piece's equations determine its rates, computed where it is asked for first. The equilibrated matrix is
-/// J = D_r [dF/dx dF/dlambda] D_c, whose kernel is y, tangent = D_c y: stiff members beside soft ones make nothing uncertain
-/// by that alone.
-class RateErrors {
- public:
-  RateErrors(const Walker& walker, const CurvePoint& at) : walker_{walker}, at_{at} {}
-
-  /// What a place that is off by rounding makes of the rate of g_j along the tangent; infinity: not known.
-  double of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& tangent) {
-    if (walker_.problem.structured()) return infinity;
-    if (!asked_) ask();
-    if (!own_) return infinity;
-    const Index n = own_->J.rows();
-    Vector gradient(n + 1), along(n + 1);
-    gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
-    along << tangent.dx, tangent.dlambda;
-    const double size =
-        gradient.cwiseProduct(own_->columns).norm() * along.cwiseQuotient(own_->columns).norm();
-    return share_ > 0 && std::isfinite(size) ? 2 * exact_model / share_ * size : infinity;
-  }
-
- private:
-  void ask() {
-    asked_ = true;
-    own_ = equilibrated_jacobian(walker_, at_);
-    if (!own_) return;
-    const Index n = own_->J.rows();
-    const Vector pivots = pivoted_qr(own_->J.transpose()).pivots;
-    share_ = n > 0 ? pivots[n - 1] / std::max(pivots[0], 1.0) : 1.0;
-  }
-
-  const Walker& walker_;
-  const CurvePoint& at_;
-  bool asked_ = false;
-  std::optional<EquilibratedJacobian> own_{};
-  double share_ = 0;
-};
-
 /// Does the point lie on the surface of a switch to rounding?
 bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, const Vector& g, Index j) {
   const double size = surfaces.dg_dx.row(j).cwiseAbs().dot(at.x.cwiseAbs()) +
@@ -131,34 +93,38 @@ bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, const Vector&
   return is_exact(std::abs(g[j]), size);
 }
 
-/// A rate below the accuracy of its way is known as well as the equations determine it, where the point lies on the surface to
-/// rounding: a stiff member moves little, and surely.
-double accuracy_of_rate(const Walker& walker, const CurvePoint& at, const PieceWay& way,
-                        const Surfaces& surfaces, Index j, RateErrors& errors) {
+/// The rate of a switch along a way, positive on the side of the piece. Below the accuracy of the way it is known as well as the
+/// equations determine it, where the point lies on the surface to rounding: a stiff member moves little, and surely.
+KnownRate rate_on_way(const Walker& walker, const CurvePoint& at, const PieceWay& way,
+                      const Surfaces& surfaces, Index j, SwitchRates& rates) {
+  const double side = at.piece[static_cast<std::size_t>(j)];
+  const KnownRate seen{side * switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent),
+                       way.accuracy};
   Vector g;
-  if (way.start || !walker.problem.switches(at.x, at.lambda, g) ||
+  if (seen.has_sign() || way.start || !walker.problem.switches(at.x, at.lambda, g) ||
       !is_on_surface(at, surfaces, g, j))
-    return way.accuracy;
-  return std::min(way.accuracy, errors.of(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent));
+    return seen;
+  KnownRate solved = rates.of(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
+  solved.value *= side;
+  return solved.error < way.accuracy ? solved : seen;
 }
 
 /// Keeps one direction of one piece if it leads into the piece.
 void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
-           const Surfaces& surfaces, const Piece& preferred, RateErrors& errors, Rays& rays) {
+           const Surfaces& surfaces, const Piece& preferred, SwitchRates& rates, Rays& rays) {
   std::vector<Index> grazed, resting;
-  const auto rate_of = [&](Index j) {
+  const auto leads_out = [&](Index j) {
     return at.piece[static_cast<std::size_t>(j)] *
-           switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
+               switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent) <
+           -way.accuracy;
   };
-  const auto leads_out = [&](Index j) { return rate_of(j) < -way.accuracy; };
   if (std::ranges::any_of(surfaces.active, leads_out)) return;
   for (const Index j : surfaces.active) {
-    const double rate = rate_of(j);
-    const double known_to = std::abs(rate) > way.accuracy
-                                ? way.accuracy
-                                : accuracy_of_rate(walker, at, way, surfaces, j, errors);
-    if (rate < -known_to) return;
-    if (rate <= known_to) grazed.push_back(j);
+    const KnownRate rate = rate_on_way(walker, at, way, surfaces, j, rates);
+    if (!rate.has_sign())
+      grazed.push_back(j);
+    else if (rate.value < 0)
+      return;
   }
   if (is_known(walker, preferred, at.piece, way, rays)) return;
   if (!grazed.empty()) {
@@ -194,39 +160,6 @@ void sort_by_piece(const std::vector<Index>& active, std::vector<Ray>& rays) {
 
 }  // namespace
 
-double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
-  return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
-}
-
-double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
-                     const Vector& dg_dlambda, Index j, const Direction& tangent) {
-  return RateErrors(walker, at).of(dg_dx, dg_dlambda, j, tangent);
-}
-
-/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that round,
-/// times the inverse of the bordered matrix: across a stiff member by as little as that is stiff.
-double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
-                      const Vector& dg_dlambda, Index j) {
-  Linearisation linear;
-  if (walker.problem.structured() ||
-      !linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear))
-    return infinity;
-  const Index n = at.x.size();
-  Matrix B(n + 1, n + 1);
-  B << linear.dF_dx, linear.dF_dlambda, walker.weights.cwiseProduct(at.tangent.dx).transpose(),
-      at.tangent.dlambda;
-  Vector gradient(n + 1);
-  gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
-  const double terms = (linear.dF_dx.cwiseAbs() * at.x.cwiseAbs() +
-                        std::abs(at.lambda) * linear.dF_dlambda.cwiseAbs())
-                           .lpNorm<Eigen::Infinity>();
-  const double size = std::max({1.0, at.x.lpNorm<Eigen::Infinity>(), std::abs(at.lambda)});
-  const Vector answers = Lu(B.transpose()).solve(gradient);
-  const double error = refined_step * (size * gradient.lpNorm<1>() +
-                                       std::max(1.0, terms) * answers.head(n).lpNorm<1>());
-  return std::isfinite(error) ? error : infinity;
-}
-
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
   for (std::size_t j = 0; j < a.size(); ++j)
     if (a[j] != b[j] && !contains(where, static_cast<Index>(j))) return false;
@@ -254,8 +187,8 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   CurvePoint ray = at;
   const auto add = [&](const PieceWays& ways) {
     if (!ways.why.empty()) add_doubt(ways.why, rays);
-    RateErrors errors(walker, ray);
-    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, at.piece, errors, rays);
+    SwitchRates rates(walker, ray);
+    for (const PieceWay& way : ways.list) judge(walker, ray, way, surfaces, at.piece, rates, rays);
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
@@ -264,8 +197,9 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
         arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, active.empty());
     if (along && active.size() == 1 && !ways.list.empty()) {
       // The point lies on the surface to rounding.
-      const double off = error_of_rate(walker, ray, surfaces.dg_dx, surfaces.dg_dlambda,
-                                       active.front(), ways.list.front().tangent);
+      const double off = known_rate(walker, ray, surfaces.dg_dx, surfaces.dg_dlambda,
+                                    active.front(), ways.list.front().tangent)
+                             .error;
       for (PieceWay& way : ways.list) {
         if (ways.conditioning > 0)
           way.accuracy = std::min(way.accuracy, 2 * exact_model / ways.conditioning);

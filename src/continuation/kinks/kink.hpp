@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "continuation/kinks/switch_rates.hpp"
 #include "continuation/points/step.hpp"
 #include "springfold/continuation/ray.hpp"
 
@@ -81,18 +82,6 @@ void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch&
 ///               equations look singular; nullptr: not known
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
                  double full_rank, const Direction* along = nullptr);
-
-/// Rate of g_j along a direction.
-double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
-
-/// What a place that is off by rounding makes of switch_rate() along the tangent of a regular piece. Infinity where that is not
-/// known.
-double error_of_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
-                     const Vector& dg_dlambda, Index j, const Direction& tangent);
-
-/// What rounding makes of g_j at a corrected point of the curve; infinity where that is not known.
-double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
-                      const Vector& dg_dlambda, Index j);
 
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {

@@ -272,12 +272,13 @@ double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
 }
 
-/// Is the switch's rate at a point of the curve clear of what rounding makes of it?
-bool moves_off(const Walker& walker, const Workspace::Switches& at, Index j, const CurvePoint& p) {
-  const double rate = std::abs(rate_along(at, j, p));
-  if (rate > one_place) return true;
-  if (!(rate > 0)) return false;
-  return rate > error_of_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
+/// The switch's rate at a point of the curve, where it is clear of what rounding makes of it; otherwise 0.
+double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j,
+                 const CurvePoint& p) {
+  const double rate = rate_along(at, j, p);
+  if (std::abs(rate) > one_place) return rate;
+  const KnownRate known = known_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
+  return known.has_sign() ? known.value : 0;
 }
 
 /// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
@@ -287,10 +288,9 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
                        const Workspace::Switches& before, const Workspace::Switches& here,
                        Index j) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
-  const double rate = rate_along(here, j, kink), rate_before = rate_along(before, j, from);
-  if (!(length > one_place) || !moves_off(walker, before, j, from) ||
-      !moves_off(walker, here, j, kink))
-    return false;
+  const double rate = sure_rate(walker, here, j, kink),
+               rate_before = sure_rate(walker, before, j, from);
+  if (!(length > one_place) || rate == 0 || rate_before == 0) return false;
   constexpr double alike = 0.25;
   const bool follows =
       std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
@@ -315,10 +315,13 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
 bool moves_away(const SwitchOnStep& f, const CurvePoint& to, const Cubic& ends,
                 const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
   const double most = std::max(std::abs(ends.f0), std::abs(ends.f1));
-  if (!(most <= f.noise) || !(std::min(ends.d0, ends.d1) > 0)) return false;
+  if (!(most <= f.noise)) return false;
   const auto middle = point_at(f.walker, f.from, uneven_share(0) * f.h);
-  return middle && rate_at(f, *middle) > 0 && moves_off(f.walker, at.first, f.j, f.from) &&
-         moves_off(f.walker, at.second, f.j, to);
+  Workspace::Switches between;
+  return middle && read_switches(f.walker, *middle, between) &&
+         f.side * sure_rate(f.walker, at.first, f.j, f.from) > 0 &&
+         f.side * sure_rate(f.walker, between, f.j, *middle) > 0 &&
+         f.side * sure_rate(f.walker, at.second, f.j, to) > 0;
 }
 
 }  // namespace
@@ -338,7 +341,7 @@ std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from
   if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
     return resting;
   for (const Index j : candidates) {
-    if (moves_off(walker, first, j, from) || moves_off(walker, last, j, to)) continue;
+    if (sure_rate(walker, first, j, from) != 0 || sure_rate(walker, last, j, to) != 0) continue;
     bool stays = true;
     for (const double share : uneven_shares<2>()) {
       const auto point = point_at(walker, from, share * (to.s - from.s));

@@ -1,0 +1,83 @@
+#include "continuation/kinks/switch_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/locating/reduced_equation.hpp"
+#include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
+
+namespace springfold::continuation {
+
+bool KnownRate::has_sign() const { return std::abs(value) > error; }
+
+double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along) {
+  return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
+}
+
+struct SwitchRates::Equations {
+  Matrix J{};        ///< n x n + 1, equilibrated
+  Vector columns{};  ///< (dx, dlambda) = columns * y
+};
+
+SwitchRates::SwitchRates(const Walker& walker, const CurvePoint& at) : walker_{walker}, at_{at} {}
+
+SwitchRates::~SwitchRates() = default;
+
+KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j,
+                          const Direction& tangent) {
+  const KnownRate seen{switch_rate(dg_dx, dg_dlambda, j, tangent), infinity};
+  if (walker_.problem.structured()) return seen;
+  if (!asked_) {
+    asked_ = true;
+    if (auto own = equilibrated_jacobian(walker_, at_))
+      equations_ = std::make_unique<Equations>(std::move(own->J), std::move(own->columns));
+  }
+  if (!equations_) return seen;
+  const Index n = equations_->J.rows();
+  Vector gradient(n + 1), along(n + 1);
+  gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
+  gradient = gradient.cwiseProduct(equations_->columns);
+  along << tangent.dx, tangent.dlambda;
+  along = along.cwiseQuotient(equations_->columns);
+  const double length = along.norm();
+  Matrix B(n + 1, n + 1);
+  B << equations_->J, along.transpose() / length;
+  const Vector y = length * Lu(B).solve(Vector::Unit(n + 1, n));
+  const Vector w = Lu(B.transpose()).solve(gradient);
+  const double error = 2 * exact_model * w.head(n).norm() * y.norm() +
+                       refined_step * gradient.cwiseAbs().dot(y.cwiseAbs());
+  const double value = gradient.dot(y);
+  return std::isfinite(error) && std::isfinite(value) ? KnownRate{value, error} : seen;
+}
+
+KnownRate known_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                     const Vector& dg_dlambda, Index j, const Direction& tangent) {
+  return SwitchRates(walker, at).of(dg_dx, dg_dlambda, j, tangent);
+}
+
+/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that round,
+/// times the inverse of the bordered matrix: across a stiff member by as little as that is stiff.
+double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
+                      const Vector& dg_dlambda, Index j) {
+  Linearisation linear;
+  if (walker.problem.structured() ||
+      !linearise_densely(walker.problem, at.x, at.lambda, at.piece, linear))
+    return infinity;
+  const Index n = at.x.size();
+  Matrix B(n + 1, n + 1);
+  B << linear.dF_dx, linear.dF_dlambda, walker.weights.cwiseProduct(at.tangent.dx).transpose(),
+      at.tangent.dlambda;
+  Vector gradient(n + 1);
+  gradient << dg_dx.row(j).transpose(), dg_dlambda[j];
+  const double terms = (linear.dF_dx.cwiseAbs() * at.x.cwiseAbs() +
+                        std::abs(at.lambda) * linear.dF_dlambda.cwiseAbs())
+                           .lpNorm<Eigen::Infinity>();
+  const double size = std::max({1.0, at.x.lpNorm<Eigen::Infinity>(), std::abs(at.lambda)});
+  const Vector answers = Lu(B.transpose()).solve(gradient);
+  const double error = refined_step * (size * gradient.lpNorm<1>() +
+                                       std::max(1.0, terms) * answers.head(n).lpNorm<1>());
+  return std::isfinite(error) ? error : infinity;
+}
+
+}  // namespace springfold::continuation
