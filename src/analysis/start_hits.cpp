@@ -228,6 +228,14 @@ void add_hits_through(const Following& t, const BranchSource& source, const Curv
   }
 }
 
+/// Which springs switch is surer from the start itself than from a point that was located beside it.
+void take_switches(const Hit& from, Hit& to) {
+  to.switches = from.switches;
+  to.name = from.name;
+  to.point.piece = from.point.piece;
+  to.leaving.front().piece = from.leaving.front().piece;
+}
+
 /// A switching at the start that no hit tells is added; one that is told of some of its springs is told of all.
 void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
                         std::vector<Hit>& hits) {
@@ -243,8 +251,8 @@ void complete_switching(const Following& t, const Curve& backward, const Curve& 
   if (!hit) return;
   if (told == hits.end())
     hits.push_back(std::move(*hit));
-  else if (told->switches.size() < hit->switches.size())
-    *told = std::move(*hit);
+  else if (told->switches.size() <= hit->switches.size() && told->leaving.size() == 1)
+    take_switches(*hit, *told);
 }
 
 }  // namespace
