@@ -236,21 +236,23 @@ void take_switches(const Hit& from, Hit& to) {
   to.leaving.front().piece = from.leaving.front().piece;
 }
 
-/// A switching at the start that no hit tells is added; one that is told of some of its springs is told of all.
+/// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways that lead on
+/// from the start itself.
 void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
                         std::vector<Hit>& hits) {
   const auto is_switching = [](const Hit& hit) {
     return !hit.switches.empty() || hit.kind == HitKind::unresolved;
   };
   const auto told = std::ranges::find_if(hits, is_switching);
-  const bool in_part = told != hits.end() &&
-                       std::ranges::none_of(told + 1, hits.end(), is_switching) &&
-                       (told->kind == HitKind::kink || told->kind == HitKind::corner);
-  if (told != hits.end() && !in_part) return;
+  if (told != hits.end() && (std::ranges::any_of(told + 1, hits.end(), is_switching) ||
+                             told->kind == HitKind::unresolved))
+    return;
   auto hit = switching_between(t, backward, forward);
   if (!hit) return;
   if (told == hits.end())
     hits.push_back(std::move(*hit));
+  else if (told->kind == HitKind::branching_kink)
+    *told = std::move(*hit);
   else if (told->switches.size() <= hit->switches.size() && told->leaving.size() == 1)
     take_switches(*hit, *told);
 }
