@@ -68,19 +68,26 @@ void add_doubt(std::string why, Rays& rays) {
 }
 
 /// Is this way of a piece known already from a piece beyond its resting switches? Such a ray is kept once, in the piece that was
-/// asked for, if that is regular.
+/// asked for, if that is regular. Rounding may let a switch rest on one side and not on the other: that knows where it goes.
+/// @param unsure   switches whose rates along the way are none to rounding
+/// @param resting  of these, those that are known to rest on it
 bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, const PieceWay& way,
-              Rays& rays) {
+              const std::vector<Index>& unsure, const std::vector<Index>& resting, Rays& rays) {
   for (Ray& ray : rays.rays) {
-    if (!differ_only(ray.piece, piece, ray.resting) ||
+    std::vector<Index> either = ray.resting;
+    either.insert(either.end(), resting.begin(), resting.end());
+    if (!differ_only(ray.piece, piece, either) ||
         !(length_of(walker, difference(ray.tangent, way.tangent)) <= 10 * way.accuracy))
       continue;
     const auto as_preferred = [&](Index j) {
       return piece[static_cast<std::size_t>(j)] == preferred[static_cast<std::size_t>(j)];
     };
-    if (!way.start && !ray.resting.empty() &&
-        std::all_of(ray.resting.begin(), ray.resting.end(), as_preferred))
+    const auto goes = std::ranges::partition(
+        ray.resting, [&](Index j) { return way.start || contains(unsure, j); });
+    if (!way.start &&
+        (!goes.empty() || (!ray.resting.empty() && std::ranges::all_of(ray.resting, as_preferred))))
       ray.piece = piece;
+    ray.resting.erase(goes.begin(), goes.end());
     return true;
   }
   return false;
@@ -126,7 +133,7 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
     else if (rate.value < 0)
       return;
   }
-  if (is_known(walker, preferred, at.piece, way, rays)) return;
+  if (is_known(walker, preferred, at.piece, way, grazed, {}, rays)) return;
   if (!grazed.empty()) {
     const std::vector<Side> sides = sides_of(walker, at, way, grazed);
     if (std::find(sides.begin(), sides.end(), Side::out) != sides.end()) return;
@@ -137,6 +144,7 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
             "the curve grazes a switching surface: " + walker.problem.switch_name(grazed[i]), rays);
     }
   }
+  if (!resting.empty() && is_known(walker, preferred, at.piece, way, grazed, resting, rays)) return;
   rays.rays.push_back({at.piece, way.tangent, std::move(resting), way.start, way.beyond});
 }
 

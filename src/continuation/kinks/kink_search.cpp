@@ -283,30 +283,36 @@ double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j,
 
 /// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
 /// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
-/// zero. What runs along its surface, or is led by rounding, acts here.
+/// zero. What runs along its surface, or is led by rounding, acts here. A switch that the step leaves was zero where it begins,
+/// however near that is; one that surely moves away from its surface is not about to cross it.
 bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
-                       const Workspace::Switches& before, const Workspace::Switches& here,
-                       Index j) {
+                       const Workspace::Switches& before, const Workspace::Switches& here, Index j,
+                       bool was_left) {
   const double length = kink.s - from.s, change = here.g[j] - before.g[j];
   const double rate = sure_rate(walker, here, j, kink),
                rate_before = sure_rate(walker, before, j, from);
-  if (!(length > one_place) || rate == 0 || rate_before == 0) return false;
+  const double side = from.piece[static_cast<std::size_t>(j)];
+  if (std::min(side * rate, side * rate_before) > 0) return true;
+  if (!(length > one_place || was_left) || rate == 0 || rate_before == 0) return false;
   constexpr double alike = 0.25;
   const bool follows =
       std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
       rate * rate_before > 0;
-  return follows && std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous;
+  return follows &&
+         (was_left || std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous);
 }
 
 /// Switches that are zero at the kink, and not just near to zero there.
-std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink) {
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+                             const std::vector<Index>& left) {
   std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
   Workspace::Switches before, here;
   if (active.size() < 2 || !read_switches(walker, from, before) ||
       !read_switches(walker, kink, here))
     return active;
-  std::erase_if(active,
-                [&](Index j) { return is_zero_elsewhere(walker, from, kink, before, here, j); });
+  std::erase_if(active, [&](Index j) {
+    return is_zero_elsewhere(walker, from, kink, before, here, j, contains(left, j));
+  });
   return active;
 }
 
@@ -394,7 +400,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   }
   if (result.status != KinkSearch::Status::found) return result;
   settle_on_branch_point(walker, from, result);
-  result.active = acting_at(walker, from, result.point);
+  result.active = acting_at(walker, from, result.point, left);
   settle_on_surface(walker, from, result);
   return result;
 }
