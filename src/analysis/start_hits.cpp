@@ -228,12 +228,17 @@ void add_hits_through(const Following& t, const BranchSource& source, const Curv
   }
 }
 
-/// Which springs switch is surer from the start itself than from a point that was located beside it.
+/// Which springs switch, and where, is surer from the start itself than from a point that was located beside it.
 void take_switches(const Hit& from, Hit& to) {
+  const auto take_place = [&from](CurvePoint& point, const Piece& piece) {
+    point.x = from.point.x;
+    point.lambda = from.point.lambda;
+    point.piece = piece;
+  };
   to.switches = from.switches;
   to.name = from.name;
-  to.point.piece = from.point.piece;
-  to.leaving.front().piece = from.leaving.front().piece;
+  take_place(to.point, from.point.piece);
+  take_place(to.leaving.front(), from.leaving.front().piece);
 }
 
 /// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways that lead on
