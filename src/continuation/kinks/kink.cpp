@@ -184,7 +184,7 @@ std::vector<Index> active_switches(const Walker& walker, const Vector& x, double
 }
 
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
-                 double full_rank, const Direction* along) {
+                 double full_rank, const Direction* along, bool polished) {
   assert(active.size() <= most_active);
   Surfaces surfaces{.active = active};
   if (!active.empty() &&
@@ -201,8 +201,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
     const bool arrives = along && ray.piece == at.piece;
-    PieceWays ways =
-        arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, active.empty());
+    PieceWays ways = arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, polished);
     if (along && active.size() == 1 && !ways.list.empty()) {
       // The point lies on the surface to rounding.
       const double off = known_rate(walker, ray, surfaces.dg_dx, surfaces.dg_dlambda,
@@ -236,7 +235,8 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, active.empty() ? residual_level : one_place);
+  return rays_around(walker, at, active, active.empty() ? residual_level : one_place, nullptr,
+                     true);
 }
 
 }  // namespace springfold::continuation

@@ -80,8 +80,9 @@ void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch&
 /// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
 /// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
 ///               equations look singular; nullptr: not known
+/// @param polished   as regular_ways() has it: a start, which was not located
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
-                 double full_rank, const Direction* along = nullptr);
+                 double full_rank, const Direction* along = nullptr, bool polished = false);
 
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {
