@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "continuation/locating/reduced_equation.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -15,14 +16,28 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
 }
 
-struct SwitchRates::Equations {
-  Matrix J{};        ///< n x n + 1, equilibrated
-  Vector columns{};  ///< (dx, dlambda) = columns * y
-};
-
 SwitchRates::SwitchRates(const Walker& walker, const CurvePoint& at) : walker_{walker}, at_{at} {}
 
 SwitchRates::~SwitchRates() = default;
+
+namespace {
+
+/// How much J y changes, per length, where the point moves by D_c v; nothing outside the domain.
+std::optional<Vector> change_along(const Walker& walker, const CurvePoint& at,
+                                   const EquilibratedJacobian& own, const Vector& v,
+                                   const Vector& y) {
+  const Index n = own.J.rows();
+  const Vector moved = poor * own.columns.cwiseProduct(v);
+  Linearisation there;
+  if (!linearise_densely(walker.problem, at.x + moved.head(n), at.lambda + moved[n], at.piece,
+                         there))
+    return std::nullopt;
+  const Vector direction = own.columns.cwiseProduct(y);
+  const Vector rates = there.dF_dx * direction.head(n) + direction[n] * there.dF_dlambda;
+  return Vector((own.rows.cwiseProduct(rates) - own.J * y) / poor);
+}
+
+}  // namespace
 
 KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j,
                           const Direction& tangent) {
@@ -31,7 +46,7 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
   if (!asked_) {
     asked_ = true;
     if (auto own = equilibrated_jacobian(walker_, at_))
-      equations_ = std::make_unique<Equations>(std::move(own->J), std::move(own->columns));
+      equations_ = std::make_unique<EquilibratedJacobian>(std::move(*own));
   }
   if (!equations_) return seen;
   const Index n = equations_->J.rows();
@@ -43,9 +58,14 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
   const double length = along.norm();
   Matrix B(n + 1, n + 1);
   B << equations_->J, along.transpose() / length;
+  const Svd svd = jacobi_svd(B, SingularVectors::none, SingularVectors::full);
   const Vector y = length * Lu(B).solve(Vector::Unit(n + 1, n));
   const Vector w = Lu(B.transpose()).solve(gradient);
+  const auto change = change_along(walker_, at_, *equations_, svd.V.col(n), y);
+  if (!change) return seen;
+  const double off = exact_model / svd.values[n];
   const double error = 2 * exact_model * w.head(n).norm() * y.norm() +
+                       2 * off * std::abs(w.head(n).dot(*change)) +
                        refined_step * gradient.cwiseAbs().dot(y.cwiseAbs());
   const double value = gradient.dot(y);
   return std::isfinite(error) && std::isfinite(value) ? KnownRate{value, error} : seen;

@@ -7,6 +7,8 @@
 
 namespace springfold::continuation {
 
+struct EquilibratedJacobian;
+
 /// Rate of g_j along a direction.
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
 
@@ -23,8 +25,9 @@ struct KnownRate {
 ///     |                            | y  =  |   |
 ///     |           y0^T             |       | 1 |
 ///
-/// Every entry of the equations may be off by rounding of size one; what that makes of a rate follows from the adjoint of this
-/// system: stiff members beside soft ones make nothing uncertain by that alone. Computed where it is asked for first.
+/// Every entry of the equations may be off by rounding of size one, and the point by what that is over their least singular
+/// value, along its vector, which changes the entries; what both make of a rate follows from the adjoint of this system: stiff
+/// members beside soft ones make nothing uncertain by that alone. Computed where it is asked for first.
 class SwitchRates {
  public:
   SwitchRates(const Walker& walker, const CurvePoint& at);
@@ -34,11 +37,10 @@ class SwitchRates {
   KnownRate of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& tangent);
 
  private:
-  struct Equations;
   const Walker& walker_;
   const CurvePoint& at_;
   bool asked_ = false;
-  std::unique_ptr<Equations> equations_{};
+  std::unique_ptr<EquilibratedJacobian> equations_{};
 };
 
 /// The same of one switch at one point.

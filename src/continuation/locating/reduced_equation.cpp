@@ -133,7 +133,7 @@ std::optional<EquilibratedJacobian> equilibrated_jacobian(const Walker& walker,
       sizes = sizes.cwiseMax(counts * (other->dense - J).cwiseAbs());
   const Equilibration scale = equilibrate(sizes);
   return EquilibratedJacobian{scale.rows.asDiagonal() * J * scale.columns.asDiagonal(),
-                              scale.columns.cwiseQuotient(root)};
+                              scale.columns.cwiseQuotient(root), scale.rows};
 }
 
 bool residual_at(const ReducedEquation& e, const Vector& U, Vector& F) {

@@ -24,6 +24,7 @@ Vector scaled_point(const CurvePoint& at, const Vector& root);
 struct EquilibratedJacobian {
   Matrix J{};
   Vector columns{};  ///< D_c: J y = 0 for (dx, dlambda) = D_c y
+  Vector rows{};     ///< D_r: J = D_r [dF/dx dF/dlambda] D_c
 };
 
 /// @returns nothing where derivatives are not defined
