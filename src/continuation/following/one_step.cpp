@@ -139,7 +139,8 @@ bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progre
 }
 
 /// Does the curve of a piece, which is the same up to here, lead on within it? Signs of the switches at its point ahead, on the
-/// sides of the piece; 0 where rounding hides them, nothing where one is on the other side.
+/// sides of the piece, told by their rates where rounding hides them; 0 where it hides these too, nothing where one is on the
+/// other side.
 std::optional<std::vector<int>> signs_ahead(const Walker& walker, const CurvePoint& here, double ds,
                                             const std::vector<Index>& switches) {
   const auto ahead = point_at(walker, here, ds);
@@ -150,10 +151,11 @@ std::optional<std::vector<int>> signs_ahead(const Walker& walker, const CurvePoi
     return std::nullopt;
   std::vector<int> signs;
   for (const Index j : switches) {
-    const double value = here.piece[static_cast<std::size_t>(j)] * g[j];
-    const bool hidden = std::abs(value) <= error_of_value(walker, *ahead, dg_dx, dg_dlambda, j);
-    if (!hidden && value < 0) return std::nullopt;
-    signs.push_back(hidden ? 0 : here.piece[static_cast<std::size_t>(j)]);
+    const int side = here.piece[static_cast<std::size_t>(j)];
+    const bool hidden = std::abs(g[j]) <= error_of_value(walker, *ahead, dg_dx, dg_dlambda, j);
+    const double told = hidden ? sure_rate(walker, *ahead, dg_dx, dg_dlambda, j) : g[j];
+    if (side * told < 0) return std::nullopt;
+    signs.push_back(told == 0 ? 0 : side);
   }
   return signs;
 }

@@ -73,6 +73,11 @@ struct KinkSearch {
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);
 
+/// Switches that are zero at the kink, and not just near to zero there.
+/// @param left  those that the step leaves where it begins
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+                             const std::vector<Index>& left);
+
 /// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both are, not
 /// as the place along the curve. What does not settle stays as it is.
 void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);

@@ -16,9 +16,6 @@
 namespace springfold::continuation {
 namespace {
 
-/// Of the accuracy to which kinks are placed: so far apart they are two.
-constexpr double between_places = 100;
-
 /// One switching function on one step, positive on the side of the step's piece.
 struct SwitchOnStep {
   const Walker& walker;
@@ -258,107 +255,27 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   kink.after = std::max(kink.after, point.s - from.s);
 }
 
-bool read_switches(const Walker& walker, const CurvePoint& p, Workspace::Switches& at) {
-  return walker.problem.switches(p.x, p.lambda, at.g) &&
-         walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
-}
-
 /// Size of what a switching function is made of: multipliers beside it do not count.
 double size_of(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return at.dg_dx.row(j).cwiseAbs().dot(p.x.cwiseAbs()) + std::abs(at.dg_dlambda[j] * p.lambda);
 }
 
-double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p) {
-  return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
-}
-
-/// The switch's rate at a point of the curve, where it is clear of what rounding makes of it; otherwise 0.
-double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j,
-                 const CurvePoint& p) {
-  const double rate = rate_along(at, j, p);
-  if (std::abs(rate) > one_place) return rate;
-  const KnownRate known = known_rate(walker, p, at.dg_dx, at.dg_dlambda, j, p.tangent);
-  return known.has_sign() ? known.value : 0;
-}
-
-/// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
-/// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
-/// zero. What runs along its surface, or is led by rounding, acts here. A switch that the step leaves was zero where it begins,
-/// however near that is; one that surely moves away from its surface is not about to cross it.
-bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
-                       const Workspace::Switches& before, const Workspace::Switches& here, Index j,
-                       bool was_left) {
-  const double length = kink.s - from.s, change = here.g[j] - before.g[j];
-  const double rate = sure_rate(walker, here, j, kink),
-               rate_before = sure_rate(walker, before, j, from);
-  const double side = from.piece[static_cast<std::size_t>(j)];
-  if (std::min(side * rate, side * rate_before) > 0) return true;
-  if (!(length > one_place || was_left) || rate == 0 || rate_before == 0) return false;
-  constexpr double alike = 0.25;
-  const bool follows =
-      std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
-      rate * rate_before > 0;
-  return follows &&
-         (was_left || std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous);
-}
-
-/// Switches that are zero at the kink, and not just near to zero there.
-std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
-                             const std::vector<Index>& left) {
-  std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
-  Workspace::Switches before, here;
-  if (active.size() < 2 || !read_switches(walker, from, before) ||
-      !read_switches(walker, kink, here))
-    return active;
-  std::erase_if(active, [&](Index j) {
-    return is_zero_elsewhere(walker, from, kink, before, here, j, contains(left, j));
-  });
-  return active;
-}
-
 /// A switch that is zero where the step begins, and that no value on the step tells from zero, leaves its surface where its rates
-/// are sure to: across a stiff member values are rounding for long, and rates are not.
+/// are sure to: across a stiff member, or at high order, values are rounding for long, and rates are not.
 bool moves_away(const SwitchOnStep& f, const CurvePoint& to, const Cubic& ends,
                 const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
   const double most = std::max(std::abs(ends.f0), std::abs(ends.f1));
   if (!(most <= f.noise)) return false;
   const auto middle = point_at(f.walker, f.from, uneven_share(0) * f.h);
   Workspace::Switches between;
-  return middle && read_switches(f.walker, *middle, between) &&
-         f.side * sure_rate(f.walker, at.first, f.j, f.from) > 0 &&
-         f.side * sure_rate(f.walker, between, f.j, *middle) > 0 &&
-         f.side * sure_rate(f.walker, at.second, f.j, to) > 0;
+  const auto rate = [&](const Workspace::Switches& there, const CurvePoint& p) {
+    return f.side * sure_rate(f.walker, there, f.j, p);
+  };
+  return middle && read_switches(f.walker, *middle, between) && rate(at.second, to) > 0 &&
+         rate(between, *middle) >= 0 && rate(at.first, f.from) >= 0;
 }
 
 }  // namespace
-
-std::vector<Index> resting_switches(const Walker& walker, const CurvePoint& from,
-                                    const CurvePoint& to) {
-  std::vector<Index> resting;
-  Workspace::Switches &first = walker.memory->at_from, &last = walker.memory->at_to;
-  if (walker.problem.switch_count() == 0 || !(to.s > from.s) ||
-      !walker.problem.switches(from.x, from.lambda, first.g) ||
-      !walker.problem.switches(to.x, to.lambda, last.g))
-    return resting;
-  std::vector<Index> candidates;
-  for (Index j = 0; j < first.g.size(); ++j)
-    if (std::max(std::abs(first.g[j]), std::abs(last.g[j])) <= walker.options.simultaneous)
-      candidates.push_back(j);
-  if (candidates.empty() || !read_switches(walker, from, first) || !read_switches(walker, to, last))
-    return resting;
-  for (const Index j : candidates) {
-    if (sure_rate(walker, first, j, from) != 0 || sure_rate(walker, last, j, to) != 0) continue;
-    bool stays = true;
-    for (const double share : uneven_shares<2>()) {
-      const auto point = point_at(walker, from, share * (to.s - from.s));
-      Vector g;
-      stays = stays && point && walker.problem.switches(point->x, point->lambda, g) &&
-              std::abs(g[j]) <= walker.options.simultaneous;
-    }
-    if (stays) resting.push_back(j);
-  }
-  return resting;
-}
 
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left) {

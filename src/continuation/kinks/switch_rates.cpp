@@ -16,6 +16,15 @@ double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const
   return dg_dx.row(j).dot(along.dx) + dg_dlambda[j] * along.dlambda;
 }
 
+bool read_switches(const Walker& walker, const CurvePoint& p, Workspace::Switches& at) {
+  return walker.problem.switches(p.x, p.lambda, at.g) &&
+         walker.problem.switch_gradients(p.x, p.lambda, at.dg_dx, at.dg_dlambda);
+}
+
+double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p) {
+  return switch_rate(at.dg_dx, at.dg_dlambda, j, p.tangent);
+}
+
 SwitchRates::SwitchRates(const Walker& walker, const CurvePoint& at) : walker_{walker}, at_{at} {}
 
 SwitchRates::~SwitchRates() = default;
@@ -74,6 +83,19 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
 KnownRate known_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
                      const Vector& dg_dlambda, Index j, const Direction& tangent) {
   return SwitchRates(walker, at).of(dg_dx, dg_dlambda, j, tangent);
+}
+
+double sure_rate(const Walker& walker, const CurvePoint& p, const Matrix& dg_dx,
+                 const Vector& dg_dlambda, Index j) {
+  const double rate = switch_rate(dg_dx, dg_dlambda, j, p.tangent);
+  if (std::abs(rate) > one_place) return rate;
+  const KnownRate known = known_rate(walker, p, dg_dx, dg_dlambda, j, p.tangent);
+  return known.has_sign() ? known.value : 0;
+}
+
+double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j,
+                 const CurvePoint& p) {
+  return sure_rate(walker, p, at.dg_dx, at.dg_dlambda, j);
 }
 
 /// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that round,

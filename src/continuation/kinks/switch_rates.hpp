@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "continuation/points/step.hpp"
+#include "continuation/points/workspace.hpp"
 
 namespace springfold::continuation {
 
@@ -11,6 +12,13 @@ struct EquilibratedJacobian;
 
 /// Rate of g_j along a direction.
 double switch_rate(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& along);
+
+/// Values and gradients of all switches at a point.
+/// @returns false outside the domain
+bool read_switches(const Walker& walker, const CurvePoint& p, Workspace::Switches& at);
+
+/// Rate of g_j along the tangent of the point at which they were read.
+double rate_along(const Workspace::Switches& at, Index j, const CurvePoint& p);
 
 struct KnownRate {
   double value = 0;
@@ -46,6 +54,12 @@ class SwitchRates {
 /// The same of one switch at one point.
 KnownRate known_rate(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
                      const Vector& dg_dlambda, Index j, const Direction& tangent);
+
+/// Rate of g_j along the curve at one of its points, where it is clear of what rounding makes of it; otherwise 0.
+double sure_rate(const Walker& walker, const CurvePoint& p, const Matrix& dg_dx,
+                 const Vector& dg_dlambda, Index j);
+
+double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j, const CurvePoint& p);
 
 /// What rounding makes of g_j at a corrected point of the curve; infinity where that is not known.
 double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
