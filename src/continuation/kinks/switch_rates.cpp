@@ -72,7 +72,7 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
   const Vector w = Lu(B.transpose()).solve(gradient);
   const auto change = change_along(walker_, at_, *equations_, svd.V.col(n), y);
   if (!change) return seen;
-  const double off = exact_model / svd.values[n];
+  const double off = refined_step / svd.values[n];  // of the last correction that is not made
   const double error = 2 * exact_model * w.head(n).norm() * y.norm() +
                        2 * off * std::abs(w.head(n).dot(*change)) +
                        refined_step * gradient.cwiseAbs().dot(y.cwiseAbs());
