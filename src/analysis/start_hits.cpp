@@ -241,6 +241,13 @@ void take_switches(const Hit& from, Hit& to) {
   take_place(to.leaving.front(), from.leaving.front().piece);
 }
 
+/// Has the curve a switching so near to the start that it is the start's?
+bool switches_at_start(const Curve& curve) {
+  return std::ranges::any_of(curve.hits, [](const Hit& hit) {
+    return hit.point.s <= same_as_start && !hit.switches.empty();
+  });
+}
+
 /// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways that lead on
 /// from the start itself.
 void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
@@ -273,14 +280,16 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
   const auto events = events_through(t);
   if (!may_be_special(t, backward, forward, events)) return hits;
   const double way = std::min(free_way(backward), free_way(forward));
-  if (!(way > same_as_start))
-    return hits;  // special points of the curves lie at the start: they tell it
-  continuation::TraceOptions options = options_of(t.study.trace);
-  options.verify_arcs = false;
-  options.step.initial = options.step.maximum = way;
-  options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
-  if (const auto before = point_before(t, backward, options))
-    add_hits_through(t, source, *before, way, options, events, hits);
+  if (way > same_as_start) {
+    continuation::TraceOptions options = options_of(t.study.trace);
+    options.verify_arcs = false;
+    options.step.initial = options.step.maximum = way;
+    options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
+    if (const auto before = point_before(t, backward, options))
+      add_hits_through(t, source, *before, way, options, events, hits);
+  } else if (switches_at_start(backward) || switches_at_start(forward)) {
+    return hits;
+  }
   complete_switching(t, backward, forward, hits);
   return hits;
 }
