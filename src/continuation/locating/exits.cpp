@@ -105,7 +105,8 @@ std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoi
   const Walker& walker = *e.walker;
   const Index n = e.U0.size() - 1;
   CurvePoint point;
-  point.s = (ray.U - e.U0).norm();
+  const Vector way = (ray.U - e.U0).cwiseQuotient(e.root);
+  point.s = length_of(walker, Direction{way.head(n), way[n]});  // multipliers have none
   point.x = ray.U.head(n).cwiseQuotient(e.root.head(n));
   point.lambda = ray.U[n];
   point.piece = e.piece;
