@@ -39,6 +39,19 @@ bool leaves_beside(const Walker& walker, const Hit& hit, const Ray& ray) {
       });
 }
 
+/// The ways out of a point, as many as were told where it was met, and the way back.
+Rays rays_told(const Walker& walker, const Hit& hit, const std::vector<Index>& active) {
+  const std::size_t told = hit.leaving.size() + hit.leaving_beside.size() + 1;
+  Rays rays = rays_around(walker, hit.point, active, located_rank);
+  if (hit.kind != HitKind::branching_kink || rays.rays.size() >= told) return rays;
+  rays = rays_around(walker, hit.point, active, half_branch_rank);
+  if (rays.complete && rays.rays.size() < told) {
+    rays.complete = false;
+    rays.why = "ways that lead on could not be found again";
+  }
+  return rays;
+}
+
 /// The ways out of a point on switching surfaces.
 void add_rays(const Walker& walker, const Hit& hit, const std::vector<Index>& active,
               Junction& junction) {
@@ -46,7 +59,7 @@ void add_rays(const Walker& walker, const Hit& hit, const std::vector<Index>& ac
   Surfaces surfaces{.active = active};
   if (!walker.problem.switch_gradients(point.x, point.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
     return;
-  const Rays rays = rays_around(walker, point, active, located_rank);
+  const Rays rays = rays_told(walker, hit, active);
   junction.complete = rays.complete;
   junction.why = rays.why;
   for (const Ray& ray : rays.rays) {

@@ -8,6 +8,7 @@
 
 #include "continuation/kinks/switch_rates.hpp"
 #include "continuation/points/step.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/ray.hpp"
 
 namespace springfold::continuation {
@@ -81,6 +82,9 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
 /// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both are, not
 /// as the place along the curve. What does not settle stays as it is.
 void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);
+
+/// The same at a point from which half-branches leave, which is located by the eigenvalues of other pieces.
+inline constexpr double half_branch_rank = 10 * located_rank;
 
 /// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
 /// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t most_pieces =
     256;  // beside the curve, whose test functions are looked at on every step
-constexpr double located = 10 * located_rank;  // ratio of singular values at a located branch point
 
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {
@@ -205,7 +204,7 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
              const std::vector<ZeroBeside>& places, ZeroBeside& place) {
   Hit& hit = place.hit;
   const std::string names = names_of(walker.problem, resting);
-  const Rays rays = rays_around(walker, hit.point, resting, located);
+  const Rays rays = rays_around(walker, hit.point, resting, half_branch_rank);
   hit.switches = resting;
   hit.leaving = {start_of(walker, hit.point, {hit.point.piece, hit.point.tangent})};
   for (const Ray& ray : rays.rays)
