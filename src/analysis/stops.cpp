@@ -11,17 +11,17 @@ using continuation::Curve;
 using continuation::CurvePoint;
 using continuation::StopReason;
 
-Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const Curve& curve,
-               const PathProblem& problem) {
+Stop explained(Stop stop, const EndOfCurve& at, const Curve& curve, const PathProblem& problem) {
+  const CurvePoint& end = at.end;
   if (stop.complete) return stop;
   if (const auto length = vanishing_length(problem, curve, end)) {
     const bool is_stuck = curve.stop == StopReason::step_too_small;
     return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
   }
   if (const auto angle = angle_near_jump(problem, end)) return {*angle, false};
-  if (const auto why = nears_kinematic_singularity(problem, end, other))
+  if (const auto why = nears_kinematic_singularity(problem, at))
     stop.reason += "; " + *why;
-  else if (const auto legs = stretched_chains(problem, end, other))
+  else if (const auto legs = stretched_chains(problem, at))
     stop = legs->is_end_of_reach || curve.stop == StopReason::unbounded
                ? Stop{"end of the reach: " + legs->text, true}
                : Stop{stop.reason + "; " + legs->text, false};
@@ -30,7 +30,7 @@ Stop explained(Stop stop, const CurvePoint& end, const CurvePoint& other, const 
   return stop;
 }
 
-Stop stop_of(const Curve& curve) {
+Stop stop_of(const Curve& curve, bool follows_branches) {
   if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
   if (was_ended(curve) && !curve.stop_detail.empty()) return {curve.stop_detail, false};
@@ -42,7 +42,8 @@ Stop stop_of(const Curve& curve) {
     stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
   stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed;
   const bool parts = !curve.hits.empty() && curve.hits.back().leaving.size() > 1;
-  if (!stop.complete && parts) stop.reason += "; each is a branch: branches.depth = 1 follows them";
+  if (!stop.complete && parts && !follows_branches)
+    stop.reason += "; each is a branch: branches.depth = 1 follows them";
   return stop;
 }
 
