@@ -177,8 +177,10 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     source.backward_between.clear();
     source.forward_between.clear();
   }
-  const Curve backward = with_hits_merged(std::move(source.backward), evaluator);
-  const Curve forward = with_hits_merged(std::move(source.forward), evaluator);
+  Curve backward = with_hits_merged(std::move(source.backward), evaluator);
+  Curve forward = with_hits_merged(std::move(source.forward), evaluator);
+  end_at_reach(backward, source.backward_between, source.backward_stop, problem);
+  end_at_reach(forward, source.forward_between, source.forward_stop, problem);
   std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
   BranchRows rows;
   Branch& branch = rows.branch;

@@ -73,6 +73,12 @@ Stop stop_of(const continuation::Curve& curve, bool follows_branches = false);
 Stop explained(Stop stop, const EndOfCurve& at, const continuation::Curve& curve,
                const PathProblem& problem);
 
+/// Ends the curve where it would go on through an infinite force. The chains' wrenches are no part of the metric, so that a
+/// curve in the coordinates may lead past a dead centre: what comes behind belongs to forces of the other sign.
+/// @param between  further points of the curve
+void end_at_reach(continuation::Curve& curve, std::vector<continuation::CurvePoint>& between,
+                  Stop& stop, const PathProblem& problem);
+
 /// The other side of a curve that is all there is: closed, or a single point.
 continuation::Curve nothing_behind(const continuation::Curve& curve);
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
 #include "lambda_crawl.hpp"
@@ -28,6 +31,32 @@ Stop explained(Stop stop, const EndOfCurve& at, const Curve& curve, const PathPr
   else if (const auto names = neutral_motion(problem, end))
     stop.reason += "; nothing resists a motion of " + *names + " there";
   return stop;
+}
+
+void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
+                  const PathProblem& problem) {
+  for (auto hit = curve.hits.begin(); hit != curve.hits.end(); ++hit) {
+    const auto has_junction = [](const continuation::Hit& h) { return h.junction >= 0; };
+    if (std::any_of(hit, curve.hits.end(), has_junction)) continue;
+    if (hit->kind != continuation::HitKind::unresolved) continue;
+    const auto behind = std::find_if(curve.points.begin(), curve.points.end(),
+                                     [&](const CurvePoint& p) { return p.s >= hit->point.s; });
+    const auto before = std::distance(curve.points.begin(), behind);
+    if (before < 2 || behind == curve.points.end()) continue;
+    EndOfCurve at{hit->point, curve.points[static_cast<std::size_t>(before - 1)], {}};
+    for (const int quarter : {0, 1, 2, 3})
+      at.far.push_back(&curve.points[static_cast<std::size_t>(quarter * before / 4)]);
+    const auto legs = stretched_chains(problem, at);
+    if (!legs || !legs->is_end_of_reach) continue;
+    stop = {"end of the reach: " + legs->text, true};
+    const CurvePoint last = hit->point;
+    curve.hits.erase(hit, curve.hits.end());
+    curve.points.erase(behind, curve.points.end());
+    curve.points.push_back(last);
+    std::erase_if(between, [&](const CurvePoint& p) { return p.s >= last.s; });
+    curve.stop = StopReason::unbounded;
+    return;
+  }
 }
 
 Stop stop_of(const Curve& curve, bool follows_branches) {

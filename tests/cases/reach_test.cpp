@@ -92,5 +92,47 @@ TEST(Reach, OfACrankRockerEndsAtBothDeadCentresWhereTheForceHasNoBound) {
   EXPECT_NEAR(branch.samples.front().values[1], std::sqrt(1.69 - x * x) - start, 1e-8);
 }
 
+/// The same kind begun where it is soft: its unit of force is small, and steps in the coordinates pass the dead centre.
+const std::string soft_crank_rocker = R"(
+[[body]]
+name = "P"
+task_space = "xy"
+pose = [-0.17655033517660373, 0.242548921145877]
+[[body]]
+name = "Q"
+task_space = "xy"
+pose = [0.6919154726704084, 0.7382979913423184]
+[[chain]]
+name = "crank"
+to = "P"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 2.2, role = "preloaded", spring = { law = "linear", stiffness = 1, free = 2.2 } }, { rigid = [0.3, 0] } ]
+[[chain]]
+name = "rock"
+from_at = [1.0, 0]
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 1.9661186360622833 }, { rigid = [0.8, 0] } ]
+[[chain]]
+name = "coup"
+from = "P"
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.5186971407396499 }, { rigid = [1, 0] } ]
+[[study]]
+name = "p"
+body = "Q"
+control = "mixed"
+direction = [6.123233995736766e-17, 1.0]
+until = { crank.a = [0.7000000000000002, 3.7] }
+)";
+
+TEST(Reach, EndsWhereACurveWouldGoOnThroughAnInfiniteForce) {
+  const auto result = run(soft_crank_rocker).of("p");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  EXPECT_EQ(branch.forward.reason.rfind("end of the reach: ", 0), 0u) << branch.forward.reason;
+  EXPECT_NEAR(branch.samples.back().values[1], 0.8 - 0.7382979913423184, 1e-9);
+  for (std::size_t row = branch.start_row + 1; row < branch.samples.size(); ++row)
+    EXPECT_GT(value(result, row, "force"), 0);
+}
+
 }  // namespace
 }  // namespace springfold::io
