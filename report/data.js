@@ -7,7 +7,7 @@
  *            stiffness?: number[][]}} SpecialPoint
  * @typedef {{name: string, form: string, file: string, rows: number, start: number, values: string, points: string,
  *            springs: string, loads: string, outlines: string, layout: number[] | null, status: {texts: string[], of: number[]} | null,
- *            events: SpecialPoint[]}} WrittenBranch
+ *            rests: number[], events: SpecialPoint[]}} WrittenBranch
  * @typedef {{dimension: number, points: number, right: number[], up: number[], chains: string[],
  *            links: {from: number, to: number, chain: number, rail: boolean}[],
  *            joints: {name: string, shape: string, role: string, at: number, axis: number}[],
@@ -151,5 +151,8 @@ function brief(value, rounding) {
 /** A value in words.
  * @param {Run} run @param {WrittenBranch} branch @param {number} row @param {number} column */
 function wordsAt(run, branch, row, column) {
-  return column < 0 ? "" : brief(valueAt(run, branch, row, column), run.quantities[column].rounding);
+  if (column < 0) return "";
+  const value = valueAt(run, branch, row, column), {name, rounding} = run.quantities[column];
+  const isLeast = ["index", "index_force", "index_pose"].includes(name) && value >= 1 && branch.rests.includes(row);
+  return isLeast ? ">= 1" : brief(value, rounding);
 }

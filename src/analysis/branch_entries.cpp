@@ -41,19 +41,11 @@ void note_leaving(std::vector<Entry>& entries, std::size_t start, const PathProb
   }
 }
 
-/// Rows at which springs rest, neighbours with the same answer together.
-void note_resting(const Entry& entry, std::size_t row, const Evaluator& evaluator,
-                  std::vector<RestingRows>& list) {
-  const auto found =
-      evaluator.resting_index_of(QuantityDefinition::Kind::index, entry.point, entry.not_resting);
-  if (!found) return;
-  using Stable = RestingRows::Stable;
-  const RestingRows next{row, row,
-                         found->verdict == Definiteness::positive       ? Stable::yes
-                         : found->verdict == Definiteness::not_positive ? Stable::no
-                                                                        : Stable::undecided,
-                         static_cast<int>(found->fewest), static_cast<int>(found->most)};
-  add_resting(next, list);
+/// Neighbours with the same answer together.
+void note_resting(const Entry& entry, std::size_t row, const Evaluator& evaluator, Branch& branch) {
+  const auto rows = resting_rows(entry.point, entry.not_resting, row, evaluator);
+  branch.samples[row].rests = rows.has_value();
+  if (rows) add_resting(*rows, branch.resting);
 }
 
 Sample sample_of(const RowMaking& making, const Entry& e) {
@@ -111,6 +103,18 @@ void thin(const RowMaking& making, std::size_t done, std::vector<Entry>& entries
 }
 
 }  // namespace
+
+std::optional<RestingRows> resting_rows(const CurvePoint& point, const Switches& leaving,
+                                        std::size_t row, const Evaluator& evaluator) {
+  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point, leaving);
+  if (!found) return std::nullopt;
+  using Stable = RestingRows::Stable;
+  return RestingRows{row, row,
+                     found->verdict == Definiteness::positive       ? Stable::yes
+                     : found->verdict == Definiteness::not_positive ? Stable::no
+                                                                    : Stable::undecided,
+                     static_cast<int>(found->fewest), static_cast<int>(found->most)};
+}
 
 /// Points and special points of one direction in the order of s, without the start.
 std::vector<Entry> entries_of(const Curve& curve, std::vector<CurvePoint>&& between) {
@@ -181,13 +185,13 @@ bool add_rows(const RowMaking& making, std::vector<Entry>& entries, Branch& bran
   std::size_t i = 0;
   for (; i < entries.size() && goes_on(entries[i]); ++i) {
     branch.samples.push_back(sample_of(making, entries[i]));
-    note_resting(entries[i], i, making.evaluator, branch.resting);
+    note_resting(entries[i], i, making.evaluator, branch);
   }
   if (i == entries.size()) return i == all;
   thin(making, i, entries, branch);
   branch.resting.clear();
   for (std::size_t k = 0; k < entries.size(); ++k)
-    note_resting(entries[k], k, making.evaluator, branch.resting);
+    note_resting(entries[k], k, making.evaluator, branch);
   return false;
 }
 

@@ -30,6 +30,12 @@ std::vector<Entry> entries_at(const continuation::CurvePoint& start,
 /// The same curve walked the other way: s and tangents change sign, kinks swap their sides.
 std::vector<Entry> reversed(std::vector<Entry> entries);
 
+/// What all pieces together say of a state at which springs rest; nothing where none rests, or nothing decides.
+/// @param leaving  switches that are near their threshold and do not rest there
+std::optional<RestingRows> resting_rows(const continuation::CurvePoint& point,
+                                        const Switches& leaving, std::size_t row,
+                                        const Evaluator& evaluator);
+
 /// What rows are made with; the references must outlive it.
 struct RowMaking {
   const Evaluator& evaluator;

@@ -151,6 +151,22 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
   }
 }
 
+/// The end at which the rows begin, in this order. Far points: those nearest to the quarters of the way, and the other end.
+template <class Iterator>
+EndOfCurve end_of_curve(Iterator first, Iterator last) {
+  const double begin = first->point.s, way = std::prev(last)->point.s - begin;
+  const auto before =
+      std::find_if(first, last, [begin](const Entry& e) { return e.point.s != begin; });
+  EndOfCurve curve{first->point, before == last ? first->point : before->point, {}};
+  for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+    const auto distance = [&](const Entry& e) { return std::abs(e.point.s - begin - part * way); };
+    const auto nearest = std::min_element(
+        first, last, [&](const Entry& a, const Entry& b) { return distance(a) < distance(b); });
+    curve.far.push_back(&nearest->point);
+  }
+  return curve;
+}
+
 }  // namespace
 
 BranchRows join(BranchSource source, const Evaluator& evaluator,
@@ -161,8 +177,10 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     source.backward_between.clear();
     source.forward_between.clear();
   }
-  const Curve backward = with_hits_merged(std::move(source.backward), evaluator);
-  const Curve forward = with_hits_merged(std::move(source.forward), evaluator);
+  Curve backward = with_hits_merged(std::move(source.backward), evaluator);
+  Curve forward = with_hits_merged(std::move(source.forward), evaluator);
+  end_at_reach(backward, source.backward_between, source.backward_stop, problem);
+  end_at_reach(forward, source.forward_between, source.forward_stop, problem);
   std::vector<Entry> entries = reversed(entries_of(backward, std::move(source.backward_between)));
   BranchRows rows;
   Branch& branch = rows.branch;
@@ -172,10 +190,10 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     entries.insert(entries.end(), std::make_move_iterator(more.begin()),
                    std::make_move_iterator(more.end()));
   const bool is_whole = add_rows({evaluator, quantities, problem, asking}, entries, branch);
-  branch.backward = explained(source.backward_stop, entries.front().point, entries.back().point,
+  branch.backward = explained(source.backward_stop, end_of_curve(entries.begin(), entries.end()),
                               backward, problem);
-  branch.forward =
-      explained(source.forward_stop, entries.back().point, entries.front().point, forward, problem);
+  branch.forward = explained(source.forward_stop, end_of_curve(entries.rbegin(), entries.rend()),
+                             forward, problem);
   const auto add = [&rows](Event event, int junction) {
     rows.branch.events.push_back(std::move(event));
     rows.junctions.push_back(junction);

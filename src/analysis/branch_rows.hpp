@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "closure_rank.hpp"
 #include "quantities.hpp"
 #include "springfold/continuation/curve.hpp"
 
@@ -64,14 +65,19 @@ std::vector<JunctionLabel> label_events(std::vector<BranchRows>& all, std::size_
 EventKind kind_of(const continuation::Hit& hit);
 
 /// The engine's reason; complete at a limit and on a closed curve.
-Stop stop_of(const continuation::Curve& curve);
+/// @param follows_branches  the study does already: nobody is told to ask for it
+Stop stop_of(const continuation::Curve& curve, bool follows_branches = false);
 
 /// Why a trace could not go on, if the closures or the springs say so; otherwise what it was given. What the engine took
 /// it for is in the step log.
-/// @param end    where the curve stopped; other: the other end of the branch
-Stop explained(Stop stop, const continuation::CurvePoint& end,
-               const continuation::CurvePoint& other, const continuation::Curve& curve,
+Stop explained(Stop stop, const EndOfCurve& at, const continuation::Curve& curve,
                const PathProblem& problem);
+
+/// Ends the curve where it would go on through an infinite force. The chains' wrenches are no part of the metric, so that a
+/// curve in the coordinates may lead past a dead centre: what comes behind belongs to forces of the other sign.
+/// @param between  further points of the curve
+void end_at_reach(continuation::Curve& curve, std::vector<continuation::CurvePoint>& between,
+                  Stop& stop, const PathProblem& problem);
 
 /// The other side of a curve that is all there is: closed, or a single point.
 continuation::Curve nothing_behind(const continuation::Curve& curve);

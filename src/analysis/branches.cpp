@@ -132,7 +132,7 @@ class Writer {
 
   /// Why a curve of a branch ended; joined and branching ends name the branches that go on.
   Stop end_of(const Curve& curve, int own) const {
-    Stop stop = stop_of(curve);
+    Stop stop = stop_of(curve, t_.study.branches.depth > 0);
     if (curve.hits.empty()) return stop;
     const Hit& last = curve.hits.back();
     if (last.junction < 0) return stop;

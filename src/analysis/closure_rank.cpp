@@ -72,6 +72,23 @@ std::string words_for(const statics::System& system, const Vector& null) {
   return (count == 1 ? "chain " : "chains ") + names;
 }
 
+/// The largest of what the points have; nothing where none has it.
+std::optional<double> largest_rank(const PathProblem& problem, const EndOfCurve& curve,
+                                   bool along) {
+  std::optional<double> largest;
+  for (const continuation::CurvePoint* point : curve.far)
+    if (const auto rank = rank_at(problem, point->x, point->lambda, point->piece, along))
+      largest = std::max(largest.value_or(0), rank->smallest);
+  return largest;
+}
+
+/// Of a list that is not empty.
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 Index rank_of(const Matrix& J, double share) {
@@ -80,12 +97,12 @@ Index rank_of(const Matrix& J, double share) {
 }
 
 std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
-                                                       const continuation::CurvePoint& end,
-                                                       const continuation::CurvePoint& other) {
+                                                       const EndOfCurve& curve) {
   constexpr double share = 1e-2;
+  const continuation::CurvePoint& end = curve.end;
   const auto here = rank_at(problem, end.x, end.lambda, end.piece);
-  const auto there = rank_at(problem, other.x, other.lambda, other.piece);
-  if (!here || !there || here->smallest > share * there->smallest) return std::nullopt;
+  const auto there = largest_rank(problem, curve, true);
+  if (!here || !there || here->smallest > share * *there) return std::nullopt;
   return "the closures of " + words_for(problem.layout(), here->null) +
          " are about to lose rank together here, a kinematic singularity";
 }
@@ -123,46 +140,83 @@ namespace {
 /// Below which share of what it is far away a singular value has fallen, is at its end, and how much a force has grown there.
 constexpr double fallen = 1e-2, at_end = 1e-3, more_force = 100;
 
+/// What every chain has far along the curve: the largest singular value, the middle wrench.
+std::vector<ChainState> states_far(const PathProblem& problem, const EndOfCurve& curve) {
+  std::vector<std::vector<ChainState>> all;
+  for (const continuation::CurvePoint* point : curve.far)
+    if (auto states = states_of_chains(problem, *point); !states.empty())
+      all.push_back(std::move(states));
+  std::vector<ChainState> list(all.empty() ? 0 : all.front().size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::vector<double> wrenches;
+    for (const auto& states : all) {
+      list[i].smallest = std::max(list[i].smallest, states[i].smallest);
+      wrenches.push_back(states[i].wrench);
+    }
+    list[i].wrench = middle_of(std::move(wrenches));
+  }
+  return list;
+}
+
+/// All chains together.
+double whole_wrench(const std::vector<ChainState>& states) {
+  double square = 0;
+  for (const ChainState& chain : states) square += chain.wrench * chain.wrench;
+  return std::sqrt(square);
+}
+
+/// A wrench that balances forces f across a direction v in which a singular value falls to zero is f . v over that value,
+/// and what stays bounded: from point to point it grows as the inverse, but for a share of the order of what is left.
+bool forces_become_infinite(const ChainState& before, const ChainState& end) {
+  const double growth = std::log(end.wrench / before.wrench),
+               fall = std::log(before.smallest / end.smallest);
+  static const double inexact = std::sqrt(fallen);
+  return std::isfinite(growth) && fall > fallen && std::abs(growth - fall) < inexact * fall;
+}
+
+/// Is this the end of the reach?
+bool ends_reach(const ChainState& far, const ChainState& before, const ChainState& end) {
+  const bool is_there = end.smallest < at_end * far.smallest && far.wrench > 0 &&
+                        end.wrench > more_force * far.wrench;
+  return is_there || forces_become_infinite(before, end);
+}
+
 /// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead centre.
-std::optional<StretchedChains> stopped_drive(const PathProblem& problem,
-                                             const continuation::CurvePoint& end,
-                                             const continuation::CurvePoint& other) {
-  const auto here = rank_at(problem, end.x, end.lambda, end.piece, false);
-  const auto there = rank_at(problem, other.x, other.lambda, other.piece, false);
-  if (!here || !there || !(here->smallest < fallen * there->smallest)) return std::nullopt;
-  const auto wrench = [&](const continuation::CurvePoint& point) {
-    double square = 0;
-    for (const ChainState& chain : states_of_chains(problem, point))
-      square += chain.wrench * chain.wrench;
-    return std::sqrt(square);
+std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const EndOfCurve& curve,
+                                             const std::vector<ChainState>& states,
+                                             const std::vector<ChainState>& far) {
+  const auto rank = [&](const continuation::CurvePoint& at) {
+    return rank_at(problem, at.x, at.lambda, at.piece, false);
   };
-  const double before = wrench(other);
+  const auto here = rank(curve.end), before = rank(curve.before);
+  const auto there = largest_rank(problem, curve, false);
+  if (!here || !before || !there || !(here->smallest < fallen * *there)) return std::nullopt;
   return StretchedChains{
       "the joints of " + words_for(problem.layout(), here->null) +
           " hardly move any further what is driven, and the force that drives it grows without "
           "bound",
-      here->smallest < at_end * there->smallest && before > 0 && wrench(end) > more_force * before};
+      ends_reach({*there, whole_wrench(far)},
+                 {before->smallest, whole_wrench(states_of_chains(problem, curve.before))},
+                 {here->smallest, whole_wrench(states)})};
 }
 
 }  // namespace
 
 std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
-                                                const continuation::CurvePoint& end,
-                                                const continuation::CurvePoint& other) {
-  const std::vector<ChainState> here = states_of_chains(problem, end),
-                                there = states_of_chains(problem, other);
+                                                const EndOfCurve& curve) {
+  const std::vector<ChainState> here = states_of_chains(problem, curve.end),
+                                before = states_of_chains(problem, curve.before),
+                                there = states_far(problem, curve);
   std::string names;
   int count = 0;
   StretchedChains found;
-  for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i) {
+  for (std::size_t i = 0; i < std::min({here.size(), before.size(), there.size()}); ++i) {
     if (!(here[i].smallest < fallen * there[i].smallest)) continue;
     names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
     ++count;
-    found.is_end_of_reach = found.is_end_of_reach ||
-                            (here[i].smallest < at_end * there[i].smallest &&
-                             here[i].wrench > more_force * there[i].wrench && there[i].wrench > 0);
+    found.is_end_of_reach = found.is_end_of_reach || ends_reach(there[i], before[i], here[i]);
   }
-  if (count == 0) return stopped_drive(problem, end, other);
+  if (count == 0) return stopped_drive(problem, curve, here, there);
   found.text = (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
                std::string(
                    " stretched out here: the joints hardly move the end any further, and the force "

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "path_problem.hpp"
 #include "springfold/continuation/curve.hpp"
@@ -33,26 +34,34 @@ bool closures_always_depend(const PathProblem& problem, const continuation::Curv
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point);
 
-/// Is a curve that ends at `end` about to meet such a point: has the closures' smallest singular value
-/// fallen below a hundredth of what it is at `other`, a point far along the curve?
+/// The end of a curve, and what it is compared with. Both ends may be special, as the two dead centres of a crank are: of
+/// each measure the largest value at the far points counts, of forces the middle one.
+struct EndOfCurve {
+  const continuation::CurvePoint& end;
+  const continuation::CurvePoint& before;  ///< the last point that is another one
+  std::vector<const continuation::CurvePoint*>
+      far;  ///< points between both ends, and the other end
+};
+
+/// Is a curve about to meet such a point at its end: has the closures' smallest singular value
+/// fallen below a hundredth of what it is far along the curve?
 /// @returns so in words; nothing where it is not
 std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
-                                                       const continuation::CurvePoint& end,
-                                                       const continuation::CurvePoint& other);
+                                                       const EndOfCurve& curve);
 
-/// Chains whose joints hardly move their end in some direction at `end`: the smallest singular value of their
-/// own closure has fallen below a hundredth of what it is at `other`. Legs that are stretched out. Where there is none, the
+/// Chains whose joints hardly move their end in some direction at the end of a curve: the smallest singular value of their
+/// own closure has fallen below a hundredth of what it is far along the curve. Legs that are stretched out. Where there is none, the
 /// same of all closures together with what is driven held: a crank at its dead centre.
 struct StretchedChains {
   std::string text{};  ///< so in words
   bool is_end_of_reach =
-      false;  ///< below a thousandth, and their force has grown a hundredfold: the curve goes to
-              ///< infinite forces here, and there is nothing behind
+      false;  ///< the curve goes to infinite forces here, and there is nothing behind: the value is
+              ///< below a thousandth and the force has grown a hundredfold, or the force grows as
+              ///< the inverse of the value
 };
 
 /// @returns nothing where there is none
 std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
-                                                const continuation::CurvePoint& end,
-                                                const continuation::CurvePoint& other);
+                                                const EndOfCurve& curve);
 
 }  // namespace springfold::analysis

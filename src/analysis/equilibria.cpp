@@ -208,7 +208,9 @@ void find_equilibria(const Setup& setup, const Study& study, const statics::Firs
       continue;
     }
     Equilibrium equilibrium{.label = "EQ" + std::to_string(report.list.size() + 1)};
-    equilibrium.sample = single_point(point, evaluator, quantities, problem).samples.front();
+    const Branch alone = single_point(point, evaluator, quantities, problem);
+    equilibrium.sample = alone.samples.front();
+    if (!alone.resting.empty()) equilibrium.resting = alone.resting.front();
     equilibrium.potential = setup.scales.moment() * potential_of(problem, f.z);
     equilibrium.stiffness = evaluator.platform_stiffness(point);
     equilibrium.note = f.note;

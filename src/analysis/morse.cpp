@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "one_freedom.hpp"
 #include "springfold/core/decompositions.hpp"
 
 namespace springfold::analysis {
@@ -220,6 +221,34 @@ std::optional<std::vector<Bar>> holders_of(const PathProblem& problem) {
   return bars.empty() ? std::nullopt : std::optional{bars};
 }
 
+/// Joints that turn about one freedom, and springs between points: the energy is continuously differentiable and the
+/// configurations are closed curves, on each of which minima and maxima alternate.
+/// @returns nothing for other mechanisms
+std::optional<MorseCount> of_one_freedom(const PathProblem& problem,
+                                         const std::vector<CountedEquilibrium>& raw) {
+  const statics::System& system = problem.system(0);
+  const bool has_paths_only =
+      std::all_of(system.shapes.begin(), system.shapes.end(), [](const statics::PointShape& shape) {
+        return !shape.is_pressure() && shape.shape.kind == model::ShapeKind::path;
+      });
+  if (!has_one_bounded_freedom(system) || !has_paths_only || !system.springs.empty() ||
+      !system.coupled.empty() || !system.loads.empty())
+    return std::nullopt;
+  const Vector W = problem.inputs(0).W;
+  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
+    const statics::BodySlice& body = system.body_slices[b];
+    const Index forces = translations(system.mechanism.bodies[b].task_space);
+    if (!W.segment(body.W + forces, body.count - forces).isZero(0)) return std::nullopt;
+  }
+  if (raw.empty()) return does_not_apply("no equilibrium shows what the configurations are");
+  for (const CountedEquilibrium& e : raw)
+    if (!is_closed_curve(problem, e.z))
+      return does_not_apply("the configurations are no closed curves without singular points");
+  const auto sum = signed_count(raw);
+  if (!sum) return does_not_apply("an equilibrium is degenerate");
+  return MorseCount{.applies = true, .expected = 0, .found = *sum};
+}
+
 /// Why springs of shapes are not counted: what they are called in the case.
 std::string shapes_in_words(const statics::System& system) {
   const auto other = std::find_if(
@@ -242,6 +271,7 @@ MorseCount morse_count(const PathProblem& problem, const std::vector<CountedEqui
                        const std::vector<CountedEquilibrium>& distinct) {
   const statics::System& system = problem.system(0);
   if (!problem.symmetric()) return does_not_apply("the load has no potential");
+  if (const auto count = of_one_freedom(problem, raw)) return *count;
   if (!system.shapes.empty()) return does_not_apply(shapes_in_words(system));
   if (!system.loads.empty()) return does_not_apply("weights and loads at points are not counted");
   if (system.mechanism.bodies.size() != 1)

@@ -26,7 +26,9 @@ bool is_bar(const statics::System& system, std::size_t chain);
 ///   - a point held by bars and line springs, each a spring from a foot to the point: in the plane 1 - m, in space
 ///     1 + m, where m feet are peaks of the energy (the pressed bar there outweighs all other
 ///     forces). Bars of negative length do not count, nor states in which a foot's joint is
-///     locked.
+///     locked;
+///   - joints that turn, one freedom, springs between points of any law: 0, where the configurations are smooth
+///     closed curves (one_freedom.hpp).
 ///
 /// Otherwise `why` says what is missing. Docs: theory.md, "Counting equilibria".
 /// @param raw  equilibria in joint coordinates, modulo turns @param distinct  each pose once

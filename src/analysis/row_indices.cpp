@@ -107,11 +107,13 @@ void settle_resting(Branch& branch, const std::vector<std::size_t>& rows) {
   for (const RestingRows& known : branch.resting)
     for (std::size_t i = known.first; i <= known.last; ++i) at[i] = &known;
   std::vector<RestingRows> settled;
+  for (Sample& sample : branch.samples) sample.rests = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (at[rows[i]] == nullptr) continue;
     RestingRows next = *at[rows[i]];
     next.first = next.last = i;
     add_resting(next, settled);
+    branch.samples[i].rests = true;
   }
   branch.resting = std::move(settled);
 }
@@ -127,6 +129,17 @@ double smaller_beside(const Branch& branch, const CriticalRows& rows, std::size_
     return std::isnan(value) ? next : std::min(value, next);
   }
   return value;
+}
+
+/// A count that is taken from the rows beside means what it means there.
+void rest_as_neighbours(Branch& branch, const std::vector<bool>& taken) {
+  std::vector<Sample>& rows = branch.samples;
+  std::vector<bool> rests(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rests[i] =
+        rows[i].rests ||
+        (taken[i] && ((i > 0 && rows[i - 1].rests) || (i + 1 < rows.size() && rows[i + 1].rests)));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].rests = rests[i];
 }
 
 }  // namespace
@@ -169,6 +182,7 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
       if (unknown || at_zero[i]) value = smaller_beside(branch, critical, i, q);
     }
   }
+  rest_as_neighbours(branch, critical.here);
 }
 
 }  // namespace springfold::analysis

@@ -1,4 +1,5 @@
 // Branches that are one point, or a curve to one side of it.
+#include "branch_entries.hpp"
 #include "branch_rows.hpp"
 
 namespace springfold::analysis {
@@ -11,6 +12,10 @@ Branch single_point(const CurvePoint& start, const Evaluator& evaluator,
   Branch branch;
   branch.samples.push_back({evaluator.values(quantities, start),
                             piece_text(problem.system(start.lambda), start.piece), ""});
+  if (const auto rows = resting_rows(start, {}, 0, evaluator)) {
+    branch.samples.front().rests = true;
+    branch.resting.push_back(*rows);
+  }
   return branch;
 }
 

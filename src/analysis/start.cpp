@@ -93,7 +93,9 @@ StartReport report_of(const statics::FirstEquilibrium& first, const Study& study
                       ? "fixed-point iteration of paper eq. (6)"
                   : first.in_stages ? "damped exact Newton, chains in stages"
                                     : "globalised Newton (KINSOL), then exact Newton";
-  if (report.found && first.attempts > 1)
+  if (report.found && first.came_to_rest)
+    report.method += ", from where the loads let the guess sink";
+  else if (report.found && first.attempts > 1)
     report.method += ", from a perturbed guess: see whether this is the equilibrium you mean";
   report.attempts = first.attempts;
   report.iterations = first.iterations;

@@ -167,6 +167,12 @@ void add_import(CLI::App& import, Arguments& arguments) {
       ->type_name("FILE");
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 /// The first word, if it is no command: with the nearest one, or with all of them.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> commands;
@@ -178,10 +184,35 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, const 
   if (word.ends_with(".toml"))
     return "\"" + word + "\" is no command; did you mean \"springfold run " + word + "\"?";
   const std::string near = io::nearest(word, commands);
-  std::string list;
-  for (const std::string& command : commands) list += (list.empty() ? "" : ", ") + command;
   return "no command \"" + word + "\"" +
-         (near.empty() ? "; there are: " + list : ", did you mean \"" + near + "\"?");
+         (near.empty() ? "; there are: " + listed(commands) : ", did you mean \"" + near + "\"?");
+}
+
+/// The first option that the command does not have, with the nearest one or all of them; nothing if it has them all.
+std::optional<std::string> unknown_option(const CLI::App& app, int argc, const char* const* argv) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (int i = 2; i < argc; ++i) {
+      const std::string word = argv[i], name = word.substr(0, word.find('='));
+      if (!name.starts_with("--") || name == "--") continue;
+      if (command->get_option_no_throw(name) != nullptr) continue;
+      const std::string near = io::nearest(name, names);
+      return "\"" + command->get_name() + "\" has no option \"" + name + "\"" +
+             (near.empty() ? "; there are: " + listed(names) : ", did you mean \"" + near + "\"?");
+    }
+  }
+  return std::nullopt;
+}
+
+/// What is wrong, in the words of the program where it knows them.
+std::string mistake_of(const CLI::App& app, const CLI::ParseError& mistake, int argc,
+                       const char* const* argv) {
+  if (const auto command = unknown_command(app, argc, argv)) return *command;
+  if (dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr)
+    if (const auto option = unknown_option(app, argc, argv)) return *option;
+  return mistake.what();
 }
 
 }  // namespace
@@ -270,7 +301,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv) {
     parsed.text = std::string{call.what()} + "\n";
     return parsed;
   } catch (const CLI::ParseError& mistake) {
-    parsed.error = unknown_command(app, argc, argv).value_or(mistake.what());
+    parsed.error = mistake_of(app, mistake, argc, argv);
     return parsed;
   }
   for (const auto& text : settings)

@@ -1,6 +1,10 @@
 #include "counts_beside.hpp"
 
+#include <cmath>
+
 #include "result_access.hpp"
+#include "summary_line.hpp"
+#include "text.hpp"
 
 namespace springfold::io {
 
@@ -15,7 +19,16 @@ CountsBeside counts_beside(const analysis::StudyResult& result, const analysis::
     second = event.row + 1;
   else if (!is_ordinary && has_neighbours)
     first = event.row - 1, second = event.row + 1;
-  return {value_at(result, branch, first, column), value_at(result, branch, second, column)};
+  const auto rests = [&](std::size_t row) {
+    return row < branch.samples.size() && branch.samples[row].rests;
+  };
+  return {value_at(result, branch, first, column), value_at(result, branch, second, column),
+          rests(first), rests(second)};
+}
+
+std::string count_text(double count, bool rests) {
+  if (std::isnan(count)) return {};
+  return rests && count >= 1 ? ">= 1" : rounded(count, summary_digits);
 }
 
 }  // namespace springfold::io

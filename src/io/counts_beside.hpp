@@ -1,6 +1,7 @@
 // Numbers of unstable modes on both sides of a special point. Private to io.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,7 +15,11 @@ inline constexpr std::string_view count_columns[] = {"index", "index_force", "in
 /// NaN: not defined there.
 struct CountsBeside {
   double before = 0, after = 0;
+  bool before_rests = false, after_rests = false;  ///< analysis::Sample::rests
 };
+
+/// A number of unstable modes for people: where springs rest no more is known of an unstable state than ">= 1".
+std::string count_text(double count, bool rests);
 
 /// Just before and just behind the point, along the branch: its two rows where a spring switches, else the points of the
 /// curve on both sides of it, between which nothing else lies.

@@ -239,8 +239,11 @@ std::string equilibrium_words(const StudyResult& result, const Sample& sample) {
   if (dead == 0) return "an equilibrium, stable under dead load";
   if (held == 0) return "an equilibrium, held as it is driven, unstable under dead load";
   const double modes = std::isnan(dead) ? held : dead;
-  return "an unstable equilibrium: " + counted(static_cast<int>(std::lround(modes)), "mode") +
-         " let it go";
+  // Where springs rest no more is known of it.
+  if (sample.rests) return "an unstable equilibrium: at least 1 mode lets it go";
+  const auto count = static_cast<int>(std::lround(modes));
+  return "an unstable equilibrium: " + counted(count, "mode") +
+         (count == 1 ? " lets it go" : " let it go");
 }
 
 std::string jump_words(const Case& the_case, const StudyResult& result) {

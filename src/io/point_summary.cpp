@@ -18,10 +18,11 @@ using analysis::StudyResult;
 /// At a limit or branch point an eigenvalue is zero: the neighbours say what changes there.
 std::string index_text(const StudyResult& result, const Branch& branch,
                        const analysis::Event& event, std::string_view name) {
-  const auto [before, after] = counts_beside(result, branch, event, name);
-  if (before == after || std::isnan(after)) return point_number(before);
-  return (std::isnan(before) ? "?" : rounded(before, summary_digits)) + " > " +
-         rounded(after, summary_digits);
+  const CountsBeside counts = counts_beside(result, branch, event, name);
+  const std::string before = count_text(counts.before, counts.before_rests),
+                    after = count_text(counts.after, counts.after_rests);
+  if (before == after || after.empty()) return before;
+  return (before.empty() ? "?" : before) + " > " + after;
 }
 
 }  // namespace

@@ -248,6 +248,14 @@ Json status_of(const PageRows& list) {
   return {{"texts", texts}, {"of", numbers}};
 }
 
+/// Rows whose counts of unstable modes mean "at least one".
+std::vector<std::size_t> resting_rows(const PageRows& list) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < list.rows.size(); ++row)
+    if (list.rows[row]->rests) rows.push_back(row);
+  return rows;
+}
+
 Json json_of(const PageRun& run, const PageRows& list, const RowScenes& scenes, Layouts& layouts) {
   RowNumbers rows;
   for (const Sample* row : list.rows)
@@ -270,6 +278,7 @@ Json json_of(const PageRun& run, const PageRows& list, const RowScenes& scenes, 
           {"outlines", base64_of(rows.outlines)},
           {"layout", is_usual ? Json(nullptr) : Json(rows.layout)},
           {"status", status_of(list)},
+          {"rests", resting_rows(list)},
           {"events", std::move(points)}};
 }
 

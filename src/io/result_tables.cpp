@@ -55,6 +55,19 @@ class CsvNumbers {
   std::vector<Cell> last_;
 };
 
+/// Per row the largest count of the pieces where springs rest and the state is unstable, elsewhere nothing; empty
+/// where there is no such row.
+std::vector<std::optional<int>> largest_counts(const Branch& branch) {
+  std::vector<std::optional<int>> counts;
+  for (const analysis::RestingRows& rows : branch.resting) {
+    if (rows.stable != analysis::RestingRows::Stable::no) continue;
+    counts.resize(branch.samples.size());
+    for (std::size_t row = rows.first; row <= rows.last && row < counts.size(); ++row)
+      counts[row] = rows.most;
+  }
+  return counts;
+}
+
 /// "study,run,label,branch," of a row.
 std::string row_start(const StudyResult& result, std::size_t branch) {
   return csv_text(result.study) + "," + std::to_string(result.run) + "," + csv_text(result.label) +
@@ -82,6 +95,8 @@ std::optional<std::string> branch_csv(const StudyResult& result, const Branch& b
       std::any_of(branch.samples.begin(), branch.samples.end(),
                   [](const analysis::Sample& sample) { return !sample.status.empty(); });
   for (const auto& quantity : result.quantities) csv += csv_text(quantity.name) + ",";
+  const std::vector<std::optional<int>> largest = largest_counts(branch);
+  if (!largest.empty()) csv += "index_largest,";
   csv += has_status ? "piece,event,status\n" : "piece,event\n";
   constexpr std::size_t usual = 18;  // characters of a number and its comma
   csv.reserve(csv.size() + branch.samples.size() * (usual * result.quantities.size() + 8));
@@ -89,8 +104,10 @@ std::optional<std::string> branch_csv(const StudyResult& result, const Branch& b
   constexpr std::size_t block = 1000;  // rows: a few milliseconds
   std::size_t rows = 0;
   for (const auto& sample : branch.samples) {
-    if (++rows % block == 0 && is_over && is_over()) return std::nullopt;
+    const std::size_t row = rows++;
+    if (rows % block == 0 && is_over && is_over()) return std::nullopt;
     numbers.append(csv, sample.values);
+    if (!largest.empty()) csv += (largest[row] ? std::to_string(*largest[row]) : "") + ",";
     append_csv_text(csv, sample.piece);
     csv += ',';
     append_csv_text(csv, sample.event);
@@ -148,8 +165,8 @@ std::string events_csv(const Case& the_case, const std::vector<StudyResult>& res
         for (const auto& name : names)
           csv += "," + csv_number(value_at(result, branch, event.row, name));
         for (const auto& name : counts) {
-          const auto [before, after] = counts_beside(result, branch, event, name);
-          csv += "," + csv_number(before) + "," + csv_number(after);
+          const CountsBeside counts = counts_beside(result, branch, event, name);
+          csv += "," + csv_number(counts.before) + "," + csv_number(counts.after);
         }
         csv += "\n";
       }

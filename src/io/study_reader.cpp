@@ -31,6 +31,8 @@ const std::array kinds = [] {
       design,           force_deflection, force_deflection, force_deflection};
 }();
 const std::vector<std::string> control_words{"load", "pose", "mixed", "actuator", "parameter"};
+const std::map<std::string, std::string> other_control_words{
+    {"force", "load"}, {"displacement", "mixed"}, {"command", "actuator"}};
 const std::vector<std::string> solve_words{"pose", "actuators", "wrench"};
 const std::vector<std::string> start_solvers{"newton", "fixed_point"};
 const std::vector<std::string> path_words{"arc_length", "davidenko"};
@@ -126,9 +128,9 @@ class StudyReader {
     const bool traces =
         draft_.kind == StudyKind::force_deflection || analysis::is_of_critical_points(draft_.kind);
     if (traces && !begins_on_curve_) table_.require("control", choices(control_words));
-    draft_.control =
-        std::array{ControlMode::load, ControlMode::pose, ControlMode::mixed, ControlMode::actuator,
-                   ControlMode::parameter}[table_.choice("control", control_words, 0)];
+    draft_.control = std::array{
+        ControlMode::load, ControlMode::pose, ControlMode::mixed, ControlMode::actuator,
+        ControlMode::parameter}[table_.choice("control", control_words, 0, other_control_words)];
     const Node* control = table_.find("control");
     return traces && control &&
            std::find(control_words.begin(), control_words.end(), control->text) !=

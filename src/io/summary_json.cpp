@@ -71,6 +71,14 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch,
   return json;
 }
 
+Json counts_of_pieces(const analysis::RestingRows& rows) {
+  using Stable = analysis::RestingRows::Stable;
+  const char* stable = rows.stable == Stable::yes  ? "yes"
+                       : rows.stable == Stable::no ? "no"
+                                                   : "undecided";
+  return {{"stable", stable}, {"fewest_unstable", rows.fewest}, {"most_unstable", rows.most}};
+}
+
 Json json_of(const analysis::VerifiedArcs& arcs) {
   Json sampled = Json::array();
   for (const auto& stretch : arcs.sampled) sampled.push_back({stretch.s_begin, stretch.s_end});
@@ -94,15 +102,9 @@ Json json_of(const StudyResult& result, const analysis::Branch& branch, const st
   json["arcs"] = branch.arcs ? json_of(*branch.arcs) : Json{};
   json["resting"] = Json::array();
   for (const analysis::RestingRows& rows : branch.resting) {
-    using Stable = analysis::RestingRows::Stable;
-    const char* stable = rows.stable == Stable::yes  ? "yes"
-                         : rows.stable == Stable::no ? "no"
-                                                     : "undecided";
-    json["resting"].push_back({{"first_row", rows.first},
-                               {"last_row", rows.last},
-                               {"stable", stable},
-                               {"fewest_unstable", rows.fewest},
-                               {"most_unstable", rows.most}});
+    Json stretch = {{"first_row", rows.first}, {"last_row", rows.last}};
+    stretch.update(counts_of_pieces(rows));
+    json["resting"].push_back(std::move(stretch));
   }
   json["events"] = Json::array();
   for (const auto& event : branch.events) json["events"].push_back(json_of(result, branch, event));
@@ -142,6 +144,7 @@ Json equilibria_json(const StudyResult& result, const std::string& file) {
                     {"start", e.is_start},
                     {"potential", e.potential},
                     {"note", e.note},
+                    {"resting", e.resting ? counts_of_pieces(*e.resting) : Json()},
                     {"values", by_quantity(result, e.sample.values)},
                     {"stiffness", json_of(e.stiffness)}});
   return {{"file", file},

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "command_summary.hpp"
+#include "counts_beside.hpp"
 #include "fitted_table.hpp"
 #include "jump_access.hpp"
 #include "outline.hpp"
@@ -232,6 +233,10 @@ std::string equilibria_table(const Case& the_case, const StudyResult& result) {
     row.push_back(e.label);
     for (const auto& name : columns) {
       const auto column = column_of(result, name);
+      if (name == "index" && e.sample.rests) {
+        row.push_back(count_text(e.sample.values[column.value()], true));
+        continue;
+      }
       row.push_back(point_number(name == "potential"
                                      ? e.potential
                                      : shown_in(sizes, *column, e.sample.values[column.value()])));
@@ -293,8 +298,9 @@ std::string run_block(const Case& the_case, const StudyResult& result, bool has_
   text += values("commands", command_names(result));
   const Branch& first = result.branches.front();
   const double index = value_at(result, first, first.start_row, "index");
-  text += summary_line(
-      "index", std::isnan(index) ? "not defined at this point" : rounded(index, summary_digits));
+  const bool rests = first.samples[first.start_row].rests;
+  text += summary_line("index",
+                       std::isnan(index) ? "not defined at this point" : count_text(index, rests));
   text += way_lines(the_case, result);
   text += caution_lines(result);
   text += stiffness_lines(result);

@@ -74,13 +74,15 @@ bool TableReader::truth(const std::string& name, bool otherwise) const {
 }
 
 std::size_t TableReader::choice(const std::string& name, const std::vector<std::string>& words,
-                                std::size_t otherwise) const {
+                                std::size_t otherwise,
+                                const std::map<std::string, std::string>& others) const {
   const Node* found = find(name);
   if (!found) return otherwise;
   const auto word = std::find(words.begin(), words.end(), found->text);
   if (found->kind == Node::Kind::text && word != words.end())
     return static_cast<std::size_t>(word - words.begin());
-  std::string near = nearest(found->text, words);
+  const auto other = others.find(found->text);
+  std::string near = other == others.end() ? nearest(found->text, words) : other->second;
   if (!near.empty()) near = ", did you mean \"" + near + "\"?";
   reading_->problems.add(found->place, key_of(name),
                          "got " + described(*found) + ", need " + choices(words) + near);

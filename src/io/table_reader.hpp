@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,8 +68,10 @@ class TableReader {
   bool truth(const std::string& name, bool otherwise) const;
 
   /// Position of the word in `words`; `otherwise` if missing or wrong.
+  /// @param others  what people call some of them elsewhere, each before the word that is meant
   std::size_t choice(const std::string& name, const std::vector<std::string>& words,
-                     std::size_t otherwise) const;
+                     std::size_t otherwise,
+                     const std::map<std::string, std::string>& others = {}) const;
 
   /// true or false; `otherwise` if missing or wrong.
   bool flag(const std::string& name, bool otherwise) const;

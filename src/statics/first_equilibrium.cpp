@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "come_to_rest.hpp"
 #include "kinsol_newton.hpp"
 #include "minimum_norm.hpp"
 #include "solve_beside.hpp"
@@ -135,6 +136,46 @@ bool solve_long_chains(const System& system, const StartProblem& problem, StartE
   return false;
 }
 
+/// From closed chains: residual and iterations into `result`.
+void solve_attempt(const System& system, const StartProblem& problem, StartEquations& equations,
+                   StartState& state, FirstEquilibrium& result) {
+  if (problem.unknowns != StartUnknowns::commands) {
+    result.residual = solve_from(equations, state, result.iterations);
+    return;
+  }
+  ControlSolver solver = control_solver(system, {.body = problem.body}, state.z, state.inputs.rho);
+  solver.inputs.W = state.inputs.W;
+  solve_control_globally(system, solver);
+  state = {solver.z, solver.inputs};
+  result.iterations = solver.iterations;
+  result.residual = solver.residual;
+}
+
+/// Solves from where the loads move a guess to from which Newton's method found nothing.
+/// @returns whether that is an equilibrium
+bool solve_from_rest(const System& system, const StartProblem& problem, StartEquations& equations,
+                     StartState state, FirstEquilibrium& result) {
+  const bool is_this_guess_meant = problem.attempts == 1;
+  if (is_this_guess_meant || problem.unknowns == StartUnknowns::commands) return false;
+  const auto close = [&](StartState& open) {
+    StartState kept = open;
+    if (!assemble(equations, false, kept)) return assemble(equations, true, open);
+    open = kept;
+    return true;
+  };
+  come_to_rest(system, equations, close, state);
+  int iterations = 0;
+  const double residual = solve_from(equations, state, iterations);
+  if (!equations.solved(state, start_tolerance)) return false;
+  result.came_to_rest = true;
+  result.z = state.z;
+  result.inputs = state.inputs;
+  result.iterations = iterations;
+  result.residual = residual;
+  result.status = StartStatus::found;
+  return true;
+}
+
 /// Piece, distance from the guess, and the wrench that holds a given pose.
 void complete(const System& system, const StartProblem& problem, FirstEquilibrium& result) {
   result.piece = piece_at(system, result.z);
@@ -199,17 +240,8 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     const bool assembled = reached || assemble(equations, true, state);
     if (assembled) result.status = StartStatus::no_equilibrium;
     estimate_wrenches(equations, state);
-    if (problem.unknowns == StartUnknowns::commands) {
-      ControlSolver solver =
-          control_solver(system, {.body = problem.body}, state.z, state.inputs.rho);
-      solver.inputs.W = state.inputs.W;
-      solve_control_globally(system, solver);
-      state = {solver.z, solver.inputs};
-      result.iterations = solver.iterations;
-      result.residual = solver.residual;
-    } else {
-      result.residual = solve_from(equations, state, result.iterations);
-    }
+    const StartState closed = state;
+    solve_attempt(system, problem, equations, state, result);
     if (shorten_turns(system, state.z))
       result.residual = polish(equations, state, result.iterations);
     result.z = state.z;
@@ -218,6 +250,9 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
       result.status = StartStatus::found;
       break;
     }
+    if (result.attempts == 1 && assembled &&
+        solve_from_rest(system, problem, equations, closed, result))
+      break;
   }
   result.attempts = std::min(result.attempts, problem.attempts);
   if (result.status == StartStatus::found) complete(system, problem, result);

@@ -43,9 +43,9 @@ void expect_stable_branches(const StudyResult& result) {
         EXPECT_EQ(value(result, bent, i, count), 0)
             << count << " in row " << i << " of branch " << b + 1;
       for (const auto& event : bent.events) {
-        const auto [before, after] = counts_beside(result, bent, event, count);
-        EXPECT_EQ(before, 0) << event.label;
-        EXPECT_EQ(after, 0) << event.label;
+        const CountsBeside counts = counts_beside(result, bent, event, count);
+        EXPECT_EQ(counts.before, 0) << event.label;
+        EXPECT_EQ(counts.after, 0) << event.label;
       }
     }
   }

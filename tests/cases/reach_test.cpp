@@ -48,5 +48,91 @@ TEST(Reach, OfAStretchedLegEndsADrivenCurve) {
   EXPECT_NEAR(branch.samples.back().values[1], 0.22, 1e-9);
 }
 
+/// A crank-rocker of two bodies, its crank on a torsion spring; the joint at the end of the rocker is driven upwards.
+const std::string crank_rocker = R"(
+[[body]]
+name = "P"
+task_space = "xy"
+pose = [0.2632747685671118, 0.1438276615812609]
+[[body]]
+name = "Q"
+task_space = "xy"
+pose = [1.018063130955779, 0.7997960510655668]
+[[chain]]
+name = "crank"
+to = "P"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.5, role = "preloaded", spring = { law = "linear", stiffness = 1, free = 0.5 } }, { rigid = [0.3, 0] } ]
+[[chain]]
+name = "rock"
+from_at = [1.0, 0]
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 1.548215494177245 }, { rigid = [0.8, 0] } ]
+[[chain]]
+name = "coup"
+from = "P"
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.7154649010624505 }, { rigid = [1, 0] } ]
+[[study]]
+name = "p"
+body = "Q"
+control = "mixed"
+direction = [0, 1]
+until = { crank.a = [-1.0, 2.0] }
+)";
+
+TEST(Reach, OfACrankRockerEndsAtBothDeadCentresWhereTheForceHasNoBound) {
+  const auto result = run(crank_rocker).of("p");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  for (const auto& stop : {branch.backward, branch.forward})
+    EXPECT_EQ(stop.reason.rfind("end of the reach: ", 0), 0u) << stop.reason;
+  // The rocker stands upright; crank and coupler lie on one line, 1.3 from foot to Q.
+  const double start = 0.7997960510655668, x = (1.69 - 0.64 + 1) / 2;
+  EXPECT_NEAR(branch.samples.back().values[1], 0.8 - start, 1e-8);
+  EXPECT_NEAR(branch.samples.front().values[1], std::sqrt(1.69 - x * x) - start, 1e-8);
+}
+
+/// The same kind begun where it is soft: its unit of force is small, and steps in the coordinates pass the dead centre.
+const std::string soft_crank_rocker = R"(
+[[body]]
+name = "P"
+task_space = "xy"
+pose = [-0.17655033517660373, 0.242548921145877]
+[[body]]
+name = "Q"
+task_space = "xy"
+pose = [0.6919154726704084, 0.7382979913423184]
+[[chain]]
+name = "crank"
+to = "P"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 2.2, role = "preloaded", spring = { law = "linear", stiffness = 1, free = 2.2 } }, { rigid = [0.3, 0] } ]
+[[chain]]
+name = "rock"
+from_at = [1.0, 0]
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 1.9661186360622833 }, { rigid = [0.8, 0] } ]
+[[chain]]
+name = "coup"
+from = "P"
+to = "Q"
+elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.5186971407396499 }, { rigid = [1, 0] } ]
+[[study]]
+name = "p"
+body = "Q"
+control = "mixed"
+direction = [6.123233995736766e-17, 1.0]
+until = { crank.a = [0.7000000000000002, 3.7] }
+)";
+
+TEST(Reach, EndsWhereACurveWouldGoOnThroughAnInfiniteForce) {
+  const auto result = run(soft_crank_rocker).of("p");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  EXPECT_EQ(branch.forward.reason.rfind("end of the reach: ", 0), 0u) << branch.forward.reason;
+  EXPECT_NEAR(branch.samples.back().values[1], 0.8 - 0.7382979913423184, 1e-9);
+  for (std::size_t row = branch.start_row + 1; row < branch.samples.size(); ++row)
+    EXPECT_GT(value(result, row, "force"), 0);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -73,5 +73,14 @@ TEST(Arguments, HelpShowsExamplesAndVersionTheVersion) {
   EXPECT_THAT(parse({"--version"}).text, testing::MatchesRegex("springfold [0-9.]+\n"));
 }
 
+TEST(Arguments, OptionsThatACommandDoesNotHaveGetTheNearestOne) {
+  EXPECT_EQ(parse({"run", "case.toml", "--output", "there"}).error,
+            "\"run\" has no option \"--output\", did you mean \"--out\"?");
+  EXPECT_EQ(parse({"run", "case.toml", "--thread=2"}).error,
+            "\"run\" has no option \"--thread\", did you mean \"--threads\"?");
+  EXPECT_THAT(parse({"plot", "there", "--quickly"}).error,
+              HasSubstr("there are: --help, --changed"));
+}
+
 }  // namespace
 }  // namespace springfold::cli

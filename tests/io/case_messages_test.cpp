@@ -6,7 +6,9 @@
 namespace springfold::io {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 class CaseMessages : public CaseFiles {
@@ -115,6 +117,10 @@ TEST_F(CaseMessages, SayWhatWasGotAndWhatIsNeeded) {
   EXPECT_THAT(after("trace = {", "path = \"davidenk\"\ntrace = {"),
               ElementsAre("case.toml:37:8: study[1].path: got \"davidenk\", need \"arc_length\" or "
                           "\"davidenko\", did you mean \"davidenko\"?"));
+  // Not a word that is written alike: what it is called elsewhere.
+  const auto control = after("control = \"mixed\"", "control = \"force\"");
+  EXPECT_THAT(control, Contains(HasSubstr("study[1].control: got \"force\"")));
+  EXPECT_THAT(control, Contains(HasSubstr("did you mean \"load\"?")));
 }
 
 TEST_F(CaseMessages, OfRolesSayWhatGoesTogether) {

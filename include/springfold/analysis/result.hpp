@@ -92,6 +92,8 @@ struct Sample {
   std::string event{};           ///< label of the event at this point ("LP1"), or empty
   std::string status{};  ///< targets and nodes: "ok", or what is wrong there; otherwise empty
   NodeState state = NodeState::none;
+  bool rests = false;  ///< springs rest at their thresholds, and all pieces together decide: a
+                       ///< count of unstable modes is 0 (stable) or means "at least one"
 };
 
 /// Rows along which springs rest exactly at their thresholds: their state is stable if the quadratic form of
@@ -253,8 +255,9 @@ struct Equilibrium {
   double potential = std::numeric_limits<double>::quiet_NaN();  ///< energy of the springs less the
                                                                 ///< work of the dead load
   Matrix stiffness{};                                           ///< as Event::stiffness
-  bool is_start = false;  ///< the one that is found from the study's guess
-  std::string note{};     ///< what is special about it, or empty
+  bool is_start = false;                 ///< the one that is found from the study's guess
+  std::string note{};                    ///< what is special about it, or empty
+  std::optional<RestingRows> resting{};  ///< springs rest: what all pieces say together
 };
 
 /// Morse's count of equilibria, where it applies.

@@ -56,6 +56,7 @@ struct FirstEquilibrium {
   int attempts = 0;                     ///< tries used
   int iterations = 0;                   ///< of the successful try (or the last one)
   bool in_stages = false;               ///< found by Newton's method for long chains
+  bool came_to_rest = false;            ///< found from where the loads move the guess to
   double residual = 0;                  ///< largest entry of the equilibrium residual
   double moved = 0;                     ///< largest change of a coordinate or pose from the guess
   std::vector<int> chain_iterations{};  ///< paper's iteration: of every chain, last sweep
@@ -67,8 +68,8 @@ struct FirstEquilibrium {
 /// solves the equilibrium with KINSOL (Newton with line search, exact matrix), then corrects to full
 /// precision. Systems with long chains are tried by damped Newton steps in stages first, and by nothing else
 /// where they have more than 3,000 unknowns. Commands are found by solve_control_globally
-/// (kinetostatic_control.hpp). If that fails, again from seeded perturbations of growing size. Dimensionless
-/// systems are expected: coordinates of order one.
+/// (kinetostatic_control.hpp). If that fails, from where the loads let the guess sink, then from seeded perturbations
+/// of growing size. Dimensionless systems are expected: coordinates of order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
 /// Does it solve the equations in the units at hand: gaps to 1e-12 of the lengths, every force to 1e-12 of the unit of force
