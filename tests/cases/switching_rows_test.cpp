@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "case_runs.hpp"
-#include "row_of_springs.hpp"
+#include "switching_row.hpp"
 
 namespace springfold::io {
 namespace {
@@ -157,7 +157,7 @@ void expect_true_switchings(const Row& row, double most_load, int depth = 0) {
   }
 }
 
-TEST(RowsOfSprings, SwitchWhereTheirStraightPiecesMeet) {
+TEST(SwitchingRows, SwitchWhereTheirStraightPiecesMeet) {
   for (const double exponent : {1.0, 2.0, 3.0, 4.0})
     for (unsigned seed = 1; seed <= 25; ++seed) {
       SCOPED_TRACE(number(exponent) + ", draw " + std::to_string(seed));
@@ -167,7 +167,7 @@ TEST(RowsOfSprings, SwitchWhereTheirStraightPiecesMeet) {
     }
 }
 
-TEST(RowsOfSprings, ThatRestAcrossAStiffMemberHaveBothHalvesOfTheirPath) {
+TEST(SwitchingRows, ThatRestAcrossAStiffMemberHaveBothHalvesOfTheirPath) {
   expect_true_switchings({3,
                           1,
                           {linear_spring(-1, 0, 1e4), linear_spring(0, 1, 1e8),
@@ -175,7 +175,7 @@ TEST(RowsOfSprings, ThatRestAcrossAStiffMemberHaveBothHalvesOfTheirPath) {
                          6e-5);
 }
 
-TEST(RowsOfSprings, ASpringThatHasHardlyLeftItsThresholdTakesNoPartInTheNextSwitching) {
+TEST(SwitchingRows, ASpringThatHasHardlyLeftItsThresholdTakesNoPartInTheNextSwitching) {
   const Row row{4,
                 1000,
                 {linear_spring(-1, 0, 1e-3), linear_spring(0, 1, 1e-3), linear_spring(1, 2, 1),
@@ -184,7 +184,7 @@ TEST(RowsOfSprings, ASpringThatHasHardlyLeftItsThresholdTakesNoPartInTheNextSwit
   for (const int depth : {0, 1}) expect_true_switchings(row, 20, depth);
 }
 
-TEST(RowsOfSprings, TwoThresholdsThatAreNearlyReachedAtOnceAreToldOneAfterTheOther) {
+TEST(SwitchingRows, TwoThresholdsThatAreNearlyReachedAtOnceAreToldOneAfterTheOther) {
   // 5e-10 apart along the path.
   const Row row{
       3,
