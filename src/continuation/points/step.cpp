@@ -68,6 +68,19 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
   return true;
 }
 
+bool rounding_of_rows(const Walker& walker, const Piece& piece, const CurvePoint& point,
+                      Vector& rounding) {
+  const LinearisedPoint* const place =
+      linearised_at(walker.problem, *walker.memory, point.x, point.lambda, piece);
+  if (!place) return false;
+  Vector sizes = point.x.cwiseAbs();
+  for (Index i = 0; i < sizes.size(); ++i)
+    if (walker.weights[i] > 0) sizes[i] = std::max(1.0, sizes[i]);
+  rounding = few_roundings * (magnitudes(place->at, sizes) +
+                              std::abs(point.lambda) * place->at.dF_dlambda.cwiseAbs());
+  return true;
+}
+
 namespace {
 
 /// Puts point - from - ahead tangent into storage. @returns its length
