@@ -103,6 +103,29 @@ TEST(RowsOfSprings, StretchByTheirLoadsWhereThereAreMany) {
   }
 }
 
+/// A drive along x at the begin of the row puts its end to the targets: it stands where these are, less what the springs give.
+TEST(RowsOfSprings, AreHeldByTheirDrives) {
+  const Stiffnesses rows[] = {
+      {3e1, 1e-6}, {7e-4, 3e3}, {6e1, 2e-4, 1e-5}, {7e6, 2e-6}, {1e-4, 1e2}};
+  for (const Stiffnesses& row : rows)
+    for (const double stretch : {1e-9, -1e-4, 3e-2}) {
+      const double load = stretch * softest_of(row), end = static_cast<double>(row.size());
+      std::string text = row_of_springs(row, load,
+                                        "kind = \"control\"\nprescribe = [\"x\"]\ncommands = "
+                                        "[\"drive.u\"]\ntargets = [[" +
+                                            number(end) + "], [" + number(end + 0.01) + "]]\n");
+      text.replace(0, text.find("[[node]]", 1),
+                   "[[body]]\nname = \"n0\"\ntask_space = \"xy\"\npose = [0, 0]\n[[chain]]\nname = "
+                   "\"drive\"\nto = \"n0\"\nelements = [{ joint = \"prismatic\", axis = \"x\", "
+                   "name = \"u\", role = \"actuated\", value = 0 }]\n");
+      const StudyResult result = run(text).of("row");
+      ASSERT_TRUE(result.start.found) << text;
+      double given = 0;
+      for (const double k : row) given += load / k;
+      EXPECT_NEAR(value(result, 0, "drive.u.rho"), -given, 1e-8 * std::abs(given) + 1e-14) << text;
+    }
+}
+
 /// One slider on a spring of stiffness 1 with a stop beyond `from`: lambda = x, and x + stop (x - from) behind.
 void expect_slider_passes(double at, double stop, double from, double until) {
   const std::string text = "[[node]]\nname = \"a\"\nat = [" + number(at) +
