@@ -103,6 +103,26 @@ TEST(RowsOfSprings, StretchByTheirLoadsWhereThereAreMany) {
   }
 }
 
+/// Each spring may be turned over, its second node on the other side of the first, and is stretched by as much.
+TEST(RowsOfSprings, TurnedOverAreFoundHoweverStiffTheyAre) {
+  for (const double stiff : {1e5, 1e7, 1e9}) {
+    const Stiffnesses row{stiff, 1e-3};
+    constexpr double load = 1e-5;
+    const StudyResult result =
+        run(row_of_springs(row, load, "kind = \"equilibria\"\nsearch = { starts = 60 }\n"))
+            .of("row");
+    ASSERT_TRUE(result.equilibria);
+    EXPECT_GE(result.equilibria->list.size(), 3u) << stiff;
+    for (const auto& equilibrium : result.equilibria->list) {
+      const auto at = [&](const std::string& q) {
+        return equilibrium.sample.values[column(result, q)];
+      };
+      EXPECT_NEAR(std::abs(at("n1.x") - load / stiff), 1, 1e-12);
+      EXPECT_NEAR(std::abs(at("n2.x") - at("n1.x") - load / 1e-3), 1, 1e-12);
+    }
+  }
+}
+
 /// A drive along x at the begin of the row puts its end to the targets: it stands where these are, less what the springs give.
 TEST(RowsOfSprings, AreHeldByTheirDrives) {
   const Stiffnesses rows[] = {
