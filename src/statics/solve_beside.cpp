@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "springfold/core/decompositions.hpp"
 
@@ -70,7 +71,7 @@ bool go_by_newton(const System& system, StartEquations& equations, const Lu* nei
     before = moved;
   }
   residual = polish(equations, state, steps);
-  return equations.solved(state, 1e-12);
+  return equations.solved(state, start_tolerance);
 }
 
 }  // namespace
@@ -81,30 +82,35 @@ double polish(StartEquations& equations, StartState& state, int& iterations) {
   constexpr double contracts = 0.4;  // less than the half by which steps to a singular state shrink
   Vector r, step;
   Matrix J;
-  StartState best = state;
-  double residual = infinity,
-         way = infinity;  // of the best state: what is left there, and how far the next one is
+  std::vector<StartState> reached;             // one nearer than the other
+  double residual = infinity, way = infinity;  // at the last one, and how far the next one is
+  bool by_steps = false;
   for (int i = 0; i < most; ++i) {
     if (!equations.residual(state, r)) break;
     const double size = r.lpNorm<Eigen::Infinity>();
     const bool falls = size <= half * residual;
     const bool is_better = size < residual;
     // What the stiff springs leave may be rounding already and hide what the soft ones do: then the step tells.
-    const bool may_go_on = size > 0 && (falls || i == 0 || equations.moves(best, step));
+    const bool may_go_on = size > 0 && (falls || i == 0 || equations.moves(reached.back(), step));
     const bool has_step = may_go_on && equations.jacobian(state, J);
     if (has_step) step = Lu(J).solve(r);
     const double next = has_step && step.allFinite() ? equations.way(step) : infinity;
     const bool comes_nearer = next <= contracts * way;
     if (!is_better && !comes_nearer) break;
-    best = state;
+    by_steps = by_steps || !is_better;
+    reached.push_back(state);
     residual = size;
     way = next;
     if (!(falls || comes_nearer) || !std::isfinite(next)) break;
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
   }
-  state = best;
-  return residual;
+  // Steps that turn a stiff member stretch it first, and the next ones take that back: the last state may be between both.
+  while (by_steps && reached.size() > 1 && !equations.solved(reached.back(), start_tolerance))
+    reached.pop_back();
+  if (reached.empty()) return residual;
+  state = reached.back();
+  return equations.residual(state, r) ? r.lpNorm<Eigen::Infinity>() : infinity;
 }
 
 double farthest_coordinate(const System& system, const Vector& a, const Vector& b) {
