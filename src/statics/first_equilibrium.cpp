@@ -107,9 +107,6 @@ bool shorten_turns(const System& system, Vector& z) {
   return changed;
 }
 
-/// Residuals of a start, scaled.
-constexpr double start_tolerance = 1e-12;
-
 /// Systems with more unknowns are not solved with matrices of entries.
 constexpr Index most_dense = 3000;
 

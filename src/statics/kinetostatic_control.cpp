@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kinsol_newton.hpp"
+#include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/shapes.hpp"
 
@@ -43,17 +44,34 @@ bool solve_in_place(Matrix& M, Vector& b) {
   return true;
 }
 
-/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap.
-bool is_solved(const System& system, const ControlSolver& s) {
-  double gap = 0, force = 0, size = 1, wrench = 1;
+/// What rounding may leave of a row: some units of its terms, lengths against max(1, their size).
+/// @pre A and dR_drho are those of a state nearby
+double rounding_of_row(const System& system, const ControlSolver& s, Index row) {
+  double terms = 0;
   for (Index i = 0; i < system.size; ++i) {
-    const bool is_wrench = system.is_wrench[static_cast<std::size_t>(i)];
-    double& worst = is_wrench ? gap : force;
-    double& largest = is_wrench ? wrench : size;
-    worst = std::max(worst, std::abs(s.r[i]));
+    const double least = system.is_wrench[static_cast<std::size_t>(i)] ? 0 : 1;
+    terms += std::abs(s.A(row, i)) * std::max(least, std::abs(s.z[i]));
+  }
+  for (Index k = 0; k < s.dR_drho.cols(); ++k)
+    terms += std::abs(s.dR_drho(row, k)) * std::max(1.0, std::abs(s.inputs.rho[k]));
+  return few_roundings * terms;
+}
+
+/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap. Forces of stiff springs leave
+/// their rounding, whatever a soft one makes of the unit of force.
+bool is_solved(const System& system, const ControlSolver& s) {
+  double size = 1, wrench = 1;
+  for (Index i = 0; i < system.size; ++i) {
+    double& largest = system.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
     largest = std::max(largest, std::abs(s.z[i]));
   }
-  return gap <= solved_to * size && force <= solved_to * std::max(size, wrench);
+  for (Index i = 0; i < system.size; ++i) {
+    const bool is_gap = system.is_wrench[static_cast<std::size_t>(i)];
+    const double most = solved_to * (is_gap ? size : std::max(size, wrench));
+    if (std::abs(s.r[i]) <= most) continue;
+    if (is_gap || !(std::abs(s.r[i]) <= rounding_of_row(system, s, i))) return false;
+  }
+  return true;
 }
 
 void set_piece(const System& system, const Vector& z, const Vector& rho, Piece& piece) {

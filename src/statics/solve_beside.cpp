@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "springfold/core/decompositions.hpp"
 
@@ -13,20 +14,30 @@ namespace {
 constexpr double rounding_of_sums = 4 * std::numeric_limits<double>::epsilon();
 
 /// Newton's method with the factors of a neighbour's matrix: steps cost a residual each. They have to shrink fast and to
-/// end in rounding; otherwise false, and the state is of no use.
+/// end in rounding; otherwise false, and the state is of no use. @param steps  those that have shown that they shrink
 bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& state, int& steps,
                    double& residual) {
   constexpr int most = 8;
   constexpr double fast = 0.125;
   Vector r, y = equations.pack(state), step(y.size());
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity, way_before = infinity;
   for (steps = 0; steps < most; ++steps) {
     if (!equations.residual(state, r)) return false;
     residual = r.lpNorm<Eigen::Infinity>();
-    if (equations.vanishes(state, r, rounding_of_sums)) return true;
-    if (!(residual <= fast * before)) return false;
-    before = residual;
     factors.solve(r, step);
+    const double way = equations.way(step);
+    // Where a stiff spring leaves rounding a soft one may still be far from its equilibrium: the step tells.
+    if (equations.vanishes(state, r, rounding_of_sums)) {
+      if (!equations.moves(state, step)) return true;
+      if (way > fast * way_before) {
+        --steps;
+        return true;
+      }
+    } else if (!(residual <= fast * before)) {
+      return false;
+    }
+    before = residual;
+    way_before = way;
     y -= step;
     equations.unpack(y, state);
   }
@@ -44,7 +55,7 @@ bool go_by_newton(const System& system, StartEquations& equations, const Lu* nei
   const double rounding = std::sqrt(std::numeric_limits<double>::epsilon());
   Vector r;
   Matrix J;
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (steps = 0; steps < most; ++steps) {
     if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
     residual = r.lpNorm<Eigen::Infinity>();
@@ -60,31 +71,46 @@ bool go_by_newton(const System& system, StartEquations& equations, const Lu* nei
     before = moved;
   }
   residual = polish(equations, state, steps);
-  return equations.solved(state, 1e-12);
+  return equations.solved(state, start_tolerance);
 }
 
 }  // namespace
 
 double polish(StartEquations& equations, StartState& state, int& iterations) {
-  Vector r;
+  constexpr int most = 12;
+  constexpr double half = 0.5;
+  constexpr double contracts = 0.4;  // less than the half by which steps to a singular state shrink
+  Vector r, step;
   Matrix J;
-  double best = std::numeric_limits<double>::infinity();
-  StartState best_state = state;
-  for (int i = 0; i < 12; ++i) {
-    const bool finite = equations.residual(state, r);
+  std::vector<StartState> reached;             // one nearer than the other
+  double residual = infinity, way = infinity;  // at the last one, and how far the next one is
+  bool by_steps = false;
+  for (int i = 0; i < most; ++i) {
+    if (!equations.residual(state, r)) break;
     const double size = r.lpNorm<Eigen::Infinity>();
-    if (!finite || !(size < best)) break;
-    const bool stagnates = size > 0.5 * best;
-    best = size;
-    best_state = state;
-    if (stagnates || size == 0 || !equations.jacobian(state, J)) break;
-    const Vector step = Lu(J).solve(r);
-    if (!step.allFinite()) break;
+    const bool falls = size <= half * residual;
+    const bool is_better = size < residual;
+    // What the stiff springs leave may be rounding already and hide what the soft ones do: then the step tells.
+    const bool may_go_on = size > 0 && (falls || i == 0 || equations.moves(reached.back(), step));
+    const bool has_step = may_go_on && equations.jacobian(state, J);
+    if (has_step) step = Lu(J).solve(r);
+    const double next = has_step && step.allFinite() ? equations.way(step) : infinity;
+    const bool comes_nearer = next <= contracts * way;
+    if (!is_better && !comes_nearer) break;
+    by_steps = by_steps || !is_better;
+    reached.push_back(state);
+    residual = size;
+    way = next;
+    if (!(falls || comes_nearer) || !std::isfinite(next)) break;
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
   }
-  state = best_state;
-  return best;
+  // Steps that turn a stiff member stretch it first, and the next ones take that back: the last state may be between both.
+  while (by_steps && reached.size() > 1 && !equations.solved(reached.back(), start_tolerance))
+    reached.pop_back();
+  if (reached.empty()) return residual;
+  state = reached.back();
+  return equations.residual(state, r) ? r.lpNorm<Eigen::Infinity>() : infinity;
 }
 
 double farthest_coordinate(const System& system, const Vector& a, const Vector& b) {

@@ -5,6 +5,9 @@
 
 namespace springfold::statics {
 
+/// Residuals of a start, scaled.
+constexpr double start_tolerance = 1e-12;
+
 /// Newton without safeguards to the last digits. @returns the largest entry of the residual
 double polish(StartEquations& equations, StartState& state, int& iterations);
 

@@ -49,6 +49,20 @@ bool StageNewton::residual(const Vector& z, const Inputs& inputs, Vector& r) {
   return true;
 }
 
+Vector StageNewton::spread(const Matrix& step) const {
+  const Index first = system_.first_pose;
+  Vector dz(system_.size);
+  dz << step.col(0).head(first), basis_ * step.col(0).tail(basis_.cols());
+  return dz;
+}
+
+double StageNewton::way(const Vector& dz) const {
+  double way = 0;
+  for (Index i = 0; i < dz.size(); ++i)
+    if (!system_.is_wrench[static_cast<std::size_t>(i)]) way = std::max(way, std::abs(dz[i]));
+  return way;
+}
+
 double StageNewton::solve(Vector& z, const Inputs& inputs, int& iterations) {
   constexpr int most = 100;
   constexpr double longest = 0.5;  // change of a coordinate in one step
@@ -64,15 +78,19 @@ double StageNewton::solve(Vector& z, const Inputs& inputs, int& iterations) {
     if (!stages_.matrix(system_, piece_at(system_, z), z, inputs, basis_, {}, full, A) ||
         !A.solve(none, step, false))
       break;
-    Vector dz(system_.size);
-    dz << step.col(0).head(first), basis_ * step.col(0).tail(root);
-    double moved = 0;
-    for (Index i = 0; i < dz.size(); ++i)
-      if (!system_.is_wrench[static_cast<std::size_t>(i)]) moved = std::max(moved, std::abs(dz[i]));
+    const Vector dz = spread(step);
+    const double moved = way(dz), first_part = std::min(1.0, longest / moved);
+    // What stiff springs leave may be rounding already, and hide all of what soft ones do: then the next step by this matrix
+    // tells (Deuflhard's natural test).
+    const auto comes_nearer = [&] {
+      Matrix next = r;
+      return A.solve(none, next, false) && way(spread(next)) < (1 - 0.5 * first_part) * moved;
+    };
     bool better = false;
-    for (double part = std::min(1.0, longest / moved); !better && part > 1e-3; part /= 2) {
+    for (double part = first_part; !better && part > 1e-3; part /= 2) {
       trial = z - part * dz;
-      better = residual(trial, inputs, r) && r.norm() < (1 - 0.25 * part) * size;
+      better = residual(trial, inputs, r) &&
+               (r.norm() < (1 - 0.25 * part) * size || (part == first_part && comes_nearer()));
     }
     if (!better) break;
     z = trial;

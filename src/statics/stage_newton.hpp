@@ -18,6 +18,8 @@ class StageNewton {
 
  private:
   bool residual(const Vector& z, const Inputs& inputs, Vector& r);
+  Vector spread(const Matrix& step) const;  ///< over all unknowns of the statics
+  double way(const Vector& dz) const;       ///< largest change of a coordinate or pose
 
   const System& system_;
   Matrix basis_{};

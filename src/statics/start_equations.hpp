@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::statics {
@@ -60,6 +61,23 @@ class StartEquations {
     }
   }
 
+  /// Largest change of a coordinate, pose or command in a step.
+  double way(const Vector& step) const {
+    double way = 0;
+    for (Index i = 0; i < step.size(); ++i)
+      if (!is_wrench(i)) way = std::max(way, std::abs(step[i]));
+    return way;
+  }
+
+  /// Does it change one of them by more than its rounding? Lengths are judged against max(1, their size).
+  bool moves(const StartState& state, const Vector& step) const {
+    const Vector y = pack(state);
+    for (Index i = 0; i < step.size(); ++i)
+      if (!is_wrench(i) && std::abs(step[i]) > few_roundings * std::max(1.0, std::abs(y[i])))
+        return true;
+    return false;
+  }
+
   bool is_wrench(Index unknown) const {
     const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
     return k < system_.size && system_.is_wrench[static_cast<std::size_t>(k)];
@@ -92,7 +110,6 @@ class StartEquations {
 
   /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of force.
   bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
-    constexpr double few_roundings = 4 * std::numeric_limits<double>::epsilon();
     Matrix J;
     if (!(largest(r, true) <= tolerance) || !jacobian(state, J)) return false;
     const Vector sizes = J.cwiseAbs() * pack(state).cwiseAbs();

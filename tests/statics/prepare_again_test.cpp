@@ -165,6 +165,42 @@ TEST(Neighbours, AnExactExpectationNeedsNewFactorsUnlessNeighboursEncloseIt) {
   EXPECT_EQ(enclosed.z, alone.z);
 }
 
+/// Springs of no free length in a row along x: a stiff one from x = 1 to the first point, a soft one between the points.
+model::Mechanism stiff_and_soft(double soft) {
+  model::Mechanism m;
+  for (const char* name : {"a", "b"})
+    m.bodies.push_back({name, model::TaskSpace::xyz, Vector{{1, 0, 0}}});
+  m.line_springs.push_back({"stiff", {.body = 0, .at = Vec3::UnitX()}, {.body = 1}, 1, 0});
+  m.line_springs.push_back({"soft", {.body = 1}, {.body = 2}, soft, 0});
+  return m;
+}
+
+TEST(Neighbours, LoadsThatStiffSpringsDoNotFeelAreNotNothing) {
+  constexpr double soft = 1e-10, load = 1e-16;
+  const System system = prepare(stiff_and_soft(soft));
+  StartProblem problem{.z = guess(system)};
+  problem.inputs = {system.commands, Vector::Zero(system.load_size), {}};
+  Vector& W = problem.inputs.W;
+  const auto moved = [&](const FirstEquilibrium& found) { return found.z[found.z.size() - 3] - 1; };
+  W[3] = load;
+  FirstEquilibrium known = first_equilibrium(system, problem);
+  ASSERT_EQ(known.status, StartStatus::found);
+  EXPECT_NEAR(moved(known), load / soft, 1e-9 * load / soft);
+  W[3] = 2 * load;
+  StartProblem beside = neighbour_of(known);
+  beside.inputs = problem.inputs;
+  known = first_equilibrium(system, beside);
+  ASSERT_EQ(known.status, StartStatus::found);
+  EXPECT_NEAR(moved(known), 2 * load / soft, 1e-9 * load / soft);
+  W[3] = 3 * load;
+  beside = neighbour_of(known);
+  beside.inputs = problem.inputs;
+  beside.foresight = {.z = known.z, .rho = {}, .factors = known.factors};
+  known = first_equilibrium(system, beside);
+  ASSERT_EQ(known.status, StartStatus::found);
+  EXPECT_NEAR(moved(known), 3 * load / soft, 1e-9 * load / soft);
+}
+
 TEST(Neighbours, WrongExpectationsAndFactorsDoNoHarm) {
   const System system = prepare(loaded(model::LinearSpring{0.1, 0}, 1));
   const FirstEquilibrium known = free_equilibrium(system, Vector::Zero(2));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "continuation/points/step.hpp"
 #include "continuation/points/words.hpp"
 #include "springfold/continuation/entry_checks.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -54,8 +55,8 @@ bool residual_at(const SearchTask& task, const Vector& x, Piece& piece, Vector& 
 }
 
 /// dF/dx, factorised; nothing where it is singular to working precision or not defined.
-std::optional<Lu> factorised(const SearchTask& task, const Vector& x, const Piece& piece) {
-  Linearisation at;
+std::optional<Lu> factorised(const SearchTask& task, const Vector& x, const Piece& piece,
+                             Linearisation& at) {
   if (!linearise_densely(task.problem, x, task.lambda, piece, at)) return std::nullopt;
   Lu lu(at.dF_dx);
   if (!(lu.smallest_pivot() > few_roundings * lu.largest_pivot())) return std::nullopt;
@@ -97,11 +98,12 @@ std::optional<Vector> deflated_newton(const SearchTask& task, Vector x,
   constexpr double close = root_of_rounding;
   Piece piece;
   Vector F;
+  Linearisation at;
   if (!residual_at(task, x, piece, F)) return std::nullopt;
   auto deflation = deflation_at(task, x, away_from);
   for (int k = 0; k < task.options.iterations && deflation; ++k) {
     if (F.lpNorm<Eigen::Infinity>() == 0) return x;
-    const auto lu = factorised(task, x, piece);
+    const auto lu = factorised(task, x, piece, at);
     if (!lu) return std::nullopt;
     const Vector dx = lu->solve(-F);
     const double denominator = 1 - deflation->gradient.dot(dx);
@@ -141,9 +143,9 @@ struct Polished {
 };
 
 /// The change of x, as a part of the box, that changes F by rounding errors only.
-double rounding_of(const SearchTask& task, const Lu& lu, double scale) {
+double rounding_of(const SearchTask& task, const Lu& lu, const Vector& rounding) {
   const Matrix inverse = task.side.cwiseInverse().asDiagonal() * lu.inverse();
-  return few_roundings * scale * inverse.cwiseAbs().rowwise().sum().maxCoeff();
+  return (inverse.cwiseAbs() * rounding).maxCoeff();
 }
 
 /// Newton's method without deflation, on one piece.
@@ -151,23 +153,31 @@ Polished polish(const SearchTask& task, const Vector& from, const Piece& piece) 
   constexpr double wander = tiny_share;
   Polished result{.x = from};
   Vector F;
+  Linearisation at;
+  const Vector weights = task.problem.metric();
   double before = 0;
   for (int k = 0;; ++k) {
     if (!task.problem.residual(result.x, task.lambda, piece, F) || !F.allFinite()) return result;
     const double scale = std::max({1.0, result.x.lpNorm<Eigen::Infinity>(), std::abs(task.lambda)});
-    const double size = F.lpNorm<Eigen::Infinity>();
-    result.solved = size <= task.options.newton.residual_tolerance * scale;
-    const auto lu = factorised(task, result.x, piece);
+    const double most = task.options.newton.residual_tolerance * scale;
+    result.solved = F.lpNorm<Eigen::Infinity>() <= most;
+    const auto lu = factorised(task, result.x, piece, at);
     if (!lu) {
       result.uncertain = std::max(result.uncertain, poor);
       return result;
     }
+    // Stiff springs leave their rounding, which is no reason to leave out an equilibrium where rounding still places it.
+    const Vector rounding = rounding_of_rows(at, weights, result.x, task.lambda);
+    if (!result.solved)
+      result.solved = (F.array().abs() <= rounding.array().max(most)).all() &&
+                      rounding_of(task, *lu, rounding) <= poor;
     const Vector dx = lu->solve(-F);
     result.uncertain = largest(task, dx);
     const bool stalls = k > 0 && result.uncertain > (1 - small_share) * before;
     const bool done = result.solved && (result.uncertain <= refined_step || stalls);
     if (done || k == task.options.newton.maximum_iterations) {
-      result.uncertain = std::max(result.uncertain, rounding_of(task, *lu, scale));
+      result.uncertain = std::max(result.uncertain,
+                                  rounding_of(task, *lu, rounding.cwiseMax(few_roundings * scale)));
       return result;
     }
     before = result.uncertain;

@@ -115,7 +115,7 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
   Vector& F = walker.memory->F;
   CurvePoint& p = walker.memory->trial;
   const bool expected = expect(walker, model, from, ds, p);
-  const auto size_at = [&](double t) {
+  const auto go_to = [&](double t) {
     const double d = t * ds;
     if (expected) {
       model->point(walker.weights, from, d, p);
@@ -123,6 +123,9 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
       p.x = from.x + d * from.tangent.dx;
       p.lambda = from.lambda + d * from.tangent.dlambda;
     }
+  };
+  const auto size_at = [&](double t) {
+    go_to(t);
     // The corrector has begun at the end, and will in the middle.
     if (const Vector* known = known_residual(*walker.memory, p.x, p.lambda, from.piece))
       return known->norm();
@@ -134,12 +137,21 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
     const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
+  // What rounding of the terms of each row does not explain: of a stiff spring it is far more than a soft one's residual.
+  const auto size_above_rounding = [&](double t) {
+    go_to(t);
+    Vector rounding;
+    if (!rounding_of_rows(walker, from.piece, p, rounding) ||
+        !walker.problem.residual(p.x, p.lambda, from.piece, F))
+      return infinity;
+    return (F.cwiseAbs() - rounding).cwiseMax(0).norm();
+  };
   const double at_end = size_at(1), scale = std::max(1.0, from.x.norm());
   for (int k = 1; k < parts; ++k) {
     const double t = static_cast<double>(k) / parts;
     // A kink lies on the curve of the piece behind it as well as its surfaces were placed: that is no growth.
     const double size = size_at(t), most = residual_limit(t) * at_end + residual_level * scale;
-    if (size > most && size > most + size_at(0))
+    if (size > most && size > most + size_at(0) && size_above_rounding(t) > most)
       return "residual does not grow evenly along the predictor: another branch may be near";
   }
   return {};

@@ -68,6 +68,23 @@ bool find_point(const Walker& walker, const Piece& piece, const Direction& refer
   return true;
 }
 
+Vector rounding_of_rows(const Linearisation& at, const Vector& weights, const Vector& x,
+                        double lambda) {
+  Vector sizes = x.cwiseAbs();
+  for (Index i = 0; i < sizes.size(); ++i)
+    if (weights[i] > 0) sizes[i] = std::max(1.0, sizes[i]);
+  return few_roundings * (magnitudes(at, sizes) + std::abs(lambda) * at.dF_dlambda.cwiseAbs());
+}
+
+bool rounding_of_rows(const Walker& walker, const Piece& piece, const CurvePoint& point,
+                      Vector& rounding) {
+  const LinearisedPoint* const place =
+      linearised_at(walker.problem, *walker.memory, point.x, point.lambda, piece);
+  if (!place) return false;
+  rounding = rounding_of_rows(place->at, walker.weights, point.x, point.lambda);
+  return true;
+}
+
 namespace {
 
 /// Puts point - from - ahead tangent into storage. @returns its length

@@ -44,6 +44,15 @@ struct StepResult : StepReport {
 bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
                 CurvePoint& point, StepReport* report = nullptr);
 
+/// What rounding may leave of F at a point, row by row: some units of the terms of that row, with lengths of unknowns against
+/// max(1, their size), unknowns without a length as they are.
+Vector rounding_of_rows(const Linearisation& at, const Vector& weights, const Vector& x,
+                        double lambda);
+
+/// The same on a piece. @returns false outside the domain
+bool rounding_of_rows(const Walker& walker, const Piece& piece, const CurvePoint& point,
+                      Vector& rounding);
+
 /// Predicts along the tangent by ds, corrects, and judges the step by StepOptions. The piece stays
 /// that of `from`, also beyond its switching surfaces.
 StepResult try_step(const Walker& walker, const CurvePoint& from, double ds);
