@@ -225,6 +225,7 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
   constexpr double nearest =
       1 - small_share;  // of the way: nearer points may belong to the other branch
+  if (!(ds > 0)) return std::nullopt;
   const auto curve =
       interpolated_curve([&](double t) { return point_at(walker, from, t); }, 0, nearest * ds);
   return curve ? std::optional<Direction>(unit_direction(walker, curve->slope(ds))) : std::nullopt;

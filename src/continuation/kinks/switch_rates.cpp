@@ -67,6 +67,7 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
   const double length = along.norm();
   Matrix B(n + 1, n + 1);
   B << equations_->J, along.transpose() / length;
+  if (!B.allFinite()) return seen;
   const Svd svd = jacobi_svd(B, SingularVectors::none, SingularVectors::full);
   const Vector y = length * Lu(B).solve(Vector::Unit(n + 1, n));
   const Vector w = Lu(B.transpose()).solve(gradient);
