@@ -180,6 +180,13 @@ std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSour
   return hit;
 }
 
+/// Is the switching told by a curve already, so near to the start that it is the start's?
+bool is_told_beside(const Curve& curve, Index j) {
+  return std::ranges::any_of(curve.hits, [j](const Hit& hit) {
+    return hit.point.s <= same_as_start && std::ranges::find(hit.switches, j) != hit.switches.end();
+  });
+}
+
 /// The two ways of an ordinary start that lie in different pieces meet at the switching between them, however slowly its
 /// springs leave their thresholds: across a stiff member no step sees it, and values on it are rounding.
 std::optional<Hit> switching_between(const Following& t, const Curve& backward,
@@ -195,7 +202,8 @@ std::optional<Hit> switching_between(const Following& t, const Curve& backward,
     const auto rests_on = [j](const continuation::Ray& ray) {
       return std::ranges::find(ray.resting, j) != ray.resting.end();
     };
-    if (one.piece[k] != other.piece[k] && !rests_on(one) && !rests_on(other))
+    if (one.piece[k] != other.piece[k] && !rests_on(one) && !rests_on(other) &&
+        !is_told_beside(backward, j) && !is_told_beside(forward, j))
       hit.switches.push_back(j);
   }
   if (hit.switches.empty()) return std::nullopt;
@@ -241,13 +249,6 @@ void take_switches(const Hit& from, Hit& to) {
   take_place(to.leaving.front(), from.leaving.front().piece);
 }
 
-/// Has the curve a switching so near to the start that it is the start's?
-bool switches_at_start(const Curve& curve) {
-  return std::ranges::any_of(curve.hits, [](const Hit& hit) {
-    return hit.point.s <= same_as_start && !hit.switches.empty();
-  });
-}
-
 /// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways that lead on
 /// from the start itself.
 void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
@@ -287,8 +288,6 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
     options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
     if (const auto before = point_before(t, backward, options))
       add_hits_through(t, source, *before, way, options, events, hits);
-  } else if (switches_at_start(backward) || switches_at_start(forward)) {
-    return hits;
   }
   complete_switching(t, backward, forward, hits);
   return hits;

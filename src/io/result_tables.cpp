@@ -165,8 +165,8 @@ std::string events_csv(const Case& the_case, const std::vector<StudyResult>& res
         for (const auto& name : names)
           csv += "," + csv_number(value_at(result, branch, event.row, name));
         for (const auto& name : counts) {
-          const CountsBeside counts = counts_beside(result, branch, event, name);
-          csv += "," + csv_number(counts.before) + "," + csv_number(counts.after);
+          const CountsBeside beside = counts_beside(result, branch, event, name);
+          csv += "," + csv_number(beside.before) + "," + csv_number(beside.after);
         }
         csv += "\n";
       }

@@ -106,5 +106,43 @@ TEST(StiffStops, BesideAFootThatIsAHundredMillionTimesStifferCablesAtRestHaveThe
   }
 }
 
+/// A strut of length 1 on a hinge of 1/2 between two level stops that just touch its top.
+std::string strut_between_stops(double stop, const std::string& direction, double most) {
+  std::string text =
+      "[[body]]\nname = \"t\"\ntask_space = \"xy\"\npose = [0, 1]\n[[chain]]\nname = \"s\"\n"
+      "elements = [{ joint = \"revolute\", axis = \"z\", name = \"q\", role = \"preloaded\", "
+      "spring "
+      "= { law = \"linear\", stiffness = 0.5 } }, { rigid = [0, 1] }]\n";
+  for (const char* at : {"-0.5", "0.5"})
+    text += std::string("[[spring]]\nname = \"s") + (at[0] == '-' ? "l" : "r") + "\"\nfrom_at = [" +
+            at + ", 1]\nto = \"t\"\nlaw = { law = \"one_sided\", stiffness = " + number(stop) +
+            ", from = 0.5, side = \"below\" }\n";
+  return text + "[[study]]\nname = \"p\"\ncontrol = \"load\"\ndirection = " + direction +
+         "\nbranches = { depth = 1 }\nuntil = { lambda = [-0.5, " + number(most) +
+         "], s.q = [-1, 1] }\n";
+}
+
+TEST(StiffStops, ThatJustTouchLetAStrutBuckleToBothSides) {
+  // Leaning by q presses one of them by sin q, to second order: P = 1/2 + K at q = 0.
+  for (const double stop : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+    SCOPED_TRACE(stop);
+    const StudyResult result = run(strut_between_stops(stop, "[0, -1]", 2 * stop)).of("p");
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(result.branches.size(), 3u);
+    const auto loads = lambdas(result, EventKind::branching_kink);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_NEAR(loads[0], stop + 0.5, 1e-10 * stop);
+  }
+}
+
+TEST(StiffStops, ThatJustTouchSwitchWhereALoadFromTheSideBegins) {
+  for (const double stop : {1e3, 1e6, 1e7, 1e8, 1e9}) {
+    SCOPED_TRACE(stop);
+    const StudyResult result = run(strut_between_stops(stop, "[1, 0]", 0.1 * stop)).of("p");
+    EXPECT_TRUE(complete(result));
+    EXPECT_EQ(lambdas(result, EventKind::switching), std::vector<double>{0});
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -195,5 +195,11 @@ TEST(SwitchingRows, TwoThresholdsThatAreNearlyReachedAtOnceAreToldOneAfterTheOth
   expect_true_switchings(row, 100, 1);
 }
 
+TEST(SwitchingRows, SwitchAtTheStartThoughTheNextThresholdIsPassedAtOnce) {
+  expect_true_switchings(
+      {1, 1, {linear_spring(-1, 0, 1), spring_above(-1, 0, 2, 0), spring_above(-1, 0, 3, 7e-10)}},
+      1);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -82,12 +82,12 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
     const auto as_preferred = [&](Index j) {
       return piece[static_cast<std::size_t>(j)] == preferred[static_cast<std::size_t>(j)];
     };
-    const auto goes = std::ranges::partition(
-        ray.resting, [&](Index j) { return way.start || contains(unsure, j); });
-    if (!way.start &&
-        (!goes.empty() || (!ray.resting.empty() && std::ranges::all_of(ray.resting, as_preferred))))
+    const auto goes = std::partition(ray.resting.begin(), ray.resting.end(),
+                                     [&](Index j) { return way.start || contains(unsure, j); });
+    if (!way.start && (goes != ray.resting.end() ||
+                       (!ray.resting.empty() && std::ranges::all_of(ray.resting, as_preferred))))
       ray.piece = piece;
-    ray.resting.erase(goes.begin(), goes.end());
+    ray.resting.erase(goes, ray.resting.end());
     return true;
   }
   return false;
