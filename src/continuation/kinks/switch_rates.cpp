@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "continuation/locating/reduced_equation.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 
@@ -48,6 +50,42 @@ std::optional<Vector> change_along(const Walker& walker, const CurvePoint& at,
 
 }  // namespace
 
+/// The bordered equations along one tangent, solved.
+struct SwitchRates::Solved {
+  Vector along{};  ///< D_c^-1 tangent, whose direction is y0
+  Lu factors{};
+  Vector y{};
+  Vector change{};  ///< of J y, by what the point may be off along the weakest direction
+};
+
+const SwitchRates::Solved* SwitchRates::solve_along(const Vector& along) {
+  if (solved_ && (solved_->along == along || solved_->along == -along)) return solved_.get();
+  constexpr int until_it_settles = 4;
+  const EquilibratedJacobian& own = *equations_;
+  const Index n = own.J.rows();
+  const double length = along.norm();
+  Matrix B(n + 1, n + 1);
+  B << own.J, along.transpose() / length;
+  if (!B.allFinite()) return nullptr;
+  auto now = std::make_unique<Solved>(Solved{.along = along, .factors = Lu(B)});
+  now->y = length * now->factors.solve(Vector::Unit(n + 1, n));
+  // The least singular value and its vector, by inverse iteration.
+  Vector v = irregular_columns(n + 1, 1).col(0).normalized();
+  double inverse_square = 0;
+  for (int i = 0; i < until_it_settles; ++i) {
+    const Vector next = now->factors.solve(Vector(now->factors.solve_transposed(v)));
+    inverse_square = next.norm();
+    v = next / inverse_square;
+  }
+  if (!v.allFinite() || !now->y.allFinite()) return nullptr;
+  const auto change = change_along(walker_, at_, own, v, now->y);
+  if (!change) return nullptr;
+  // A corrected point is off by the last correction that is not made.
+  now->change = refined_step * std::sqrt(inverse_square) * *change;
+  solved_ = std::move(now);
+  return solved_.get();
+}
+
 KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j,
                           const Direction& tangent) {
   const KnownRate seen{switch_rate(dg_dx, dg_dlambda, j, tangent), infinity};
@@ -64,20 +102,15 @@ KnownRate SwitchRates::of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j
   gradient = gradient.cwiseProduct(equations_->columns);
   along << tangent.dx, tangent.dlambda;
   along = along.cwiseQuotient(equations_->columns);
-  const double length = along.norm();
-  Matrix B(n + 1, n + 1);
-  B << equations_->J, along.transpose() / length;
-  if (!B.allFinite()) return seen;
-  const Svd svd = jacobi_svd(B, SingularVectors::none, SingularVectors::full);
-  const Vector y = length * Lu(B).solve(Vector::Unit(n + 1, n));
-  const Vector w = Lu(B.transpose()).solve(gradient);
-  const auto change = change_along(walker_, at_, *equations_, svd.V.col(n), y);
-  if (!change) return seen;
-  const double off = refined_step / svd.values[n];  // of the last correction that is not made
+  const Solved* solved = solve_along(along);
+  if (solved == nullptr) return seen;
+  const double sign = solved->along == along ? 1 : -1;
+  const Vector& y = solved->y;
+  const Vector w = solved->factors.solve_transposed(gradient);
   const double error = 2 * exact_model * w.head(n).norm() * y.norm() +
-                       2 * off * std::abs(w.head(n).dot(*change)) +
+                       2 * std::abs(w.head(n).dot(solved->change)) +
                        refined_step * gradient.cwiseAbs().dot(y.cwiseAbs());
-  const double value = gradient.dot(y);
+  const double value = sign * gradient.dot(y);
   return std::isfinite(error) && std::isfinite(value) ? KnownRate{value, error} : seen;
 }
 

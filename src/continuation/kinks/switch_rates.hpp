@@ -45,10 +45,14 @@ class SwitchRates {
   KnownRate of(const Matrix& dg_dx, const Vector& dg_dlambda, Index j, const Direction& tangent);
 
  private:
+  struct Solved;
+  const Solved* solve_along(const Vector& along);
+
   const Walker& walker_;
   const CurvePoint& at_;
   bool asked_ = false;
   std::unique_ptr<EquilibratedJacobian> equations_{};
+  std::unique_ptr<Solved> solved_{};  ///< along the last tangent
 };
 
 /// The same of one switch at one point.
