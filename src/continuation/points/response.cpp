@@ -207,6 +207,7 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   const double way = critical_way(problem, x, lambda, piece, dx, moved, here);
   Response response;
   double change = 1;  // in lambda: what multipliers are measured over
+  response.stiffness = stiffness_of(weights, here);
   if (moved > 0 && way * moved >= clear_motion) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * change;
@@ -215,11 +216,12 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
                                    : std::nullopt) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * *bend;
+    response.stiffness = infinity;  // what a turn of the load beside the point leaves is no member's
   } else if (std::isfinite(way)) {
     // At a special point the next one is this one, which is no unit of anything.
     if (way < tiny_share &&
         is_singular(problem, x, lambda, piece,
-                    is_of_soft_members(weights, x, lambda, way, stiffness_of(weights, here))))
+                    is_of_soft_members(weights, x, lambda, way, response.stiffness)))
       return std::nullopt;
     change = critical_loads * way;
     response.lambda = change;
@@ -227,7 +229,6 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   for (Index i = 0; i < dx.size(); ++i)
     if (weights[i] == 0)
       response.multiplier = std::max(response.multiplier, std::abs(dx[i]) * change);
-  response.stiffness = stiffness_of(weights, here);
   return response;
 }
 
