@@ -270,6 +270,31 @@ void complete_switching(const Following& t, const Curve& backward, const Curve& 
     take_switches(*hit, *told);
 }
 
+/// Where a spring switches so near to the start that no short curve leads through it, lambda may turn there though nothing tells.
+bool may_turn_unseen(const Curve& backward, const Curve& forward) {
+  const auto tells = [](const Curve& curve) {
+    return std::ranges::any_of(curve.hits, [](const Hit& hit) {
+      return hit.s_before <= same_as_start && hit.kind != HitKind::kink;
+    });
+  };
+  const auto is_flat = [](const Curve& curve) {
+    return std::abs(curve.points.front().tangent.dlambda) <= has_a_sign;
+  };
+  return is_flat(backward) && is_flat(forward) && !tells(backward) && !tells(forward);
+}
+
+Hit turn_beside_threshold(const CurvePoint& start) {
+  Hit hit{.kind = HitKind::unresolved,
+          .name =
+              "unresolved: lambda may turn at the start, and a spring switches less than 1e-9 "
+              "beside it",
+          .point = start,
+          .s_before = -same_as_start,
+          .s_after = same_as_start};
+  hit.point.negative.reset();
+  return hit;
+}
+
 }  // namespace
 
 std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
@@ -288,6 +313,8 @@ std::vector<Hit> hits_at_start(const Following& t, BranchSource& source) {
     options.step.minimum = std::min(options.step.minimum, perhaps_zero * way);
     if (const auto before = point_before(t, backward, options))
       add_hits_through(t, source, *before, way, options, events, hits);
+  } else if (may_turn_unseen(backward, forward)) {
+    hits.push_back(turn_beside_threshold(forward.points.front()));
   }
   complete_switching(t, backward, forward, hits);
   return hits;
