@@ -216,7 +216,8 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
                                    : std::nullopt) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * *bend;
-    response.stiffness = infinity;  // what a turn of the load beside the point leaves is no member's
+    response.stiffness =
+        infinity;  // what a turn of the load beside the point leaves is no member's
   } else if (std::isfinite(way)) {
     // At a special point the next one is this one, which is no unit of anything.
     if (way < tiny_share &&
