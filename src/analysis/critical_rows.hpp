@@ -32,6 +32,9 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const std::vector<continuation::CriticalStart>& starts, EventKind of,
                                const Observer& observer);
 
+/// A curve that ends at the load of the start of the path, in another state, says that.
+void say_start_or_its_load(const CaseCurves& curves, continuation::CriticalCurve& curve);
+
 /// A curve that breaks off just before a spring switches at the start of the path says so.
 /// @param growing  was the parameter growing at first?
 void say_switching_start(const CaseCurves& curves, bool growing,

@@ -170,6 +170,7 @@ class LoadsOverParameter {
     side.curve = follow_critical(curves_.family(), piece.start, sense > 0,
                                  first_point_events(curves_, within, piece.start.piece),
                                  critical_options(study_), observe);
+    say_start_or_its_load(curves_, side.curve);
     const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
                                    [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     if (turn == side.curve.hits.end() && side.curve.stop != continuation::StopReason::event) {

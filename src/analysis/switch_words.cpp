@@ -42,15 +42,30 @@ bool is_between_equal_segments(const statics::System& system, const continuation
          });
 }
 
+namespace {
+
+/// Both ends of a narrow gap are switches of one spring.
+bool is_named_before(const statics::System& system, const std::vector<Index>& switches,
+                     std::size_t k) {
+  const auto at = [&](std::size_t i) -> const statics::Switch& {
+    return system.switches[static_cast<std::size_t>(switches[i])];
+  };
+  for (std::size_t i = 0; i < k; ++i)
+    if (at(i).of_shape() == at(k).of_shape() && at(i).spring == at(k).spring) return true;
+  return false;
+}
+
+}  // namespace
+
 /// Springs that reach a breakpoint together with others and go back switch nothing: they are left out.
 std::string switching_detail(const statics::System& system, const continuation::Hit& hit,
                              const Piece& before, const Piece& after) {
   std::string text;
-  for (const Index j : hit.switches) {
-    const statics::Switch& s = system.switches[static_cast<std::size_t>(j)];
+  for (std::size_t k = 0; k < hit.switches.size(); ++k) {
+    const statics::Switch& s = system.switches[static_cast<std::size_t>(hit.switches[k])];
     const model::CompiledSpring& law = law_of(system, s);
     const std::size_t from = segment_in(system, s, before), to = segment_in(system, s, after);
-    if (from == to) continue;
+    if (from == to || is_named_before(system, hit.switches, k)) continue;
     const double k_from = law.stiffness(from, s.breakpoint);
     const double k_to = law.stiffness(to, s.breakpoint);
     const bool was_flat = k_from == 0 && law.is_straight(from);

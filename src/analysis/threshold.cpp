@@ -133,6 +133,7 @@ class Threshold {
     curve = follow_critical(curves_.family(), *start, towards_ > 0, events,
                             critical_options(study_), observe);
     say_switching_start(curves_, towards_ > 0, curve);
+    say_start_or_its_load(curves_, curve);
     const auto end = std::find_if(curve.hits.begin(), curve.hits.end(),
                                   [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     const bool left = end == curve.hits.end() && curve.stop == continuation::StopReason::event;

@@ -75,5 +75,54 @@ critical_load = { of = "limit_point", parameter = "W", range = [0, 0.5], values 
   EXPECT_TRUE(complete(result));
 }
 
+TEST(LostMargin, IsNotThatOfASecondLimitPointWhoseLoadPassesThatOfTheStart) {
+  const auto result = run(R"toml(
+[parameters]
+kv = 0.01
+[[node]]
+name = "l"
+at = [-1, 0]
+fixed = true
+[[node]]
+name = "r"
+at = [1, 0]
+fixed = true
+[[node]]
+name = "t"
+at = [0, 0.5]
+[[bar]]
+from = "l"
+to = "t"
+stiffness = 1
+[[bar]]
+from = "r"
+to = "t"
+stiffness = 1
+[[spring]]
+name = "v"
+shape = "line"
+of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
+stiffness = "kv"
+[[study]]
+name = "s"
+kind = "threshold"
+control = "load"
+body = "t"
+direction = [0, -1]
+until = { t.y = [-0.6, 0.6] }
+threshold = { of = "limit_point", parameter = "kv", range = [0, 2] }
+)toml")
+                          .of("s");
+  ASSERT_TRUE(result.threshold && result.threshold->found);
+  const auto& branch = result.branches.front();
+  const auto says = [](const analysis::Stop& stop) {
+    return stop.reason == "its load is that at which the path starts";
+  };
+  ASSERT_NE(says(branch.forward), says(branch.backward));
+  const auto& end = says(branch.forward) ? branch.samples.back() : branch.samples.front();
+  EXPECT_NEAR(end.values[column(result, "lambda")], 0, 1e-9);
+  EXPECT_GT(std::abs(end.values[column(result, "deflection")]), 0.1);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -201,5 +201,17 @@ TEST(SwitchingRows, SwitchAtTheStartThoughTheNextThresholdIsPassedAtOnce) {
       1);
 }
 
+TEST(SwitchingRows, NameASpringOnceWhereBothEndsOfItsGapArePassed) {
+  const Row row{
+      1, 1, {linear_spring(-1, 0, 1), gap_spring(-1, 0, 3, 0, 1e-12), spring_above(-1, 0, 2, 0)}};
+  const StudyResult result = run(row_text(row, 1)).of("p");
+  int named = 0;
+  for (const auto& event : result.branches.at(0).events)
+    for (auto at = event.detail.find("spring b1"); at != std::string::npos;
+         at = event.detail.find("spring b1", at + 1))
+      ++named;
+  EXPECT_EQ(named, 1);
+}
+
 }  // namespace
 }  // namespace springfold::io
