@@ -117,8 +117,8 @@ void say_start_or_its_load(const CaseCurves& curves, continuation::CriticalCurve
   constexpr double one_state = 1e-6;  // where curves end, states are known better
   if (!ends_at_start_of_path(curve)) return;
   continuation::CriticalHit& end = curve.hits.back();
-  const Member* member = curves.equations_at(end.point.mu);
-  if (member == nullptr) return;
+  const Member* member = curves.at(end.point.mu);
+  if (member == nullptr) return;  // where the start is lost they have met
   const Vector start = member->start().x;
   if (start.size() == end.point.x.size() && (end.point.x - start).norm() <= one_state) return;
   end.name = curve.stop_detail = "its load is that at which the path starts";
