@@ -173,6 +173,12 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
+/// "did you mean ...?", or all that there are.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const std::string near = io::nearest(word, names);
+  return near.empty() ? "; there are: " + listed(names) : ", did you mean \"" + near + "\"?";
+}
+
 /// The first word, if it is no command: with the nearest one, or with all of them.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> commands;
@@ -183,9 +189,7 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, const 
     return std::nullopt;
   if (word.ends_with(".toml"))
     return "\"" + word + "\" is no command; did you mean \"springfold run " + word + "\"?";
-  const std::string near = io::nearest(word, commands);
-  return "no command \"" + word + "\"" +
-         (near.empty() ? "; there are: " + listed(commands) : ", did you mean \"" + near + "\"?");
+  return "no command \"" + word + "\"" + suggestion(word, commands);
 }
 
 /// The first option that the command does not have, with the nearest one or all of them; nothing if it has them all.
@@ -198,9 +202,8 @@ std::optional<std::string> unknown_option(const CLI::App& app, int argc, const c
       const std::string word = argv[i], name = word.substr(0, word.find('='));
       if (!name.starts_with("--") || name == "--") continue;
       if (command->get_option_no_throw(name) != nullptr) continue;
-      const std::string near = io::nearest(name, names);
       return "\"" + command->get_name() + "\" has no option \"" + name + "\"" +
-             (near.empty() ? "; there are: " + listed(names) : ", did you mean \"" + near + "\"?");
+             suggestion(name, names);
     }
   }
   return std::nullopt;

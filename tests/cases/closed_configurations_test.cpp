@@ -1,38 +1,25 @@
 // Mechanisms of one freedom whose joints turn: on each closed curve of configurations minima and maxima alternate.
 #include <gmock/gmock.h>
 
+#include <numbers>
 #include <string>
 
 #include "case_runs.hpp"
 #include "io/result_access.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
 
 /// A crank-rocker in units of millimetres, and very soft springs with gaps.
-const std::string four_bar_with_gaps = R"(
-[[body]]
-name = "P"
-task_space = "xy"
-pose = [-458.9404003395769, -198.42809512805613]
-[[body]]
-name = "Q"
-task_space = "xy"
-pose = [314.7632892409213, 583.4814909044493]
-[[chain]]
-name = "crank"
-to = "P"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 3.5496818790460956 }, { rigid = [500.0, 0] } ]
-[[chain]]
-name = "rock"
-from_at = [1000.0, 0]
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 2.4362263492476126 }, { rigid = [900.0, 0] } ]
-[[chain]]
-name = "coup"
-from = "P"
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.7906731378849021 }, { rigid = [1100.0, 0] } ]
+const std::string four_bar_with_gaps = four_bar({.crank = 500,
+                                                 .base = 1000,
+                                                 .rocker = 900,
+                                                 .coupler = 1100,
+                                                 .at_crank = 3.5496818790460956,
+                                                 .at_rocker = 2.4362263492476126,
+                                                 .at_coupler = 0.7906731378849021}) +
+                                       R"(
 [[spring]]
 name = "s0"
 from_at = [800.0716067080065, 704.021103847786]
@@ -72,29 +59,11 @@ TEST(ClosedConfigurations, OfAFourBarWithGapsAreCountedAndNoEquilibriumIsMissing
 }
 
 /// Where crank and rocker of a parallelogram lie on one line with the ground its configurations cross.
-const std::string parallelogram = R"(
-[[body]]
-name = "P"
-task_space = "xy"
-pose = [0.2, 0.2]
-[[body]]
-name = "Q"
-task_space = "xy"
-pose = [1.2, 0.2]
-[[chain]]
-name = "crank"
-to = "P"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = "45*deg" }, { rigid = [0.28284271247461906, 0] } ]
-[[chain]]
-name = "rock"
-from_at = [1, 0]
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = "45*deg" }, { rigid = [0.28284271247461906, 0] } ]
-[[chain]]
-name = "coup"
-from = "P"
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0 }, { rigid = [1, 0] } ]
+const std::string parallelogram = four_bar({.crank = 0.2 * std::numbers::sqrt2,
+                                            .rocker = 0.2 * std::numbers::sqrt2,
+                                            .at_crank = std::numbers::pi / 4,
+                                            .at_rocker = std::numbers::pi / 4}) +
+                                  R"(
 [[spring]]
 name = "s"
 from_at = [-0.3, 0.4]

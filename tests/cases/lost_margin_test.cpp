@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -76,33 +77,7 @@ critical_load = { of = "limit_point", parameter = "W", range = [0, 0.5], values 
 }
 
 TEST(LostMargin, IsNotThatOfASecondLimitPointWhoseLoadPassesThatOfTheStart) {
-  const auto result = run(R"toml(
-[parameters]
-kv = 0.01
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "t"
-at = [0, 0.5]
-[[bar]]
-from = "l"
-to = "t"
-stiffness = 1
-[[bar]]
-from = "r"
-to = "t"
-stiffness = 1
-[[spring]]
-name = "v"
-shape = "line"
-of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
-stiffness = "kv"
+  const auto result = run("[parameters]\nkv = 0.01\n" + truss_with_vertical_spring + R"toml(
 [[study]]
 name = "s"
 kind = "threshold"

@@ -8,6 +8,7 @@
 
 #include "case_runs.hpp"
 #include "cases/number_text.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -49,29 +50,14 @@ TEST(Reach, OfAStretchedLegEndsADrivenCurve) {
 }
 
 /// A crank-rocker of two bodies, its crank on a torsion spring; the joint at the end of the rocker is driven upwards.
-const std::string crank_rocker = R"(
-[[body]]
-name = "P"
-task_space = "xy"
-pose = [0.2632747685671118, 0.1438276615812609]
-[[body]]
-name = "Q"
-task_space = "xy"
-pose = [1.018063130955779, 0.7997960510655668]
-[[chain]]
-name = "crank"
-to = "P"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.5, role = "preloaded", spring = { law = "linear", stiffness = 1, free = 0.5 } }, { rigid = [0.3, 0] } ]
-[[chain]]
-name = "rock"
-from_at = [1.0, 0]
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 1.548215494177245 }, { rigid = [0.8, 0] } ]
-[[chain]]
-name = "coup"
-from = "P"
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.7154649010624505 }, { rigid = [1, 0] } ]
+const std::string crank_rocker =
+    four_bar(
+        {.at_crank = 0.5,
+         .at_rocker = 1.548215494177245,
+         .at_coupler = 0.7154649010624505,
+         .crank_spring =
+             ", role = \"preloaded\", spring = { law = \"linear\", stiffness = 1, free = 0.5 }"}) +
+    R"(
 [[study]]
 name = "p"
 body = "Q"
@@ -93,29 +79,14 @@ TEST(Reach, OfACrankRockerEndsAtBothDeadCentresWhereTheForceHasNoBound) {
 }
 
 /// The same kind begun where it is soft: its unit of force is small, and steps in the coordinates pass the dead centre.
-const std::string soft_crank_rocker = R"(
-[[body]]
-name = "P"
-task_space = "xy"
-pose = [-0.17655033517660373, 0.242548921145877]
-[[body]]
-name = "Q"
-task_space = "xy"
-pose = [0.6919154726704084, 0.7382979913423184]
-[[chain]]
-name = "crank"
-to = "P"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 2.2, role = "preloaded", spring = { law = "linear", stiffness = 1, free = 2.2 } }, { rigid = [0.3, 0] } ]
-[[chain]]
-name = "rock"
-from_at = [1.0, 0]
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 1.9661186360622833 }, { rigid = [0.8, 0] } ]
-[[chain]]
-name = "coup"
-from = "P"
-to = "Q"
-elements = [ { joint = "revolute", axis = "z", name = "a", initial = 0.5186971407396499 }, { rigid = [1, 0] } ]
+const std::string soft_crank_rocker =
+    four_bar(
+        {.at_crank = 2.2,
+         .at_rocker = 1.9661186360622833,
+         .at_coupler = 0.5186971407396499,
+         .crank_spring =
+             ", role = \"preloaded\", spring = { law = \"linear\", stiffness = 1, free = 2.2 }"}) +
+    R"(
 [[study]]
 name = "p"
 body = "Q"

@@ -1,7 +1,10 @@
 // Structures of a few parts that several tests of critical points ask different questions of.
 #pragma once
 
+#include <cmath>
 #include <string>
+
+#include "cases/number_text.hpp"
 
 namespace springfold::io {
 
@@ -24,12 +27,8 @@ elements = [
 )toml";
 }
 
-/// A flat truss of half span 1 and height 0.5 between two equal springs that push until its top is at the height 0.2, which they
-/// leave at once; kv is the stiffness of a vertical spring there. A load along ["sin(psi)", "-cos(psi)"] makes one the first.
-inline const std::string truss_between_springs = R"toml(
-[parameters]
-psi = 0
-kv = 0.02
+/// A flat truss of half span 1 and height 0.5; kv, a parameter of the case, is the stiffness of a vertical spring at its top.
+inline const std::string truss_with_vertical_spring = R"toml(
 [[node]]
 name = "l"
 at = [-1, 0]
@@ -50,16 +49,53 @@ from = "r"
 to = "t"
 stiffness = 1
 [[spring]]
-repeat = { i = [0, 1] }
-name = "s{i}"
-from_at = ["0.8*(2*i-1)", -0.5]
-to = "t"
-law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
-[[spring]]
 name = "v"
 shape = "line"
 of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
 stiffness = "kv"
 )toml";
+
+/// The same between two equal springs that push until its top is at the height 0.2, which they leave at once. A load along
+/// ["sin(psi)", "-cos(psi)"] makes one the first.
+inline const std::string truss_between_springs = R"toml(
+[parameters]
+psi = 0
+kv = 0.02
+)toml" + truss_with_vertical_spring + R"toml(
+[[spring]]
+repeat = { i = [0, 1] }
+name = "s{i}"
+from_at = ["0.8*(2*i-1)", -0.5]
+to = "t"
+law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
+)toml";
+
+/// Two bodies P and Q at the ends of crank and rocker, and the coupler between them; joints stand at these angles.
+struct FourBar {
+  double crank = 0.3, base = 1, rocker = 0.8, coupler = 1;
+  double at_crank = 0, at_rocker = 0, at_coupler = 0;
+  std::string crank_spring{};  ///< keys of the crank's joint
+};
+
+inline std::string four_bar(const FourBar& of) {
+  const auto point = [](double x, double y) { return "[" + number(x) + ", " + number(y) + "]"; };
+  const auto body = [&](const char* name, double x, double y) {
+    return std::string{"[[body]]\nname = \""} + name +
+           "\"\ntask_space = \"xy\"\npose = " + point(x, y) + "\n";
+  };
+  const auto link = [&](double at, const std::string& keys, double length) {
+    return "elements = [ { joint = \"revolute\", axis = \"z\", name = \"a\", initial = " +
+           number(at) + keys + " }, { rigid = " + point(length, 0) + " } ]\n";
+  };
+  return body("P", of.crank * std::cos(of.at_crank), of.crank * std::sin(of.at_crank)) +
+         body("Q", of.base + of.rocker * std::cos(of.at_rocker),
+              of.rocker * std::sin(of.at_rocker)) +
+         "[[chain]]\nname = \"crank\"\nto = \"P\"\n" +
+         link(of.at_crank, of.crank_spring, of.crank) +
+         "[[chain]]\nname = \"rock\"\nfrom_at = " + point(of.base, 0) + "\nto = \"Q\"\n" +
+         link(of.at_rocker, "", of.rocker) +
+         "[[chain]]\nname = \"coup\"\nfrom = \"P\"\nto = \"Q\"\n" +
+         link(of.at_coupler, "", of.coupler);
+}
 
 }  // namespace springfold::io
