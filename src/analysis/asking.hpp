@@ -57,6 +57,10 @@ class AskedProblem {
     go_on();
     return problem_.equations(x, lambda, piece, F, dF_dx, dF_dlambda);
   }
+  bool second_along(const Vector& x, double lambda, const Piece& piece, const Vector& w,
+                    const Vector& V, Vector& value) const {
+    return problem_.second_along(x, lambda, piece, w, V, value);
+  }
   bool structured() const { return problem_.structured(); }
   bool structured_derivatives(const Vector& x, double lambda, const Piece& piece,
                               StructuredMatrix& dF_dx, Vector& dF_dlambda) const {

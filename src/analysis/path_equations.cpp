@@ -259,4 +259,26 @@ bool PathProblem::equations(const Vector& y, double lambda, const Piece& piece, 
   return true;
 }
 
+bool PathProblem::second_along(const Vector& y, double lambda, const Piece& piece, const Vector& w,
+                               const Vector& V, Vector& value) const {
+  if (!knows_second_) return false;
+  put_local(y, lambda, z_);
+  put_inputs(lambda, inputs_);
+  // y is v here: no rotation is free.
+  dz_.setZero(system_.size);
+  add_motion(w, dz_);
+  along_.z.setZero(system_.size);
+  along_.z.segment(t_, d_) = V[size_] * rule_.t_rate;
+  add_motion(V.head(size_), along_.z);
+  along_.rho.setZero(inputs_.rho.size());
+  if (moves_commands_) along_.rho = V[size_] * rule_.rho_rate;
+  put_second_derivatives(system_, piece, z_, inputs_.rho, dz_, along_, work_, second_);
+  reduce_rows(second_.z, v_);
+  value.resize(size_ + 1);
+  value.head(size_) = v_;
+  value[size_] = second_.z.segment(t_, d_).dot(rule_.t_rate);
+  if (moves_commands_) value[size_] += second_.rho.dot(rule_.rho_rate);
+  return true;
+}
+
 }  // namespace springfold::analysis

@@ -41,6 +41,8 @@ void PathProblem::renew(const PathRule& rule) {
   find_free_rotations();
   if (!rotations_.empty()) turned_ = system_;
   find_stages();
+  knows_second_ =
+      !rule_.family && rotations_.empty() && !stages_ && has_second_derivatives(system_);
 }
 
 /// All rotations of the other spatial bodies, and of the study's body if it turns as it likes: the

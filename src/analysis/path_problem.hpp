@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "springfold/statics/second_derivatives.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
 #include "springfold/statics/system.hpp"
@@ -74,6 +75,9 @@ class PathProblem {
                    Vector& dF_dlambda) const;
   bool equations(const Vector& y, double lambda, const Piece& piece, Vector& F, Matrix& dF_dy,
                  Vector& dF_dlambda) const;
+  /// Exact second derivatives, as ProblemView has them; false where the statics doesn't know them, or rotations are free.
+  bool second_along(const Vector& y, double lambda, const Piece& piece, const Vector& w,
+                    const Vector& V, Vector& value) const;
   /// Chains so long that their matrices are better not formed, or many members?
   bool structured() const { return stages_.has_value(); }
   bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
@@ -154,12 +158,14 @@ class PathProblem {
   Index t_ = 0, d_ = 0, size_ = 0;  ///< size_: of y
   Index plain_size_ = 0;            ///< of v, the unknowns with rotation vectors
   bool is_whole_ = false;           ///< N = 1: all pose coordinates are free
+  bool knows_second_ = false;       ///< the statics has second derivatives of the equations
   bool moves_pose_ = false, moves_commands_ = false, moves_wrench_ = false, moves_loads_ = false;
   std::vector<FreeRotation> rotations_{};
   std::vector<Index> place_{};  ///< of the entries of v in y; -1 for free rotations
   mutable statics::System turned_{};
   mutable statics::Workspace work_{}, load_work_{};
   mutable statics::Inputs inputs_{};
+  mutable statics::StateDirection along_{}, second_{};
   mutable Vector z_{}, v_{}, r_{}, rate_{}, F_{}, dz_{};
   Vector none_{};  ///< where commands do not move
   mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};

@@ -11,6 +11,7 @@
 #include "check_command.hpp"
 #include "draw_command.hpp"
 #include "exit_code.hpp"
+#include "heap.hpp"
 #include "import_command.hpp"
 #include "in_time.hpp"
 #include "interrupt.hpp"
@@ -67,6 +68,7 @@ int run_parsed(const ParsedArguments& parsed, std::ostream& out, std::ostream& e
     return out.good() ? all_done : input_output;
   }
   if (ranks.number() > 0 && parsed.arguments->command != Command::run) return all_done;
+  take_memory_in_large_parts(parsed.arguments->threads);
   const InterruptGuard guard;
   const Session session{.out = out,
                         .err = err,

@@ -17,8 +17,8 @@ constexpr Index jacobi_size = 32;
 /// Steps of inverse iteration for singular vectors.
 constexpr Index most_steps = 16;
 
-/// Singular vectors that are off by so much give their singular value with the square of it as error.
-constexpr double few_digits = 1e-6;
+/// A singular value that changes by less, of itself, in a step of inverse iteration has some digits.
+constexpr double few_digits = 1e-3;
 
 /// Singular vectors that move by less have settled.
 constexpr double vectors_settled = 1e-12;
@@ -197,13 +197,16 @@ Borders weakest_borders(const ExtendedMatrix& E) {
   if (E.at.structured) return borders_of(E, 1);
   const Lu lu(E.dense);
   Matrix u, v = irregular_columns(E.rows(), 1);
+  double last = 0;
   for (Index step = 0; step < most_cheap_steps; ++step) {
     u = lu.solve_transposed(v).normalized();
-    const Matrix next = lu.solve(u).normalized();
-    if (!u.allFinite() || !next.allFinite()) break;  // exactly singular
-    const double moved = (next - v * (v.transpose() * next)).norm();
-    v = next;
-    if (moved < few_digits) return {u, v};
+    v = lu.solve(u);
+    const double size = v.norm();  // of the inverse, in the direction u
+    if (!(size > 0) || !std::isfinite(size)) break;  // exactly singular
+    v /= size;
+    // Where several singular values are about as small, no direction among theirs is weaker than the others.
+    if (std::abs(size - last) <= few_digits * size) return {u, v};
+    last = size;
   }
   return borders_of(E, 1);
 }

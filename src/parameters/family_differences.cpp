@@ -114,6 +114,8 @@ std::optional<Vector> second_along(const Family& family, const Vector& x, double
   const auto problem = family.at(mu);
   if (!problem) return std::nullopt;
   check_shape(*problem, n, piece);
+  if (Vector value; problem->second_along(x, lambda, piece, w, V, value))
+    return all_finite(value) ? std::optional<Vector>(std::move(value)) : std::nullopt;
   Vector there, F, by_lambda;
   Matrix by_x;
   const auto weighted = [&](double t) -> std::optional<Vector> {

@@ -59,6 +59,19 @@ bool HeldProblem::derivatives(const Vector& X, double lambda, const Piece& piece
   return true;
 }
 
+/// The equations of the held modes are linear.
+bool HeldProblem::second_along(const Vector& X, double lambda, const Piece& piece, const Vector& w,
+                               const Vector& V, Vector& value) const {
+  const Index n = inner_.size(), h = start_.held_right.cols();
+  Vector inner_V(n + 1), inner_value;
+  inner_V << V.head(n), V[n + h];
+  if (!inner_.second_along(X.head(n), lambda, piece, w.head(n), inner_V, inner_value)) return false;
+  value.setZero(n + h + 1);
+  value.head(n) = inner_value.head(n);
+  value[n + h] = inner_value[n];
+  return true;
+}
+
 bool HeldProblem::switch_gradients(const Vector& X, double lambda, Matrix& dg_dX,
                                    Vector& dg_dlambda) const {
   const Index n = inner_.size(), h = start_.held_right.cols();

@@ -23,6 +23,8 @@ class HeldProblem {
   bool residual(const Vector& X, double lambda, const Piece& piece, Vector& F) const;
   bool derivatives(const Vector& X, double lambda, const Piece& piece, Matrix& dF_dX,
                    Vector& dF_dlambda) const;
+  bool second_along(const Vector& X, double lambda, const Piece& piece, const Vector& w,
+                    const Vector& V, Vector& value) const;
   Index switch_count() const { return inner_.switch_count(); }
   bool switches(const Vector& X, double lambda, Vector& g) const {
     return inner_.switches(X.head(inner_.size()), lambda, g);

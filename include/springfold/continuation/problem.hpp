@@ -58,6 +58,15 @@ concept ProblemWithEquations = requires(const P& problem, const Vector& x, doubl
   problem.equations(x, lambda, piece, F, J, v);
 };
 
+/// A problem that gives second derivatives, see ProblemView.
+template <class P>
+concept ProblemWithSecondDerivatives = requires(const P& problem, const Vector& x, double lambda,
+                                                const Piece& piece, const Vector& w, Vector& v) {
+  problem.second_along(x, lambda, w, w, v);
+}
+|| requires(const P& problem, const Vector& x, double lambda, const Piece& piece, const Vector& w,
+            Vector& v) { problem.second_along(x, lambda, piece, w, w, v); };
+
 /// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
 /// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
 Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near);
@@ -81,6 +90,11 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 ///                                     are then found without dF/dx ever being formed; where
 ///                                     curves cross or meet kinks `derivatives` is still asked
 ///     bool structured() const         is that to be used? Without this member: yes
+///     bool second_along(x, lambda, [piece,] const Vector& w, const Vector& V, Vector& value) const
+///                                     exact second derivatives, where it has them: value = the
+///                                     derivative of w^T [dF/dx dF/dlambda], n + 1 entries, along V
+///                                     (n + 1 entries: x, then lambda). False: not known; callers
+///                                     take differences of the first derivatives
 ///     double growth(const Piece&) const
 ///                                     how many times larger the terms of F are on this piece than at
 ///                                     the start, at least 1: stiff springs that act there. Residuals
@@ -104,6 +118,10 @@ class ProblemView {
   bool equations(const Vector& x, double lambda, const Piece& piece, Vector& F, Matrix& dF_dx,
                  Vector& dF_dlambda) const {
     return calls_->equations(problem_, x, lambda, piece, F, dF_dx, dF_dlambda);
+  }
+  bool second_along(const Vector& x, double lambda, const Piece& piece, const Vector& w,
+                    const Vector& V, Vector& value) const {
+    return calls_->second_along(problem_, x, lambda, piece, w, V, value);
   }
   bool structured() const { return calls_->structured(problem_); }
   bool structured_derivatives(const Vector& x, double lambda, const Piece& piece,
@@ -130,6 +148,8 @@ class ProblemView {
     bool (*residual)(const void*, const Vector&, double, const Piece&, Vector&);
     bool (*derivatives)(const void*, const Vector&, double, const Piece&, Matrix&, Vector&);
     bool (*equations)(const void*, const Vector&, double, const Piece&, Vector&, Matrix&, Vector&);
+    bool (*second_along)(const void*, const Vector&, double, const Piece&, const Vector&,
+                         const Vector&, Vector&);
     bool (*structured)(const void*);
     bool (*structured_derivatives)(const void*, const Vector&, double, const Piece&,
                                    StructuredMatrix&, Vector&);
@@ -177,6 +197,15 @@ class ProblemView {
         else
           return as<P>(p).residual(x, lambda, F) &&
                  as<P>(p).derivatives(x, lambda, dF_dx, dF_dlambda);
+      },
+      [](const void* p, const Vector& x, double lambda, const Piece& piece, const Vector& w,
+         const Vector& V, Vector& value) {
+        if constexpr (!ProblemWithSecondDerivatives<P>)
+          return false;
+        else if constexpr (PiecewiseSmoothProblem<P>)
+          return as<P>(p).second_along(x, lambda, piece, w, V, value);
+        else
+          return as<P>(p).second_along(x, lambda, w, V, value);
       },
       [](const void* p) {
         if constexpr (requires { as<P>(p).structured(); })
