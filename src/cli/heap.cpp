@@ -17,8 +17,8 @@ namespace {
 
 constexpr int megabyte = 1 << 20;
 
-/// Has the system provide the pages of the heap's beginning at once: one by one, when they are touched, they cost several times
-/// as much, on virtual machines most of a short run.
+}  // namespace
+
 void fill_first_pages() {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::size_t wanted = 3 * megabyte / 2;
@@ -33,18 +33,15 @@ void fill_first_pages() {
 #endif
 }
 
-}  // namespace
-
 void take_memory_in_large_parts(int threads) {
   // A choice of the first ends glibc's own adjustment of the others: these are where that ends with large matrices.
   mallopt(M_TOP_PAD, 2 * megabyte);
   mallopt(M_MMAP_THRESHOLD, 32 * megabyte);
   mallopt(M_TRIM_THRESHOLD, 64 * megabyte);
-  if (threads != 1) return;
-  mallopt(M_ARENA_MAX, 1);
-  fill_first_pages();
+  if (threads == 1) mallopt(M_ARENA_MAX, 1);
 }
 #else
+void fill_first_pages() {}
 void take_memory_in_large_parts(int) {}
 #endif
 

@@ -8,4 +8,8 @@ namespace springfold::cli {
 /// @param threads  of work; 0: not known. To be called before the first of them begins
 void take_memory_in_large_parts(int threads);
 
+/// Has the system provide the next pages of this thread's heap at once, a megabyte and a half: one by one, when they are touched,
+/// they cost several times as much, on virtual machines a good part of a short run.
+void fill_first_pages();
+
 }  // namespace springfold::cli

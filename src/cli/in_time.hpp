@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "heap.hpp"
 #include "session.hpp"
 
 namespace springfold::cli {
@@ -43,7 +44,10 @@ std::optional<Result> done_in_time(std::function<Result()> work, const Session& 
   std::future<Result> result = task->get_future();
   std::thread thread;
   try {
-    thread = std::thread{[task] { (*task)(); }};
+    thread = std::thread{[task] {
+      fill_first_pages();
+      (*task)();
+    }};
   } catch (const std::system_error&) {  // no more threads: then here
     (*task)();
     return result.get();
