@@ -2,12 +2,14 @@
 #pragma once
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -30,8 +32,12 @@ class Child {
     for (const auto& [stream, name] :
          {std::pair{STDOUT_FILENO, "out.txt"}, {STDERR_FILENO, "err.txt"}})
       posix_spawn_file_actions_addopen(&files, stream, name, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::posix_spawn(&process_, argv[0], &files, nullptr, argv.data(), environ);
+    const int failure = ::posix_spawn(&process_, argv[0], &files, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&files);
+    if (failure != 0) {
+      process_ = -1;
+      ADD_FAILURE() << argv[0] << " cannot be started: " << std::strerror(failure);
+    }
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -41,12 +47,16 @@ class Child {
     ::waitpid(process_, nullptr, 0);
   }
 
-  void send(int signal) const { ::kill(process_, signal); }
+  /// Nothing where it was not started, or has ended: -1 is every process that there is.
+  void send(int signal) const {
+    if (process_ > 0) ::kill(process_, signal);
+  }
 
   /// Waits; the exit code, 128 + signal, or -1 if it goes on for longer.
   int wait(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>{seconds};
     int status = 0;
+    if (process_ <= 0) return -1;
     while (::waitpid(process_, &status, WNOHANG) == 0) {
       if (std::chrono::steady_clock::now() > end) return -1;
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
