@@ -38,6 +38,25 @@ TEST_F(MemoryLimits, RefuseRunsTimesSegmentsAtTheValues) {
               testing::Contains(HasSubstr("need at most 2 GB: fewer values, or fewer segments")));
 }
 
+TEST_F(MemoryLimits, RefuseMoreSegmentsThanCanBeWorkedOn) {
+  const auto beams = [](int count) {
+    std::string text = "[[body]]\nname = \"t\"\ntask_space = \"planar\"\npose = [1, 0, 0]\n";
+    for (int i = 0; i < count; ++i)
+      text += "[[chain]]\nname = \"c" + std::to_string(i) +
+              "\"\nelements = [{ elastic = \"beam\", length = 1, E = 1, A = 1, Iz = 1, "
+              "segments = 5000 }]\n";
+    return text +
+           "[[study]]\nname = \"push\"\ncontrol = \"load\"\ndirection = [0, -1, 0]\n"
+           "until = { lambda = [0, 1] }\n";
+  };
+  // Each takes about 270 MB where it is traced.
+  EXPECT_THAT(messages(beams(5)), IsEmpty());
+  EXPECT_THAT(messages(beams(30)),
+              testing::Contains(testing::AllOf(
+                  HasSubstr("segments: the mechanism has"),
+                  HasSubstr("of memory with all studies, need at most 2 GB: fewer segments"))));
+}
+
 TEST_F(MemoryLimits, LetOrdinaryCasesPass) {
   EXPECT_THAT(messages(orthoglide_text()), IsEmpty());
   EXPECT_THAT(messages(replaced(with_beam("50", 20), ", labels = [\"one\", \"two\"]", "")),
