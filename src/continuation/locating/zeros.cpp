@@ -319,8 +319,8 @@ class ZeroFinder {
         continue;
       }
       if ((value(before) < 0) != (v < 0))
-        add(sharpened(
-            fit, zero_of(fit, touched ? touch : bisect(value, before, here), before, here, touched)));
+        add(sharpened(fit, zero_of(fit, touched ? touch : bisect(value, before, here), before, here,
+                                   touched)));
       else if (touched)
         add(sharpened(fit, {.at = touch, .before = before, .after = here, .touches = true}));
       before = here;
