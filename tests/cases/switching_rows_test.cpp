@@ -158,7 +158,7 @@ void expect_true_switchings(const Row& row, double most_load, int depth = 0) {
 }
 
 TEST(SwitchingRows, SwitchWhereTheirStraightPiecesMeet) {
-  for (const double exponent : {1.0, 2.0, 3.0, 4.0})
+  for (const double exponent : {1.0, 2.0, 3.0, 4.0, 5.0})
     for (unsigned seed = 1; seed <= 25; ++seed) {
       SCOPED_TRACE(number(exponent) + ", draw " + std::to_string(seed));
       const Row row = drawn_row(seed + 1000 * static_cast<unsigned>(exponent), exponent);
@@ -173,6 +173,22 @@ TEST(SwitchingRows, ThatRestAcrossAStiffMemberHaveBothHalvesOfTheirPath) {
                           {linear_spring(-1, 0, 1e4), linear_spring(0, 1, 1e8),
                            gap_spring(-1, 1, 1, 0, 0.1), linear_spring(1, 2, 1e-4)}},
                          6e-5);
+}
+
+TEST(SwitchingRows, ThatOnlySoftSpringsHoldHaveOneCurveThroughTheirStart) {
+  // Beside their stiff springs these leave a share of 1e-12 to 1e-10, which nothing near the start makes zero.
+  const Row stiff_between{
+      4,
+      1,
+      {linear_spring(-1, 0, 5.5e-5), linear_spring(0, 1, 4.4e5), linear_spring(1, 2, 980),
+       linear_spring(2, 3, 9.8e-5), spring_above(-1, 3, 980, 0)}},
+      soft_between{
+          4,
+          1000,
+          {linear_spring(-1, 0, 3.6e-7), linear_spring(0, 1, 8.2), linear_spring(1, 2, 4.5e-7),
+           linear_spring(2, 3, 9e4), spring_below(-1, 3, 1.1e-4, 0)}};
+  for (const Row& row : {stiff_between, soft_between})
+    for (const int depth : {0, 1}) expect_true_switchings(row, 0.1 * row.unit, depth);
 }
 
 TEST(SwitchingRows, ASpringThatHasHardlyLeftItsThresholdTakesNoPartInTheNextSwitching) {
@@ -193,6 +209,25 @@ TEST(SwitchingRows, TwoThresholdsThatAreNearlyReachedAtOnceAreToldOneAfterTheOth
        spring_below(-1, 1, 1500, -1e-6), linear_spring(-1, 1, 0.057), spring_below(-1, 2, 31, 0),
        stopped_spring(-1, 2, 0.037, 1.2, -1e-6, 0.020001), spring_above(-1, 2, 850, 0)}};
   expect_true_switchings(row, 100, 1);
+}
+
+TEST(SwitchingRows, ThresholdsThatLieInDifferentRowsAreToldOneAfterTheOtherHoweverNear) {
+  // Behind the first one, which is stiff, the load grows by much before the next one, 3e-10 farther.
+  for (const double apart : {3e-10, 1e-9, 2e-9})
+    for (const double stiff : {1.0, 1e3, 1e5}) {
+      SCOPED_TRACE(number(apart) + ", " + number(stiff));
+      expect_true_switchings({1,
+                              1,
+                              {linear_spring(-1, 0, 1), spring_above(-1, 0, stiff, 0.1),
+                               spring_above(-1, 0, 3, 0.1 + apart)}},
+                             1);
+      expect_true_switchings({2,
+                              1,
+                              {linear_spring(-1, 0, 1), linear_spring(0, 1, 20),
+                               spring_below(-1, 0, stiff, -0.1 - apart),
+                               spring_below(-1, 0, 3, -0.1), spring_above(-1, 1, 2, 0.2)}},
+                             1, 1);
+    }
 }
 
 TEST(SwitchingRows, SwitchAtTheStartThoughTheNextThresholdIsPassedAtOnce) {

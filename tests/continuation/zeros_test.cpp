@@ -42,6 +42,23 @@ TEST(Zeros, ThatTouchRightBesideACrossingAreFound) {
     }
 }
 
+TEST(Zeros, BesideATouchLieWhereTheFunctionIsZeroThoughTheirSlopeIsSmall) {
+  // Over the whole interval the polynomial is as good as the bound of noise, which is far above what noise there is.
+  for (double touch = 0.6; touch < 0.62; touch += 0.0037) {
+    const double crossing = touch + 0.005;
+    const auto f = [=](double t) -> std::optional<double> {
+      return std::pow(t - touch, 2) * (t - crossing) * std::exp(3 * t);
+    };
+    const ZeroSearch found = find_zeros(f, 0, 1, 1e-8, 1e-7, NoiseIs::bound);
+    ASSERT_TRUE(found.resolved);
+    ASSERT_EQ(found.zeros.size(), 2u) << "touch at " << touch;
+    EXPECT_TRUE(found.zeros[0].touches);
+    EXPECT_NEAR(found.zeros[0].at, touch, 1e-8);
+    EXPECT_FALSE(found.zeros[1].touches);
+    EXPECT_NEAR(found.zeros[1].at, crossing, 1e-10);
+  }
+}
+
 TEST(Zeros, ThatAreToldApartHaveNoTouchBetweenThem) {
   // Between them the function is no farther from zero than noise might be, but far clear of the noise that is seen.
   for (double apart = 1e-3; apart < 4e-2; apart *= 1.05)

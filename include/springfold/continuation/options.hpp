@@ -33,7 +33,8 @@ struct TraceOptions {
   bool branch_points = true;
   bool verify_arcs = false;           ///< test every arc of the finished curve (verification.hpp)
   double location_tolerance = 1e-13;  ///< of kinks, relative to the step they lie in
-  double simultaneous = 1e-10;        ///< switches this close to zero at a kink act together
+  /// Switches this close to zero at a kink act together, unless the curve surely meets them in rows that differ.
+  double simultaneous = 1e-10;
 };
 
 /// Every rule the options break, as sentences a user can act on; empty when usable.

@@ -79,6 +79,11 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
 std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
                              const std::vector<Index>& left);
 
+/// Of several switches that act, those whose surfaces the curve surely meets behind the first one are left to the next step:
+/// where F = 0 and g_j = 0 is known to rounding, however near it is.
+void part_surfaces(const Walker& walker, const CurvePoint& from, const std::vector<Index>& left,
+                   KinkSearch& kink);
+
 /// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both are, not
 /// as the place along the curve. What does not settle stays as it is.
 void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);

@@ -319,6 +319,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
   if (result.status != KinkSearch::Status::found) return result;
   settle_on_branch_point(walker, from, result);
   result.active = acting_at(walker, from, result.point, left);
+  part_surfaces(walker, from, left, result);
   settle_on_surface(walker, from, result);
   return result;
 }

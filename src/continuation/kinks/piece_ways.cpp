@@ -60,16 +60,54 @@ std::optional<Direction> structured_tangent(const Walker& walker, const CurvePoi
   return tangent;
 }
 
+/// How far from here may a small singular value vanish? Its rate along every direction of the point is u^T D^2F[v, .]: one
+/// difference of J along its own vector v has them all. In length of the metric; 0 outside the domain.
+double way_to_zero(const Walker& walker, const CurvePoint& at, const EquilibratedJacobian& own,
+                   const Svd& svd, Index i) {
+  const Index n = own.J.rows();
+  const Vector root = metric_roots(walker.weights), along = own.columns.cwiseProduct(svd.V.col(i));
+  const Vector aside =
+      told_apart * along / std::max(smallest_number, along.cwiseProduct(root).norm());
+  Linearisation plus, minus;
+  if (!linearise_densely(walker.problem, at.x + aside.head(n), at.lambda + aside[n], at.piece,
+                         plus) ||
+      !linearise_densely(walker.problem, at.x - aside.head(n), at.lambda - aside[n], at.piece,
+                         minus))
+    return 0;
+  const Vector u = own.rows.cwiseProduct(svd.U.col(i));
+  const Vector change = ((extended(plus) - extended(minus)).transpose() * u).cwiseQuotient(root);
+  const double rate = change.norm() * along.cwiseProduct(root).norm() / (2 * told_apart);
+  return svd.values[i] / std::max(rate, smallest_number);
+}
+
+/// A stiff member beside soft ones leaves a small singular value that is known as well as the equations' entries are: it is none
+/// that vanishes, if it is clear of their rounding and no place near the point makes it zero.
+bool is_surely_not_zero(const Walker& walker, const CurvePoint& at, const EquilibratedJacobian& own,
+                        const Svd& svd, Index i, double near) {
+  return svd.values[i] > between_samples * exact_model * std::max(svd.values[0], 1.0) &&
+         way_to_zero(walker, at, own, svd, i) > near;
+}
+
 /// Stiff members beside soft ones, and multipliers beside angles, make nothing singular by that alone.
-std::optional<Direction> equilibrated_tangent(const Walker& walker, const CurvePoint& at,
-                                              double full_rank) {
+PieceWays equilibrated_ways(const Walker& walker, const CurvePoint& at, double full_rank) {
+  const PieceWays none{.singular = true};
   const auto own = equilibrated_jacobian(walker, at);
-  if (!own) return std::nullopt;
+  if (!own) return none;
   const PivotedQr qr = pivoted_qr(own->J.transpose());
   const Index n = own->J.rows();
   // Entries a little away are of size 1, whatever vanishes here.
-  if (!(qr.pivots[n - 1] > full_rank * std::max(qr.pivots[0], 1.0))) return std::nullopt;
-  return unit(own->columns.cwiseProduct(qr.last_column), walker.weights);
+  if (qr.pivots[n - 1] > full_rank * std::max(qr.pivots[0], 1.0)) {
+    const auto tangent = unit(own->columns.cwiseProduct(qr.last_column), walker.weights);
+    return tangent ? both_ways(*tangent) : none;
+  }
+  const Svd svd = jacobi_svd(own->J, SingularVectors::full, SingularVectors::full);
+  if (!is_surely_not_zero(walker, at, *own, svd, n - 1, full_rank)) return none;
+  const auto tangent = unit(own->columns.cwiseProduct(svd.V.col(n)), walker.weights);
+  if (!tangent) return none;
+  PieceWays ways = both_ways(*tangent);
+  for (PieceWay& way : ways.list)
+    way.accuracy = std::max(way.accuracy, refined_step / svd.values[n - 1]);
+  return ways;
 }
 
 /// The kernel of the piece's extended Jacobian: the singular vectors of all values below
@@ -83,9 +121,10 @@ std::optional<Kernel> kernel_of(const Walker& walker, const CurvePoint& at) {
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return std::nullopt;
   const Index n = own->J.rows();
-  const Svd svd = jacobi_svd(own->J, SingularVectors::none, SingularVectors::full);
+  const Svd svd = jacobi_svd(own->J, SingularVectors::full, SingularVectors::full);
   const double size = std::max(svd.values[0], 1.0);  // entries nearby are of size 1
-  const Index rank = (svd.values.array() > located_rank * size).count();
+  Index rank = (svd.values.array() > located_rank * size).count();
+  while (rank < n && is_surely_not_zero(walker, at, *own, svd, rank, located_rank)) ++rank;
   const Vector root = metric_roots(walker.weights);
   const Matrix scaled =
       root.cwiseProduct(own->columns).asDiagonal() * svd.V.rightCols(n + 1 - rank);
@@ -156,10 +195,8 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   const Matrix A = extended(linear);
   const PivotedQr qr = pivoted_qr(A.transpose());
   const double size = std::max(qr.pivots[0], n <= most_of_one_size ? size_nearby(walker, at) : 0.0);
-  if (!(qr.pivots[n - 1] > full_rank * size)) {
-    const auto tangent = equilibrated_tangent(walker, at, polished ? full_rank : told_apart);
-    return tangent ? both_ways(*tangent) : PieceWays{.singular = true};
-  }
+  if (!(qr.pivots[n - 1] > full_rank * size))
+    return equilibrated_ways(walker, at, polished ? full_rank : told_apart);
   auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "the metric gives the tangent no length"};
   // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one inverse

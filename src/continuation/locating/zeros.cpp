@@ -319,9 +319,10 @@ class ZeroFinder {
         continue;
       }
       if ((value(before) < 0) != (v < 0))
-        add(zero_of(fit, touched ? touch : bisect(value, before, here), before, here, touched));
+        add(sharpened(fit, zero_of(fit, touched ? touch : bisect(value, before, here), before, here,
+                                   touched)));
       else if (touched)
-        add({.at = touch, .before = before, .after = here, .touches = true});
+        add(sharpened(fit, {.at = touch, .before = before, .after = here, .touches = true}));
       before = here;
       touched = false;
     }
@@ -332,6 +333,26 @@ class ZeroFinder {
     const double slope = std::abs(fit.polynomial->first_slope(at));
     const double off = slope > 0 ? fit.error / slope : fit.polynomial->b - fit.polynomial->a;
     return {.at = at, .before = before, .after = after, .off = off, .several = several};
+  }
+
+  /// A polynomial whose error is below the bound of noise may be off by more than what noise there is, and its error is not
+  /// scattered: a narrower one around the zero shows whether it is. Its place is taken from the narrower one then.
+  ZeroOf sharpened(const Fit& fit, const ZeroOf& zero) const {
+    const double reach = margin * (fit.polynomial->b - fit.polynomial->a);
+    if (noise_is_ != NoiseIs::bound || zero.several) return zero;
+    if (!zero.touches && zero.off <= location) return zero;
+    const double left = zero.at - std::min(reach, near_share * (zero.at - zero.before)),
+                 right = zero.at + std::min(reach, near_share * (zero.after - zero.at));
+    const Fit closer = fit_on(left, right);
+    if (!closer.polynomial || !(closer.error < near_share * fit.error)) return zero;
+    const Interpolant& p = *closer.polynomial;
+    const auto crosses = [&](double t) { return zero.touches ? p.first_slope(t) : p.first(t); };
+    if ((crosses(left) < 0) == (crosses(right) < 0)) return zero;
+    const double at = bisect(crosses, left, right);
+    if (!zero.touches) return zero_of(closer, at, zero.before, zero.after, false);
+    ZeroOf touch = zero;
+    touch.at = at;
+    return touch;
   }
 
   /// Neighbouring cells may see the same zero.
