@@ -42,6 +42,7 @@ void LambdaCrawl::begin(const continuation::Direction& tangent) {
   constexpr double rounding = 1e-12;
   const double slope = length_in(weights_, tangent.dx) / std::abs(tangent.dlambda);
   slope_at_start_ = slope > rounding ? slope : 0;
+  begins_straight_ = slope_at_start_ == 0;
   counting_ = false;
 }
 

@@ -18,6 +18,7 @@
 #include "settle_units.hpp"
 #include "springfold/analysis/snap.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/core/number_text.hpp"
 #include "start.hpp"
 #include "start_sides.hpp"
 #include "start_trouble.hpp"
@@ -138,7 +139,20 @@ struct Begun {
   const Observer& observer;
   const TraceBy& trace_by;
   const statics::FirstEquilibrium& first;
+  double first_unit = 1;  ///< of lambda, that the response at the start asks for
 };
+
+/// So many times larger than the first critical load the unit of lambda leaves nothing to be told of it.
+constexpr double hides_first_load = 0x1p20;
+
+/// Where a straight curve stays unresolved in a unit that its long range asks for: what helps.
+void doubt_hidden_load(double first_unit, double unit, StudyResult& result) {
+  if (!(unit >= hides_first_load * first_unit) || complete(result)) return;
+  result.doubts.push_back("the first critical load, at a lambda of about " +
+                          rounded(first_unit, 1) +
+                          ", is far below the range of lambda: limits of lambda of its order in "
+                          "until resolve what lies beside the start");
+}
 
 void report_start(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
   report.stiffness = evaluator.platform_stiffness(start);
@@ -189,6 +203,8 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   if (begun.family != nullptr && study.control == ControlMode::parameter && crawl.factor() == 1)
     doubt_broken_rules(study, *begun.family, quantities, result);
   if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
+  if (crawl.factor() == 1 && crawl.begins_straight())
+    doubt_hidden_load(begun.first_unit, setup.lambda_scale, result);
   return crawl.factor();
 }
 
@@ -212,7 +228,7 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const Begun begun{mechanism, study, family, observer, trace_by, first};
+    const Begun begun{mechanism, study, family, observer, trace_by, first, setup.lambda_scale};
     double largest = largest_change_of_lambda_unit;
     for (;;) {
       StudyResult attempt = result;

@@ -100,5 +100,41 @@ TEST(SoftMembers, AreDeflectedHoweverStiffTheOthersAre) {
   }
 }
 
+/// Two links of length 1, one on the other, pressed from above: stiffness 1 at the foot, s between them. Branch points lie at the
+/// eigenvalues of [[1 + s, -s], [-s, s]].
+std::string two_links(const std::string& s, const std::string& lambda) {
+  const auto link = [](const std::string& name, const std::string& stiffness) {
+    return "{ joint = \"revolute\", axis = \"z\", name = \"" + name +
+           "\", role = \"preloaded\", spring = { law = \"linear\", stiffness = " + stiffness +
+           " } }, { rigid = [0, 1] }, ";
+  };
+  return "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 2]\n[[chain]]\nname = \"a\"\n"
+         "elements = [ " +
+         link("q1", "1") + link("q2", s) +
+         "]\n[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\nuntil = { "
+         "lambda = " +
+         lambda + " }\n";
+}
+
+TEST(SoftMembers, OfAPerfectColumnAreResolvedWithinLimitsOfTheirOrder) {
+  const double s = 1e-9, first = (1 + 2 * s - std::sqrt(1 + 4 * s * s)) / 2;
+  const StudyResult result = run(two_links("1e-9", "[-1e-9, 1e-8]")).of("press");
+  EXPECT_TRUE(complete(result));
+  const auto loads = lambdas(result, EventKind::branch_point);
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0] / first, 1, 1e-6);
+}
+
+TEST(SoftMembers, OfAPerfectColumnThatALongRangeHidesAreSaidToBeHidden) {
+  const StudyResult result = run(two_links("1e-9", "[-0.1, 2]")).of("press");
+  if (complete(result)) {  // better still
+    EXPECT_EQ(lambdas(result, EventKind::branch_point).size(), 2u);
+    return;
+  }
+  EXPECT_THAT(result.doubts,
+              testing::Contains(testing::HasSubstr("is far below the range of lambda: limits of "
+                                                   "lambda of its order in until resolve")));
+}
+
 }  // namespace
 }  // namespace springfold::io
