@@ -148,8 +148,7 @@ constexpr double hides_first_load = 0x1p20;
 /// Where a straight curve stays unresolved in a unit that its long range asks for: what helps.
 void doubt_hidden_load(double first_unit, double unit, StudyResult& result) {
   if (!(unit >= hides_first_load * first_unit) || complete(result)) return;
-  result.doubts.push_back("the first critical load, at a lambda of about " +
-                          rounded(first_unit, 1) +
+  result.doubts.push_back("the first critical load, at a lambda below " + rounded(first_unit, 1) +
                           ", is far below the range of lambda: limits of lambda of its order in "
                           "until resolve what lies beside the start");
 }

@@ -201,7 +201,7 @@ Borders weakest_borders(const ExtendedMatrix& E) {
   for (Index step = 0; step < most_cheap_steps; ++step) {
     u = lu.solve_transposed(v).normalized();
     v = lu.solve(u);
-    const double size = v.norm();  // of the inverse, in the direction u
+    const double size = v.norm();                    // of the inverse, in the direction u
     if (!(size > 0) || !std::isfinite(size)) break;  // exactly singular
     v /= size;
     // Where several singular values are about as small, no direction among theirs is weaker than the others.

@@ -33,8 +33,7 @@ void subtract(const ChainSlice& slice, const model::ClosureVector& own, StateDir
 
 bool has_second_derivatives(const System& system) {
   return system.loads.empty() && system.line_springs.empty() && system.shapes.empty() &&
-         system.redundant == 0 &&
-         std::ranges::all_of(system.chains, &model::CompiledChain::flat) &&
+         system.redundant == 0 && std::ranges::all_of(system.chains, &model::CompiledChain::flat) &&
          std::ranges::none_of(system.mechanism.bodies, [](const model::Body& body) {
            return body.task_space == model::TaskSpace::spatial;
          });

@@ -56,8 +56,8 @@ TEST(SecondDerivativesOfAPath, AreNotGivenInSpace) {
   const PathProblem problem = column(3, model::TaskSpace::spatial);
   const Index n = problem.size();
   Vector value;
-  EXPECT_FALSE(problem.second_along(Vector::Zero(n), 0, {}, Vector::Ones(n), Vector::Ones(n + 1),
-                                    value));
+  EXPECT_FALSE(
+      problem.second_along(Vector::Zero(n), 0, {}, Vector::Ones(n), Vector::Ones(n + 1), value));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Second derivatives of the equilibrium against differences of the first ones.
-#include "springfold/core/differences.hpp"
 #include "springfold/statics/second_derivatives.hpp"
+
+#include "springfold/core/differences.hpp"
 #include "staged.hpp"
 
 namespace springfold::statics {

@@ -65,7 +65,9 @@ concept ProblemWithSecondDerivatives = requires(const P& problem, const Vector& 
   problem.second_along(x, lambda, w, w, v);
 }
 || requires(const P& problem, const Vector& x, double lambda, const Piece& piece, const Vector& w,
-            Vector& v) { problem.second_along(x, lambda, piece, w, w, v); };
+            Vector& v) {
+  problem.second_along(x, lambda, piece, w, w, v);
+};
 
 /// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
 /// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
