@@ -46,6 +46,7 @@ posture_of() {
     "load-cycle, orthoglide") echo Q2/LP1 ;;
     load-cycle*) echo press/LP1 ;;
     "orthoglide-planar, one-sided") echo "Q2 one-sided/SA1" ;;
+    "orthoglide-planar, soft-springs") echo load/LP1 ;;
     orthoglide-planar) echo Q2/LP1 ;;
     preloaded-rest) echo press/LP2 ;;
     quasi-zero-stiffness) echo switch/LP1 ;;
@@ -53,6 +54,7 @@ posture_of() {
     "rigid-loops, sarrus") echo press/UZ3 ;;
     rigid-loops) echo press/EP3 ;;
     rpr-platform) echo swell/EP3 ;;
+    "rrr-platform, flexures") echo load/LP1 ;;
     rrr-platform) echo torque/LP1 ;;
     serial-2r) echo straight/EP3 ;;
     serial-3r) echo moment/EP2 ;;
