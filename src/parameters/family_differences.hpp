@@ -36,7 +36,8 @@ std::optional<Vector> derivative_at_zero(const SampledFunction& f, double step,
 /// The same for the second derivative.
 std::optional<Vector> second_derivative_at_zero(const SampledFunction& f, double step);
 
-/// w^T D^2F [V, .] by (x, lambda), n + 1 entries: differences of J along V. @param V  n + 1 entries
+/// w^T D^2F [V, .] by (x, lambda), n + 1 entries: the problem's own, or differences of J along V.
+/// @param V  n + 1 entries
 std::optional<Vector> second_along(const Family& family, const Vector& x, double lambda, double mu,
                                    const Piece& piece, const Vector& w, const Vector& V,
                                    Exactness exactness = Exactness::exact);

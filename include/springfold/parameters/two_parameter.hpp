@@ -128,9 +128,9 @@ struct CriticalCurve {
 ///
 /// or, where symmetry holds the branch point on its branch, C^T (x - x0) = 0 in place of the second ones. This is
 /// regular there; beta = 0 all along says that the parameter keeps the branch, as symmetries do.
-/// Points on surfaces solve F = 0, g_j = 0. Derivatives of G need those of dF/dx along V only: differences of
-/// sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the equations: located points
-/// are as exact as F and dF/dx.
+/// Points on surfaces solve F = 0, g_j = 0. Derivatives of G need those of dF/dx along V only: the problem's own second
+/// derivatives, or differences of sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the
+/// equations: located points are as exact as F and dF/dx.
 ///
 /// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may
 /// turn back; a caller's event ends the curve. Where one that has an inside is zero at the start, the way that leaves it
