@@ -22,7 +22,7 @@ void count_turns(std::vector<Entry>& entries, std::size_t start, const PathProbl
 }
 
 /// A special point and the start part smooth curves; a row of a kink belongs to the side that it is seen from.
-void note_leaving(std::vector<Entry>& entries, std::size_t start, const PathProblem& problem) {
+void note_switches(std::vector<Entry>& entries, std::size_t start, const PathProblem& problem) {
   if (problem.switch_count() == 0) return;
   for (std::size_t first = 0, end = 0; first < entries.size(); first = end) {
     std::vector<const CurvePoint*> points;
@@ -35,21 +35,20 @@ void note_leaving(std::vector<Entry>& entries, std::size_t start, const PathProb
     };
     for (end = first; end < entries.size() && (end == first || goes_on(end)); ++end)
       points.push_back(&entries[end].point);
-    std::vector<Switches> leaving = leaving_switches(problem, points);
-    for (std::size_t i = first; i < end; ++i)
-      entries[i].not_resting = std::move(leaving[i - first]);
+    std::vector<KnownSwitches> known = known_switches(problem, points);
+    for (std::size_t i = first; i < end; ++i) entries[i].known = std::move(known[i - first]);
   }
 }
 
 /// Neighbours with the same answer together.
 void note_resting(const Entry& entry, std::size_t row, const Evaluator& evaluator, Branch& branch) {
-  const auto rows = resting_rows(entry.point, entry.not_resting, row, evaluator);
+  const auto rows = resting_rows(entry.point, entry.known, row, evaluator);
   branch.samples[row].rests = rows.has_value();
   if (rows) add_resting(*rows, branch.resting);
 }
 
 Sample sample_of(const RowMaking& making, const Entry& e) {
-  return {making.evaluator.values(making.quantities, e.point, &e.turns, e.not_resting),
+  return {making.evaluator.values(making.quantities, e.point, &e.turns, e.known),
           piece_text(making.problem.system(e.point.lambda), e.point.piece), ""};
 }
 
@@ -104,9 +103,9 @@ void thin(const RowMaking& making, std::size_t done, std::vector<Entry>& entries
 
 }  // namespace
 
-std::optional<RestingRows> resting_rows(const CurvePoint& point, const Switches& leaving,
+std::optional<RestingRows> resting_rows(const CurvePoint& point, const KnownSwitches& known,
                                         std::size_t row, const Evaluator& evaluator) {
-  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point, leaving);
+  const auto found = evaluator.resting_index_of(QuantityDefinition::Kind::index, point, known);
   if (!found) return std::nullopt;
   using Stable = RestingRows::Stable;
   return RestingRows{row, row,
@@ -176,7 +175,7 @@ bool add_rows(const RowMaking& making, std::vector<Entry>& entries, Branch& bran
   if (making.asking != nullptr && !making.asking->goes_on())
     leave_out_between(entries, branch.start_row);
   count_turns(entries, branch.start_row, making.problem);
-  note_leaving(entries, branch.start_row, making.problem);
+  note_switches(entries, branch.start_row, making.problem);
   branch.samples.reserve(entries.size());
   const auto goes_on = [&](const Entry& e) {
     if (making.asking == nullptr) return true;

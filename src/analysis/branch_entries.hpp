@@ -16,7 +16,7 @@ struct Entry {
   bool leaving = false;     ///< second row of a kink
   bool is_between = false;  ///< no accepted point, for a row between those of the steps
   Turns turns{};            ///< rotation vectors that continue those of the row before
-  Switches not_resting{};   ///< they are near their threshold and do not rest there
+  KnownSwitches known{};    ///< what the rest of the curve says of those near their threshold
 };
 
 /// Points and special points of one direction in the order of s, without the start.
@@ -31,9 +31,8 @@ std::vector<Entry> entries_at(const continuation::CurvePoint& start,
 std::vector<Entry> reversed(std::vector<Entry> entries);
 
 /// What all pieces together say of a state at which springs rest; nothing where none rests, or nothing decides.
-/// @param leaving  switches that are near their threshold and do not rest there
 std::optional<RestingRows> resting_rows(const continuation::CurvePoint& point,
-                                        const Switches& leaving, std::size_t row,
+                                        const KnownSwitches& known, std::size_t row,
                                         const Evaluator& evaluator);
 
 /// What rows are made with; the references must outlive it.

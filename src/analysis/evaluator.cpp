@@ -216,18 +216,18 @@ double Evaluator::guided_stiffness(const continuation::CurvePoint& point,
 
 std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& quantities,
                                       const continuation::CurvePoint& point, const Turns* turns,
-                                      const Switches& leaving) const {
+                                      const KnownSwitches& known) const {
   const Assembled* at = assemble(point);
   put_state(point, turns, state_);
   std::vector<double> values;
   values.reserve(quantities.size());
   for (const QuantityDefinition& q : quantities)
     values.push_back(at ? from_matrix(q, point, *at, state_) : undefined);
-  decide_indices(quantities, point, leaving, values);
+  decide_indices(quantities, point, known, values);
   double index = undefined;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (quantities[i].kind == Kind::index) index = values[i];
-    if (quantities[i].kind == Kind::index_driven) values[i] = driven_index(point, index, leaving);
+    if (quantities[i].kind == Kind::index_driven) values[i] = driven_index(point, index, known);
   }
   return values;
 }

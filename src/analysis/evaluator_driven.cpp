@@ -26,9 +26,9 @@ RoundedRate Evaluator::displacement_rate(const continuation::CurvePoint& point) 
 /// With the matrix A of all motions and the load's rate b the count under the constraint that b does no
 /// work is that of A, less one where b . A^-1 b < 0: where the displacement falls while the load grows.
 double Evaluator::driven_index(const continuation::CurvePoint& point, double index,
-                               const Switches& leaving) const {
+                               const KnownSwitches& known) const {
   if (std::isnan(index) || index == 0) return index;  // what is stable free is so constrained
-  if (point.tangent.dx.size() != point.x.size() || !resting_at(point, leaving).empty())
+  if (point.tangent.dx.size() != point.x.size() || !resting_at(point, known).empty())
     return undefined;
   const RoundedRate rate = displacement_rate(point);
   if (rate.is_zero()) return index;

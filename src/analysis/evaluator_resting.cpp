@@ -39,22 +39,24 @@ std::optional<Matrix> whole_directions(const PathProblem& problem,
 }  // namespace
 
 Switches Evaluator::resting_at(const continuation::CurvePoint& point,
-                               const Switches& leaving) const {
+                               const KnownSwitches& known) const {
   if (problem_.switch_count() == 0) return {};
   if (!rest_ || !is_same(rest_->point, point))
     rest_ = KnownRest{point, resting_switches(problem_, point)};
   Switches resting = rest_->list;
   std::erase_if(resting, [&](std::size_t j) {
-    return std::find(leaving.begin(), leaving.end(), j) != leaving.end();
+    return std::ranges::find(known.leaving, j) != known.leaving.end();
   });
-  return resting;
+  Switches all;
+  std::ranges::set_union(resting, known.staying, std::back_inserter(all));
+  return all;
 }
 
 std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
                                                         const continuation::CurvePoint& point,
-                                                        const Switches& leaving) const {
+                                                        const KnownSwitches& known) const {
   if (stages_ || !problem_.symmetric()) return std::nullopt;
-  const Switches resting = resting_at(point, leaving);
+  const Switches resting = resting_at(point, known);
   if (resting.empty()) return std::nullopt;
   const auto directions = kind == Kind::index ? own_directions(problem_, point, resting)
                                               : whole_directions(problem_, point, resting);
@@ -88,14 +90,14 @@ std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
 }
 
 void Evaluator::decide_indices(const std::vector<QuantityDefinition>& quantities,
-                               const continuation::CurvePoint& point, const Switches& leaving,
+                               const continuation::CurvePoint& point, const KnownSwitches& known,
                                std::vector<double>& values) const {
-  const Switches resting = resting_at(point, leaving);
+  const Switches resting = resting_at(point, known);
   if (resting.empty()) return;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const Kind kind = quantities[i].kind;
     if (kind != Kind::index && kind != Kind::index_pose && kind != Kind::index_force) continue;
-    if (const auto decided = resting_index_of(kind, point, leaving))
+    if (const auto decided = resting_index_of(kind, point, known))
       values[i] = decided->index();
     else
       values[i] = largest_index(quantities[i], point, resting, values[i]);

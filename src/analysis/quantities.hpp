@@ -103,10 +103,10 @@ class Evaluator {
                const Turns* turns = nullptr) const;
 
   /// All quantities; assembles the matrix once.
-  /// @param leaving  switches that are known not to rest there
+  /// @param known  what the rest of the curve says of its switches
   std::vector<double> values(const std::vector<QuantityDefinition>& quantities,
                              const continuation::CurvePoint& point, const Turns* turns = nullptr,
-                             const Switches& leaving = {}) const;
+                             const KnownSwitches& known = {}) const;
 
   /// d(value)/ds along the tangent for linear quantities, NaN for the others.
   std::vector<double> rates(const std::vector<QuantityDefinition>& quantities,
@@ -146,10 +146,10 @@ class Evaluator {
 
   /// Where springs rest at their threshold: the number of unstable modes as all pieces together say.
   /// @param kind     index, index_pose or index_force
-  /// @param leaving  switches that are known not to rest there
+  /// @param known  what the rest of the curve says of its switches
   std::optional<RestingIndex> resting_index_of(QuantityDefinition::Kind kind,
                                                const continuation::CurvePoint& point,
-                                               const Switches& leaving = {}) const;
+                                               const KnownSwitches& known = {}) const;
 
  private:
   struct Assembled {
@@ -191,13 +191,13 @@ class Evaluator {
   double guided_stiffness(const continuation::CurvePoint& point, const Assembled& at) const;
   /// Where springs rest at their threshold: what all pieces together say.
   void decide_indices(const std::vector<QuantityDefinition>& quantities,
-                      const continuation::CurvePoint& point, const Switches& leaving,
+                      const continuation::CurvePoint& point, const KnownSwitches& known,
                       std::vector<double>& values) const;
-  /// Switches that rest there, those that are known to leave left out.
-  Switches resting_at(const continuation::CurvePoint& point, const Switches& leaving) const;
+  /// Switches that rest there.
+  Switches resting_at(const continuation::CurvePoint& point, const KnownSwitches& known) const;
   /// Unstable modes if the displacement along the load were driven, from those under the load.
   double driven_index(const continuation::CurvePoint& point, double index,
-                      const Switches& leaving) const;
+                      const KnownSwitches& known) const;
   /// Where that is not known: the largest number of unstable modes of all sides.
   double largest_index(const QuantityDefinition& quantity, const continuation::CurvePoint& point,
                        const std::vector<std::size_t>& resting, double own) const;

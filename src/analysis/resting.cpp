@@ -65,6 +65,9 @@ std::optional<Vector> jumps_of(const MatrixOfPiece& matrix, const Piece& piece,
 /// What no spring that rests is farther from its threshold than.
 constexpr double zero_switch = continuation::promised_place;
 
+/// What touches zero is farther from it where the place can be told from that of the touch.
+constexpr double touched = continuation::told_apart * continuation::told_apart;
+
 /// Switches at a point of the curve, their rates along it, and what rounding does to them.
 struct SwitchPlaces {
   Vector g{}, rates{}, rounding{};
@@ -153,30 +156,39 @@ Switches resting_switches(const PathProblem& problem, const continuation::CurveP
   return list;
 }
 
-std::vector<Switches> leaving_switches(const PathProblem& problem,
-                                       const std::vector<const continuation::CurvePoint*>& points) {
-  std::vector<Switches> list(points.size());
+std::vector<KnownSwitches> known_switches(
+    const PathProblem& problem, const std::vector<const continuation::CurvePoint*>& points) {
+  std::vector<KnownSwitches> list(points.size());
   const auto is_near = [&](const auto* p) { return has_zero_switch(problem, *p); };
   if (points.empty() || !std::any_of(points.begin(), points.end(), is_near)) return list;
   // Beside the ends rounding may be that of a singular point.
   const double begin = points.front()->s + continuation::told_apart,
                end = points.back()->s - continuation::told_apart;
-  std::vector<bool> leaves(static_cast<std::size_t>(problem.switch_count()), false);
+  const auto count = static_cast<std::size_t>(problem.switch_count());
+  std::vector<bool> leaves(count, false), stays(count, false), only_touches(count, false);
   Vector g;
   for (const auto* point : points) {
-    if (point->s < begin || point->s > end || !problem.switches(point->x, point->lambda, g))
+    if (!problem.switches(point->x, point->lambda, g)) continue;
+    if (point->s < begin || point->s > end) {
+      for (std::size_t j = 0; j < count; ++j)
+        if (std::abs(g[static_cast<Index>(j)]) > touched) only_touches[j] = true;
       continue;
+    }
     const bool near = g.cwiseAbs().minCoeff() <= zero_switch;
     const auto at = near ? places_at(problem, *point) : std::nullopt;
-    for (Index j = 0; j < g.size(); ++j)
-      if (std::abs(g[j]) > (at ? at->rounding[j] : zero_switch))
-        leaves[static_cast<std::size_t>(j)] = true;
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto k = static_cast<Index>(j);
+      if (std::abs(g[k]) > (at ? at->rounding[k] : zero_switch)) leaves[j] = true;
+      if (at && at->is_zero(k) && at->seems_to_stay(k)) stays[j] = true;
+    }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!problem.switches(points[i]->x, points[i]->lambda, g)) continue;
-    for (Index j = 0; j < g.size(); ++j)
-      if (std::abs(g[j]) <= zero_switch && leaves[static_cast<std::size_t>(j)])
-        list[i].push_back(static_cast<std::size_t>(j));
+    for (std::size_t j = 0; j < count; ++j) {
+      if (leaves[j] && std::abs(g[static_cast<Index>(j)]) <= zero_switch)
+        list[i].leaving.push_back(j);
+      if (stays[j] && !leaves[j] && !only_touches[j]) list[i].staying.push_back(j);
+    }
   }
   return list;
 }

@@ -19,11 +19,18 @@ using Switches = std::vector<std::size_t>;
 /// force of a stiff spring tells distances from its threshold that are far below those of places.
 Switches resting_switches(const PathProblem& problem, const continuation::CurvePoint& point);
 
+/// What the rest of a curve says of the switches at one of its points.
+struct KnownSwitches {
+  Switches leaving{};  ///< near their threshold, and they do not rest there
+  Switches staying{};  ///< they rest, wherever rounding has put the point
+};
+
 /// For every point of one smooth curve the switches that are so near to zero that they might rest, and do not: the
-/// curve is clear of their surface elsewhere. A function that is zero along a part of it is zero along all of it.
+/// curve is clear of their surface elsewhere. A function that is zero along a part of it is zero along all of it: those
+/// that are zero at all points rest at those as well that a special point beside them displaces.
 /// @param points  of one piece, between two special points
-std::vector<Switches> leaving_switches(const PathProblem& problem,
-                                       const std::vector<const continuation::CurvePoint*>& points);
+std::vector<KnownSwitches> known_switches(
+    const PathProblem& problem, const std::vector<const continuation::CurvePoint*>& points);
 
 /// All pieces that meet where these switches rest, the given one among them; at most 2^6.
 std::vector<Piece> pieces_around(const Piece& piece, const std::vector<std::size_t>& resting);

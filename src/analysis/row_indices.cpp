@@ -62,13 +62,22 @@ class RowsBeside {
     return k;
   }
 
+  /// Is the row so near to a critical point that not even the eigenvalue that vanishes there is clear of rounding?
+  bool is_blurred(std::size_t point, std::size_t row) const {
+    constexpr double clear = 8 * continuation::root_of_rounding;
+    return distance(point, row) <= clear;
+  }
+
   static constexpr std::size_t ahead = 1, back = static_cast<std::size_t>(-1);
 
  private:
   bool is_near(std::size_t point, std::size_t row) const {
     if (row >= is_near_.size() || is_special_[row]) return false;
+    return distance(point, row) <= continuation::told_apart;
+  }
+  double distance(std::size_t a, std::size_t b) const {
     const auto s = [&](std::size_t i) { return branch_.samples[i].values.front(); };
-    return std::abs(s(row) - s(point)) <= continuation::told_apart;
+    return std::abs(s(a) - s(b));
   }
 
   const Branch& branch_;
@@ -78,6 +87,9 @@ class RowsBeside {
 /// Beside a critical point the eigenvalue that vanishes there is smaller than what rounding of the place makes of it.
 /// Rows that are nearer than the engine tells points apart have the counts of the first row beyond them on that side:
 /// counts change at special points only.
+/// Not so where springs rest: an eigenvalue of one piece passes zero anywhere if its motion leads out of the piece. There
+/// a row has the counts of its own pieces as soon as they are clear: a state that is off by e at a distance d from a
+/// special point, e d being the rounding, has eigenvalues of the size of d that are off by e.
 /// @param critical  the rows of critical points
 /// @returns for every row the one whose count it has
 std::vector<std::size_t> counted_rows(const Branch& branch, const std::vector<bool>& critical) {
@@ -88,7 +100,8 @@ std::vector<std::size_t> counted_rows(const Branch& branch, const std::vector<bo
     if (!critical[i]) continue;
     for (const std::size_t step : {RowsBeside::ahead, RowsBeside::back})
       if (const auto beyond = beside.first_beyond(i, step))
-        for (std::size_t k = i + step; k != *beyond; k += step) rows[k] = *beyond;
+        for (std::size_t k = i + step; k != *beyond; k += step)
+          if (!branch.samples[k].rests || beside.is_blurred(i, k)) rows[k] = *beyond;
   }
   return rows;
 }
