@@ -80,6 +80,7 @@ class AskedProblem {
   std::vector<Index> double_covers() const { return problem_.double_covers(); }
   std::string switch_name(Index j) const { return problem_.switch_name(j); }
   double growth(const Piece& piece) const { return problem_.growth(piece); }
+  continuation::LambdaMeasure lambda_measure() const { return problem_.lambda_measure(); }
 
  private:
   /// @throws continuation::Interrupted

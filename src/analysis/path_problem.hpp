@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "springfold/continuation/problem.hpp"
 #include "springfold/statics/second_derivatives.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "springfold/statics/stage_jacobians.hpp"
@@ -33,6 +34,7 @@ struct PathRule {
   double family_step = 0x1p-8;  ///< difference step in lambda for the derivative by the parameter
   bool quaternions = true;  ///< for free rotations of spatial bodies, instead of rotation vectors
   bool symmetric = true;    ///< all loads have a potential
+  continuation::LambdaMeasure lambda_measure{};
   double length = 1;        ///< unit of lengths, for the names of switches
 };
 
@@ -91,6 +93,7 @@ class PathProblem {
   /// bodies; 0 for all others.
   Vector periods() const;
   std::vector<bool> angles() const;        ///< per unknown: an angle, of a joint or a planar body
+  continuation::LambdaMeasure lambda_measure() const { return rule_.lambda_measure; }
   std::string switch_name(Index j) const;  ///< "spring leg.knee (acts above 0.2618)"
 
   std::vector<Index> double_covers() const;  ///< quaternions: first entries in y

@@ -139,18 +139,23 @@ struct Begun {
   const Observer& observer;
   const TraceBy& trace_by;
   const statics::FirstEquilibrium& first;
-  double first_unit = 1;  ///< of lambda, that the response at the start asks for
 };
 
-/// So many times larger than the first critical load the unit of lambda leaves nothing to be told of it.
-constexpr double hides_first_load = 0x1p20;
+/// Where a straight curve's range of lambda is so many times longer than the way to the first critical load asks for, no
+/// unit serves both: lambda is measured in parts of itself beyond that way.
+constexpr double long_beside_first_load = 0x1p10;
 
-/// Where a straight curve stays unresolved in a unit that its long range asks for: what helps.
-void doubt_hidden_load(double first_unit, double unit, StudyResult& result) {
-  if (!(unit >= hides_first_load * first_unit) || complete(result)) return;
-  result.doubts.push_back("the first critical load, at a lambda below " + rounded(first_unit, 1) +
-                          ", is far below the range of lambda: limits of lambda of its order in "
-                          "until resolve what lies beside the start");
+/// In what lambda is to be measured instead.
+struct LambdaAsked {
+  double factor = 1;  ///< by which its unit should grow: then the result is worthless; 1: all is done
+  bool is_straight = false;  ///< the curve goes straight along lambda where it begins
+};
+
+/// Does lambda range over orders of magnitude between the first critical load and the limits?
+bool is_of_many_sizes(const Study& study, const LambdaAsked& asked, const Setup& first) {
+  const double range = range_of_lambda(study, first);
+  return asked.is_straight && std::isfinite(range) &&
+         range >= long_beside_first_load * longest_straight_way;
 }
 
 void report_start(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
@@ -169,8 +174,7 @@ void watch_lambda(const Tracing& t, const CurvePoint& start) {
 
 /// @param setup    begins at the start
 /// @param largest  factor by which the unit of lambda may still grow
-/// @returns by which factor it should grow: then the result is worthless; 1: all is done
-double run_in_units(const Begun& begun, const Setup& setup, double largest, StudyResult& result) {
+LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest, StudyResult& result) {
   const Study& study = begun.study;
   const PathProblem problem(setup.system, setup.rule);
   const Evaluator evaluator(problem, study, setup.scales);
@@ -180,7 +184,7 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   count_negative(problem, start);
   refuse_contradiction(evaluator, start, result.start);
   refuse_held_twice(evaluator, study, start, result.start);
-  if (!result.start.found) return 1;
+  if (!result.start.found) return {};
   report_tangent(evaluator, start, begun.first.z, result.start);
   report_range(study, evaluator, quantities, start, result.start);
   report_start(evaluator, start, result.start);
@@ -202,9 +206,7 @@ double run_in_units(const Begun& begun, const Setup& setup, double largest, Stud
   if (begun.family != nullptr && study.control == ControlMode::parameter && crawl.factor() == 1)
     doubt_broken_rules(study, *begun.family, quantities, result);
   if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
-  if (crawl.factor() == 1 && crawl.begins_straight())
-    doubt_hidden_load(begun.first_unit, setup.lambda_scale, result);
-  return crawl.factor();
+  return {crawl.factor(), crawl.begins_straight()};
 }
 
 }  // namespace
@@ -227,19 +229,24 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const Begun begun{mechanism, study, family, observer, trace_by, first, setup.lambda_scale};
+    const Begun begun{mechanism, study, family, observer, trace_by, first};
     double largest = largest_change_of_lambda_unit;
     for (;;) {
       StudyResult attempt = result;
       Setup at_start = setup;
       begin_at(study, first, at_start);
-      const double factor = run_in_units(begun, at_start, largest, attempt);
-      if (!(factor > 1)) {
+      const LambdaAsked asked = run_in_units(begun, at_start, largest, attempt);
+      if (!(asked.factor > 1)) {
         result = std::move(attempt);
         break;
       }
-      largest /= factor;
-      enlarge_lambda_unit(mechanism, study, family, factor, first, setup);
+      if (is_of_many_sizes(study, asked, setup)) {
+        setup.rule.lambda_measure = {setup.lambda_start, 1};
+        largest = 1;
+        continue;
+      }
+      largest /= asked.factor;
+      enlarge_lambda_unit(mechanism, study, family, asked.factor, first, setup);
     }
   }
   result.seconds = thread_seconds() - began;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <limits>
 #include <string>
 
 #include "springfold/core/structured_matrix.hpp"
@@ -69,6 +70,16 @@ concept ProblemWithSecondDerivatives = requires(const P& problem, const Vector& 
   problem.second_along(x, lambda, piece, w, w, v);
 };
 
+/// How the arc length measures lambda: as it is up to `linear` from `centre`, beyond in parts of its distance from there,
+///
+///     lambda = centre + linear sinh((mu - centre) / linear),   mu enters the arc length.
+///
+/// For curves on which what happens lies at lambdas of very different size.
+struct LambdaMeasure {
+  double centre = 0;
+  double linear = std::numeric_limits<double>::infinity();
+};
+
 /// The copy of x that is nearest to `near` among those with changed signs: -1 for the unknowns of
 /// double covers that must change theirs, otherwise 1. The same factors belong to a tangent at x.
 Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, const Vector& near);
@@ -102,6 +113,8 @@ Vector nearest_signs(const std::vector<Index>& double_covers, const Vector& x, c
 ///                                     the start, at least 1: stiff springs that act there. Residuals
 ///                                     may then be as many times the rounding of terms of size one.
 ///                                     Without this member: 1
+///     LambdaMeasure lambda_measure() const
+///                                     without this member: lambda as it is
 class ProblemView {
  public:
   template <class P>
@@ -143,6 +156,7 @@ class ProblemView {
   std::vector<Index> double_covers() const { return calls_->double_covers(problem_); }
   std::string switch_name(Index j) const { return calls_->switch_name(problem_, j); }
   double growth(const Piece& piece) const { return calls_->growth(problem_, piece); }
+  LambdaMeasure lambda_measure() const { return calls_->lambda_measure(problem_); }
 
  private:
   struct Calls {
@@ -164,6 +178,7 @@ class ProblemView {
     std::vector<Index> (*double_covers)(const void*);
     std::string (*switch_name)(const void*, Index);
     double (*growth)(const void*, const Piece&);
+    LambdaMeasure (*lambda_measure)(const void*);
   };
 
   template <class P>
@@ -277,6 +292,12 @@ class ProblemView {
           return as<P>(p).growth(piece);
         else
           return 1;
+      },
+      [](const void* p) -> LambdaMeasure {
+        if constexpr (requires { as<P>(p).lambda_measure(); })
+          return as<P>(p).lambda_measure();
+        else
+          return {};
       }};
 
   const void* problem_;

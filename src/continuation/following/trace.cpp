@@ -124,7 +124,8 @@ Curve trace_normalised(ProblemView problem, const Vector& x, double lambda, cons
   check_ray(problem, start);
   check_events(events);
   const Normalised own(problem, x, lambda, start.piece);
-  Curve curve = own.outside(trace_inside(own, own.inside(x), lambda, own.inside(start),
+  const double mu = own.inside(lambda);
+  Curve curve = own.outside(trace_inside(own, own.inside(x), mu, own.inside(start, mu),
                                          own.inside(events), options, own.inside(observer),
                                          own.inside(at_hit), middles, IfInterrupted::keep));
   if (!middles) return curve;
@@ -143,11 +144,12 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
   const Normalised own(problem, x, lambda, piece);
   const Walker walker{own, own.metric(), options};
   const Vector y = own.inside(x);
-  const std::vector<Index> active = active_switches(walker, y, lambda);
+  const double mu = own.inside(lambda);
+  const std::vector<Index> active = active_switches(walker, y, mu);
   if (active.size() > 12)
     return {.complete = false, .why = "too many switches act at the start point"};
-  Rays result = rays_at(walker, y, lambda, piece, active);
-  for (Ray& ray : result.rays) ray = own.outside(ray);
+  Rays result = rays_at(walker, y, mu, piece, active);
+  for (Ray& ray : result.rays) ray = own.outside(ray, mu);
   return result;
 }
 

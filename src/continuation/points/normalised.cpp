@@ -23,7 +23,7 @@ constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 }  // namespace
 
 Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : problem_{problem}, start_{x}, start_lambda_{lambda}, start_piece_{piece} {
+    : problem_{problem}, measure_{problem.lambda_measure()}, start_{x}, start_lambda_{lambda}, start_piece_{piece} {
   const Index n = problem.size();
   unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
@@ -68,31 +68,52 @@ void Normalised::scale_switches(const Vector& x, double lambda) {
   }
 }
 
-bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
+bool Normalised::is_as_it_is() const { return !std::isfinite(measure_.linear); }
+
+double Normalised::inside(double lambda) const {
+  if (is_as_it_is()) return lambda;
+  const auto [centre, linear] = measure_;
+  return centre + linear * std::asinh((lambda - centre) / linear);
+}
+
+double Normalised::outside(double mu) const {
+  if (is_as_it_is()) return mu;
+  const auto [centre, linear] = measure_;
+  return centre + linear * std::sinh((mu - centre) / linear);
+}
+
+/// dlambda / dmu
+double Normalised::rate(double mu) const {
+  return is_as_it_is() ? 1 : std::cosh((mu - measure_.centre) / measure_.linear);
+}
+
+bool Normalised::residual(const Vector& y, double mu, const Piece& piece, Vector& G) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.residual(x_, lambda, piece, G)) return false;
+  if (!problem_.residual(x_, outside(mu), piece, G)) return false;
   G.array() *= force_.array();
   return true;
 }
 
-bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
-                             Vector& dG_dlambda) const {
+bool Normalised::derivatives(const Vector& y, double mu, const Piece& piece, Matrix& dG_dy,
+                             Vector& dG_dmu) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
-  scale(dG_dy, dG_dlambda);
+  if (!problem_.derivatives(x_, outside(mu), piece, dG_dy, dG_dmu)) return false;
+  scale(dG_dy, dG_dmu);
+  dG_dmu *= rate(mu);
   return true;
 }
 
-bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, Vector& G,
-                           Matrix& dG_dy, Vector& dG_dlambda) const {
+bool Normalised::equations(const Vector& y, double mu, const Piece& piece, Vector& G,
+                           Matrix& dG_dy, Vector& dG_dmu) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
+  if (!problem_.equations(x_, outside(mu), piece, G, dG_dy, dG_dmu)) return false;
   G.array() *= force_.array();
-  scale(dG_dy, dG_dlambda);
+  scale(dG_dy, dG_dmu);
+  dG_dmu *= rate(mu);
   return true;
 }
 
-void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
+void Normalised::scale(Matrix& dG_dy, Vector& dG_dmu) const {
   const Index n = unit_.size();
   const double* __restrict const force = force_.data();
   for (Index j = 0; j < n; ++j) {
@@ -100,47 +121,54 @@ void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
     const double unit = unit_[j];
     for (Index i = 0; i < n; ++i) column[i] *= force[i] * unit;
   }
-  dG_dlambda.array() *= force_.array();
+  dG_dmu.array() *= force_.array();
 }
 
-bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
-                                        StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
+bool Normalised::structured_derivatives(const Vector& y, double mu, const Piece& piece,
+                                        StructuredMatrix& dG_dy, Vector& dG_dmu) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
+  if (!problem_.structured_derivatives(x_, outside(mu), piece, matrices_.next(), dG_dmu))
     return false;
   matrices_.put(force_, unit_, dG_dy);
-  dG_dlambda.array() *= force_.array();
+  dG_dmu.array() *= rate(mu) * force_.array();
   return true;
 }
 
-bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
+bool Normalised::switches(const Vector& y, double mu, Vector& h) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switches(x_, lambda, h)) return false;
+  if (!problem_.switches(x_, outside(mu), h)) return false;
   h.array() *= surface_.array();
   return true;
 }
 
-bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
-                                  Vector& dh_dlambda) const {
+bool Normalised::switch_gradients(const Vector& y, double mu, Matrix& dh_dy,
+                                  Vector& dh_dmu) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
+  if (!problem_.switch_gradients(x_, outside(mu), dh_dy, dh_dmu)) return false;
   dh_dy.array().colwise() *= surface_.array();
   dh_dy.array().rowwise() *= unit_.transpose().array();
-  dh_dlambda.array() *= surface_.array();
+  dh_dmu.array() *= rate(mu) * surface_.array();
   return true;
 }
 
-Ray Normalised::inside(const Ray& ray) const {
+Direction Normalised::inside(const Direction& direction, double mu) const {
+  Direction result{inside(direction.dx), direction.dlambda / rate(mu)};
+  if (is_as_it_is()) return result;
+  const double length = std::sqrt(result.dx.cwiseAbs2().dot(metric()) + result.dlambda * result.dlambda);
+  return {result.dx / length, result.dlambda / length};
+}
+
+Ray Normalised::inside(const Ray& ray, double mu) const {
   Ray result = ray;
-  result.tangent = {inside(ray.tangent.dx), ray.tangent.dlambda};
+  result.tangent = inside(ray.tangent, mu);
   if (ray.start) result.start = inside(*ray.start);
   if (ray.beyond) result.beyond = inside(*ray.beyond);
   return result;
 }
 
-Ray Normalised::outside(const Ray& ray) const {
+Ray Normalised::outside(const Ray& ray, double mu) const {
   Ray result = ray;
-  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), ray.tangent.dlambda};
+  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), rate(mu) * ray.tangent.dlambda};
   if (ray.start) result.start = outside(*ray.start);
   if (ray.beyond) result.beyond = outside(*ray.beyond);
   return result;
@@ -149,14 +177,18 @@ Ray Normalised::outside(const Ray& ray) const {
 CurvePoint Normalised::inside(const CurvePoint& point) const {
   CurvePoint result = point;
   result.x = inside(point.x);
-  if (point.tangent.dx.size() > 0)
-    result.tangent = {inside(point.tangent.dx), point.tangent.dlambda};
+  result.lambda = inside(point.lambda);
+  if (point.tangent.dx.size() > 0) result.tangent = inside(point.tangent, result.lambda);
   return result;
 }
 
 CurvePoint Normalised::outside(CurvePoint point) const {
   point.x.array() *= unit_.array();
   if (point.tangent.dx.size() > 0) point.tangent.dx.array() *= unit_.array();
+  if (!is_as_it_is()) {
+    point.tangent.dlambda *= rate(point.lambda);
+    point.lambda = outside(point.lambda);
+  }
   return point;
 }
 

@@ -17,8 +17,9 @@ namespace springfold::continuation {
 ///     h_j = surface_j g_j
 ///
 /// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
-/// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
-/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's.
+/// [dG/dy dG/dmu] at and near the start becomes about 1, and so does the gradient of each h_j.
+/// Unknowns of weight zero keep their unit. The arc length is the caller's, and so is lambda but where the problem has
+/// it measured otherwise (LambdaMeasure): inside is mu then, and tangents outside are rates by an arc length of mu.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve
@@ -26,17 +27,17 @@ class Normalised {
 
   // What the engine asks for.
   Index size() const { return problem_.size(); }
-  bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
-  bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
-                   Vector& dG_dlambda) const;
-  bool equations(const Vector& y, double lambda, const Piece& piece, Vector& G, Matrix& dG_dy,
-                 Vector& dG_dlambda) const;
+  bool residual(const Vector& y, double mu, const Piece& piece, Vector& G) const;
+  bool derivatives(const Vector& y, double mu, const Piece& piece, Matrix& dG_dy,
+                   Vector& dG_dmu) const;
+  bool equations(const Vector& y, double mu, const Piece& piece, Vector& G, Matrix& dG_dy,
+                 Vector& dG_dmu) const;
   bool structured() const { return problem_.structured(); }
-  bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
-                              StructuredMatrix& dG_dy, Vector& dG_dlambda) const;
+  bool structured_derivatives(const Vector& y, double mu, const Piece& piece,
+                              StructuredMatrix& dG_dy, Vector& dG_dmu) const;
   Index switch_count() const { return problem_.switch_count(); }
-  bool switches(const Vector& y, double lambda, Vector& h) const;
-  bool switch_gradients(const Vector& y, double lambda, Matrix& dh_dy, Vector& dh_dlambda) const;
+  bool switches(const Vector& y, double mu, Vector& h) const;
+  bool switch_gradients(const Vector& y, double mu, Matrix& dh_dy, Vector& dh_dmu) const;
   bool symmetric() const { return problem_.symmetric(); }
   Vector metric() const { return problem_.metric().cwiseProduct(unit_.cwiseAbs2()); }
   Vector periods() const { return problem_.periods().cwiseQuotient(unit_); }
@@ -45,11 +46,13 @@ class Normalised {
   double growth(const Piece& piece) const;
 
   Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
-  Ray inside(const Ray& ray) const;
+  double inside(double lambda) const;
+  double outside(double mu) const;
+  Ray inside(const Ray& ray, double mu) const;
   CurvePoint inside(const CurvePoint& point) const;
   CurvePoint outside(CurvePoint point) const;
   Hit outside(const Hit& hit) const;
-  Ray outside(const Ray& ray) const;
+  Ray outside(const Ray& ray, double mu) const;
   std::vector<Event> inside(const std::vector<Event>& events) const;
   StepObserver inside(const StepObserver& observer) const;
   HitObserver inside(const HitObserver& observer) const;
@@ -59,12 +62,16 @@ class Normalised {
   Diagram outside(Diagram diagram) const;
 
  private:
-  void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
+  bool is_as_it_is() const;  ///< lambda
+  double rate(double mu) const;
+  Direction inside(const Direction& direction, double mu) const;
+  void scale(Matrix& dG_dy, Vector& dG_dmu) const;
   double largest_at(const Vector& x, double lambda, const Piece& piece) const;
   void scale_equations(const Vector& x, double lambda, const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 
   ProblemView problem_;
+  LambdaMeasure measure_{};
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
