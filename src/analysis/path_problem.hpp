@@ -35,7 +35,7 @@ struct PathRule {
   bool quaternions = true;  ///< for free rotations of spatial bodies, instead of rotation vectors
   bool symmetric = true;    ///< all loads have a potential
   continuation::LambdaMeasure lambda_measure{};
-  double length = 1;        ///< unit of lengths, for the names of switches
+  double length = 1;  ///< unit of lengths, for the names of switches
 };
 
 /// The pose from which deflections are counted.
@@ -92,7 +92,7 @@ class PathProblem {
   /// 2 pi for joint angles without a spring (a spring counts turns) and for the angle of planar
   /// bodies; 0 for all others.
   Vector periods() const;
-  std::vector<bool> angles() const;        ///< per unknown: an angle, of a joint or a planar body
+  std::vector<bool> angles() const;  ///< per unknown: an angle, of a joint or a planar body
   continuation::LambdaMeasure lambda_measure() const { return rule_.lambda_measure; }
   std::string switch_name(Index j) const;  ///< "spring leg.knee (acts above 0.2618)"
 

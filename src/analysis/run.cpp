@@ -147,7 +147,8 @@ constexpr double long_beside_first_load = 0x1p10;
 
 /// In what lambda is to be measured instead.
 struct LambdaAsked {
-  double factor = 1;  ///< by which its unit should grow: then the result is worthless; 1: all is done
+  double factor =
+      1;  ///< by which its unit should grow: then the result is worthless; 1: all is done
   bool is_straight = false;  ///< the curve goes straight along lambda where it begins
 };
 
@@ -174,7 +175,8 @@ void watch_lambda(const Tracing& t, const CurvePoint& start) {
 
 /// @param setup    begins at the start
 /// @param largest  factor by which the unit of lambda may still grow
-LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest, StudyResult& result) {
+LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest,
+                         StudyResult& result) {
   const Study& study = begun.study;
   const PathProblem problem(setup.system, setup.rule);
   const Evaluator evaluator(problem, study, setup.scales);

@@ -379,8 +379,10 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
       check_entry(problem, start.x, start.lambda, start.piece, options.trace);
     const Normalised own(problem, starts.front().x, starts.front().lambda, starts.front().piece);
     std::vector<DiagramStart> inside = starts;
-    for (DiagramStart& start : inside)
-      start = {own.inside(start.x), own.inside(start.lambda), start.piece};
+    for (DiagramStart& start : inside) {
+      CurvePoint at = own.inside(start.x, start.lambda);
+      start = {std::move(at.x), at.lambda, start.piece};
+    }
     return own.outside(
         diagram_inside(own, inside, own.inside(events), own.inside(options), own.inside(observer)));
   } catch (const Interrupted&) {  // before anything was traced

@@ -124,8 +124,8 @@ Curve trace_normalised(ProblemView problem, const Vector& x, double lambda, cons
   check_ray(problem, start);
   check_events(events);
   const Normalised own(problem, x, lambda, start.piece);
-  const double mu = own.inside(lambda);
-  Curve curve = own.outside(trace_inside(own, own.inside(x), mu, own.inside(start, mu),
+  const CurvePoint first = own.inside(x, lambda);
+  Curve curve = own.outside(trace_inside(own, first.x, first.lambda, own.inside(start, first),
                                          own.inside(events), options, own.inside(observer),
                                          own.inside(at_hit), middles, IfInterrupted::keep));
   if (!middles) return curve;
@@ -143,13 +143,12 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
   check_entry(problem, x, lambda, piece, options);
   const Normalised own(problem, x, lambda, piece);
   const Walker walker{own, own.metric(), options};
-  const Vector y = own.inside(x);
-  const double mu = own.inside(lambda);
-  const std::vector<Index> active = active_switches(walker, y, mu);
+  const CurvePoint at = own.inside(x, lambda);
+  const std::vector<Index> active = active_switches(walker, at.x, at.lambda);
   if (active.size() > 12)
     return {.complete = false, .why = "too many switches act at the start point"};
-  Rays result = rays_at(walker, y, mu, piece, active);
-  for (Ray& ray : result.rays) ray = own.outside(ray, mu);
+  Rays result = rays_at(walker, at.x, at.lambda, piece, active);
+  for (Ray& ray : result.rays) ray = own.outside(ray, at);
   return result;
 }
 

@@ -23,13 +23,22 @@ constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 }  // namespace
 
 Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : problem_{problem}, measure_{problem.lambda_measure()}, start_{x}, start_lambda_{lambda}, start_piece_{piece} {
+    : growing_{problem},
+      problem_{growing_.is_plain() ? problem : ProblemView(growing_)},
+      start_{x},
+      start_lambda_{lambda},
+      start_piece_{piece} {
+  if (!growing_.is_plain()) {
+    const CurvePoint start = growing_.inside(x, lambda);
+    start_ = start.x;
+    start_lambda_ = start.lambda;
+  }
   const Index n = problem.size();
   unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
-  scale_equations(x, lambda, piece);
-  scale_switches(x, lambda);
+  scale_equations(start_, start_lambda_, piece);
+  scale_switches(start_, start_lambda_);
 }
 
 /// Largest entry of [dG/dy dG/dlambda] at a point, 0 where there is none.
@@ -42,10 +51,29 @@ double Normalised::largest_at(const Vector& x, double lambda, const Piece& piece
   return std::max(largest, K.cwiseAbs().maxCoeff());
 }
 
+/// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that it
+/// finds there, and does not change.
+double Normalised::largest_that_stays(const Vector& x, double lambda, const Piece& piece) const {
+  constexpr double d = distances_beside.back();
+  Linearisation at, aside;
+  if (!linearise_densely(problem_, x, lambda, piece, at) ||
+      !linearise_densely(problem_, x + d * unit_, lambda + d, piece, aside))
+    return 0;
+  Matrix K = at.dF_dx;
+  const double r = growing_.r_at(lambda + d) / growing_.r_at(lambda);
+  const Vector weights = problem_.metric();
+  for (Index j = 0; j < K.cols(); ++j)
+    for (Index i = 0; i < K.rows(); ++i)
+      if (weights[i] > 0 && weights[j] > 0) K(i, j) = (r * aside.dF_dx(i, j) - K(i, j)) / d;
+  return std::max((force_.asDiagonal() * K * unit_.asDiagonal()).cwiseAbs().maxCoeff(),
+                  force_.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
+}
+
 void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
-  double largest = 0;
-  for (const double d : distances_beside)
-    largest = std::max(largest, largest_at(x + d * unit_, lambda + d, piece));
+  double largest = growing_.is_plain() ? 0 : largest_that_stays(x, lambda, piece);
+  if (!(largest > 0))
+    for (const double d : distances_beside)
+      largest = std::max(largest, largest_at(x + d * unit_, lambda + d, piece));
   force_ /= power_of_two_near(largest);
 }
 
@@ -68,52 +96,31 @@ void Normalised::scale_switches(const Vector& x, double lambda) {
   }
 }
 
-bool Normalised::is_as_it_is() const { return !std::isfinite(measure_.linear); }
-
-double Normalised::inside(double lambda) const {
-  if (is_as_it_is()) return lambda;
-  const auto [centre, linear] = measure_;
-  return centre + linear * std::asinh((lambda - centre) / linear);
-}
-
-double Normalised::outside(double mu) const {
-  if (is_as_it_is()) return mu;
-  const auto [centre, linear] = measure_;
-  return centre + linear * std::sinh((mu - centre) / linear);
-}
-
-/// dlambda / dmu
-double Normalised::rate(double mu) const {
-  return is_as_it_is() ? 1 : std::cosh((mu - measure_.centre) / measure_.linear);
-}
-
-bool Normalised::residual(const Vector& y, double mu, const Piece& piece, Vector& G) const {
+bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.residual(x_, outside(mu), piece, G)) return false;
+  if (!problem_.residual(x_, lambda, piece, G)) return false;
   G.array() *= force_.array();
   return true;
 }
 
-bool Normalised::derivatives(const Vector& y, double mu, const Piece& piece, Matrix& dG_dy,
-                             Vector& dG_dmu) const {
+bool Normalised::derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
+                             Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.derivatives(x_, outside(mu), piece, dG_dy, dG_dmu)) return false;
-  scale(dG_dy, dG_dmu);
-  dG_dmu *= rate(mu);
+  if (!problem_.derivatives(x_, lambda, piece, dG_dy, dG_dlambda)) return false;
+  scale(dG_dy, dG_dlambda);
   return true;
 }
 
-bool Normalised::equations(const Vector& y, double mu, const Piece& piece, Vector& G,
-                           Matrix& dG_dy, Vector& dG_dmu) const {
+bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, Vector& G,
+                           Matrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.equations(x_, outside(mu), piece, G, dG_dy, dG_dmu)) return false;
+  if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
   G.array() *= force_.array();
-  scale(dG_dy, dG_dmu);
-  dG_dmu *= rate(mu);
+  scale(dG_dy, dG_dlambda);
   return true;
 }
 
-void Normalised::scale(Matrix& dG_dy, Vector& dG_dmu) const {
+void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
   const Index n = unit_.size();
   const double* __restrict const force = force_.data();
   for (Index j = 0; j < n; ++j) {
@@ -121,75 +128,80 @@ void Normalised::scale(Matrix& dG_dy, Vector& dG_dmu) const {
     const double unit = unit_[j];
     for (Index i = 0; i < n; ++i) column[i] *= force[i] * unit;
   }
-  dG_dmu.array() *= force_.array();
+  dG_dlambda.array() *= force_.array();
 }
 
-bool Normalised::structured_derivatives(const Vector& y, double mu, const Piece& piece,
-                                        StructuredMatrix& dG_dy, Vector& dG_dmu) const {
+bool Normalised::structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                                        StructuredMatrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.structured_derivatives(x_, outside(mu), piece, matrices_.next(), dG_dmu))
+  if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
     return false;
   matrices_.put(force_, unit_, dG_dy);
-  dG_dmu.array() *= rate(mu) * force_.array();
+  dG_dlambda.array() *= force_.array();
   return true;
 }
 
-bool Normalised::switches(const Vector& y, double mu, Vector& h) const {
+bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switches(x_, outside(mu), h)) return false;
+  if (!problem_.switches(x_, lambda, h)) return false;
   h.array() *= surface_.array();
   return true;
 }
 
-bool Normalised::switch_gradients(const Vector& y, double mu, Matrix& dh_dy,
-                                  Vector& dh_dmu) const {
+bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
+                                  Vector& dh_dlambda) const {
   x_ = y.cwiseProduct(unit_);
-  if (!problem_.switch_gradients(x_, outside(mu), dh_dy, dh_dmu)) return false;
+  if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
   dh_dy.array().colwise() *= surface_.array();
   dh_dy.array().rowwise() *= unit_.transpose().array();
-  dh_dmu.array() *= rate(mu) * surface_.array();
+  dh_dlambda.array() *= surface_.array();
   return true;
 }
 
-Direction Normalised::inside(const Direction& direction, double mu) const {
-  Direction result{inside(direction.dx), direction.dlambda / rate(mu)};
-  if (is_as_it_is()) return result;
-  const double length = std::sqrt(result.dx.cwiseAbs2().dot(metric()) + result.dlambda * result.dlambda);
-  return {result.dx / length, result.dlambda / length};
-}
-
-Ray Normalised::inside(const Ray& ray, double mu) const {
+Ray Normalised::inside(const Ray& ray, const CurvePoint& at) const {
+  CurvePoint beginning = at;
+  beginning.x.array() *= unit_.array();
   Ray result = ray;
-  result.tangent = inside(ray.tangent, mu);
+  if (!growing_.is_plain()) result.tangent = growing_.inside(std::move(result.tangent), beginning);
+  result.tangent.dx = in_units(result.tangent.dx);
   if (ray.start) result.start = inside(*ray.start);
   if (ray.beyond) result.beyond = inside(*ray.beyond);
   return result;
 }
 
-Ray Normalised::outside(const Ray& ray, double mu) const {
+Ray Normalised::outside(const Ray& ray, const CurvePoint& at) const {
+  CurvePoint beginning = at;
+  beginning.x.array() *= unit_.array();
   Ray result = ray;
-  result.tangent = {ray.tangent.dx.cwiseProduct(unit_), rate(mu) * ray.tangent.dlambda};
+  result.tangent.dx.array() *= unit_.array();
+  if (!growing_.is_plain()) result.tangent = growing_.outside(std::move(result.tangent), beginning);
   if (ray.start) result.start = outside(*ray.start);
   if (ray.beyond) result.beyond = outside(*ray.beyond);
   return result;
 }
 
+CurvePoint Normalised::in_own(CurvePoint point) const {
+  point.x = in_units(point.x);
+  if (point.tangent.dx.size() > 0) point.tangent.dx = in_units(point.tangent.dx);
+  return point;
+}
+
+CurvePoint Normalised::inside(const Vector& x, double lambda) const {
+  if (!growing_.is_plain()) return in_own(growing_.inside(x, lambda));
+  CurvePoint at;
+  at.x = in_units(x);
+  at.lambda = lambda;
+  return at;
+}
+
 CurvePoint Normalised::inside(const CurvePoint& point) const {
-  CurvePoint result = point;
-  result.x = inside(point.x);
-  result.lambda = inside(point.lambda);
-  if (point.tangent.dx.size() > 0) result.tangent = inside(point.tangent, result.lambda);
-  return result;
+  return in_own(growing_.is_plain() ? point : growing_.inside(point));
 }
 
 CurvePoint Normalised::outside(CurvePoint point) const {
   point.x.array() *= unit_.array();
   if (point.tangent.dx.size() > 0) point.tangent.dx.array() *= unit_.array();
-  if (!is_as_it_is()) {
-    point.tangent.dlambda *= rate(point.lambda);
-    point.lambda = outside(point.lambda);
-  }
-  return point;
+  return growing_.is_plain() ? std::move(point) : growing_.outside(std::move(point));
 }
 
 Hit Normalised::outside(const Hit& hit) const {

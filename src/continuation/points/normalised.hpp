@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "continuation/points/growing_units.hpp"
 #include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/problem.hpp"
 
@@ -17,27 +18,30 @@ namespace springfold::continuation {
 ///     h_j = surface_j g_j
 ///
 /// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
-/// [dG/dy dG/dmu] at and near the start becomes about 1, and so does the gradient of each h_j.
-/// Unknowns of weight zero keep their unit. The arc length is the caller's, and so is lambda but where the problem has
-/// it measured otherwise (LambdaMeasure): inside is mu then, and tangents outside are rates by an arc length of mu.
+/// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
+/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's, but where the problem has lambda
+/// measured otherwise (LambdaMeasure): mu stands inside for lambda then, and tangents outside are rates by the arc length
+/// of y and mu.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve
   Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece);
+  Normalised(const Normalised&) = delete;
+  Normalised& operator=(const Normalised&) = delete;
 
   // What the engine asks for.
   Index size() const { return problem_.size(); }
-  bool residual(const Vector& y, double mu, const Piece& piece, Vector& G) const;
-  bool derivatives(const Vector& y, double mu, const Piece& piece, Matrix& dG_dy,
-                   Vector& dG_dmu) const;
-  bool equations(const Vector& y, double mu, const Piece& piece, Vector& G, Matrix& dG_dy,
-                 Vector& dG_dmu) const;
+  bool residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const;
+  bool derivatives(const Vector& y, double lambda, const Piece& piece, Matrix& dG_dy,
+                   Vector& dG_dlambda) const;
+  bool equations(const Vector& y, double lambda, const Piece& piece, Vector& G, Matrix& dG_dy,
+                 Vector& dG_dlambda) const;
   bool structured() const { return problem_.structured(); }
-  bool structured_derivatives(const Vector& y, double mu, const Piece& piece,
-                              StructuredMatrix& dG_dy, Vector& dG_dmu) const;
+  bool structured_derivatives(const Vector& y, double lambda, const Piece& piece,
+                              StructuredMatrix& dG_dy, Vector& dG_dlambda) const;
   Index switch_count() const { return problem_.switch_count(); }
-  bool switches(const Vector& y, double mu, Vector& h) const;
-  bool switch_gradients(const Vector& y, double mu, Matrix& dh_dy, Vector& dh_dmu) const;
+  bool switches(const Vector& y, double lambda, Vector& h) const;
+  bool switch_gradients(const Vector& y, double lambda, Matrix& dh_dy, Vector& dh_dlambda) const;
   bool symmetric() const { return problem_.symmetric(); }
   Vector metric() const { return problem_.metric().cwiseProduct(unit_.cwiseAbs2()); }
   Vector periods() const { return problem_.periods().cwiseQuotient(unit_); }
@@ -45,14 +49,13 @@ class Normalised {
   std::string switch_name(Index j) const { return problem_.switch_name(j); }
   double growth(const Piece& piece) const;
 
-  Vector inside(const Vector& x) const { return x.cwiseQuotient(unit_); }
-  double inside(double lambda) const;
-  double outside(double mu) const;
-  Ray inside(const Ray& ray, double mu) const;
+  CurvePoint inside(const Vector& x, double lambda) const;
+  /// @param at  where it begins, inside
+  Ray inside(const Ray& ray, const CurvePoint& at) const;
   CurvePoint inside(const CurvePoint& point) const;
   CurvePoint outside(CurvePoint point) const;
   Hit outside(const Hit& hit) const;
-  Ray outside(const Ray& ray, double mu) const;
+  Ray outside(const Ray& ray, const CurvePoint& at) const;
   std::vector<Event> inside(const std::vector<Event>& events) const;
   StepObserver inside(const StepObserver& observer) const;
   HitObserver inside(const HitObserver& observer) const;
@@ -62,20 +65,20 @@ class Normalised {
   Diagram outside(Diagram diagram) const;
 
  private:
-  bool is_as_it_is() const;  ///< lambda
-  double rate(double mu) const;
-  Direction inside(const Direction& direction, double mu) const;
-  void scale(Matrix& dG_dy, Vector& dG_dmu) const;
+  Vector in_units(const Vector& x) const { return x.cwiseQuotient(unit_); }
+  CurvePoint in_own(CurvePoint point) const;
+  void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
   double largest_at(const Vector& x, double lambda, const Piece& piece) const;
+  double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
   void scale_equations(const Vector& x, double lambda, const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 
+  GrowingUnits growing_;  ///< used where lambda is not measured as it is
   ProblemView problem_;
-  LambdaMeasure measure_{};
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
   Vector surface_{};  ///< factors of the switching functions
-  Vector start_{};    ///< n, in the caller's units, with its lambda and piece
+  Vector start_{};    ///< n, in the units of problem_, with its lambda and piece
   double start_lambda_ = 0;
   Piece start_piece_{};
 
