@@ -102,7 +102,8 @@ TEST(SoftMembers, AreDeflectedHoweverStiffTheOthersAre) {
 
 /// Two links of length 1, one on the other, pressed from above: stiffness 1 at the foot, s between them. Branch points lie at the
 /// eigenvalues of [[1 + s, -s], [-s, s]].
-std::string two_links(const std::string& s, const std::string& lambda) {
+std::string two_links(const std::string& s, const std::string& lambda, int depth = 0,
+                      const std::string& foot = "1") {
   const auto link = [](const std::string& name, const std::string& stiffness) {
     return "{ joint = \"revolute\", axis = \"z\", name = \"" + name +
            "\", role = \"preloaded\", spring = { law = \"linear\", stiffness = " + stiffness +
@@ -110,10 +111,10 @@ std::string two_links(const std::string& s, const std::string& lambda) {
   };
   return "[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 2]\n[[chain]]\nname = \"a\"\n"
          "elements = [ " +
-         link("q1", "1") + link("q2", s) +
+         link("q1", foot) + link("q2", s) +
          "]\n[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\nuntil = { "
          "lambda = " +
-         lambda + " }\n";
+         lambda + ", top.x = [-1, 1] }\nbranches = { depth = " + std::to_string(depth) + " }\n";
 }
 
 TEST(SoftMembers, OfAPerfectColumnAreResolvedWithinLimitsOfTheirOrder) {
@@ -125,15 +126,32 @@ TEST(SoftMembers, OfAPerfectColumnAreResolvedWithinLimitsOfTheirOrder) {
   EXPECT_NEAR(loads[0] / first, 1, 1e-6);
 }
 
-TEST(SoftMembers, OfAPerfectColumnThatALongRangeHidesAreSaidToBeHidden) {
-  const StudyResult result = run(two_links("1e-9", "[-0.1, 2]")).of("press");
-  if (complete(result)) {  // better still
-    EXPECT_EQ(lambdas(result, EventKind::branch_point).size(), 2u);
-    return;
+/// The smaller eigenvalue without cancellation: their product is s.
+TEST(SoftMembers, OfAPerfectColumnAreResolvedHoweverLongTheRangeIs) {
+  for (const char* text : {"1e-5", "1e-7", "1e-9", "1e-12", "1e-15"}) {
+    const double s = std::stod(text), second = (1 + 2 * s + std::sqrt(1 + 4 * s * s)) / 2;
+    const StudyResult result = run(two_links(text, "[-0.1, 2]", 1)).of("press");
+    EXPECT_TRUE(complete(result)) << text;
+    const auto loads = lambdas(result, EventKind::branch_point);
+    ASSERT_EQ(loads.size(), 2u) << text;
+    EXPECT_NEAR(loads[0] / (s / second), 1, 1e-10) << text;
+    EXPECT_NEAR(loads[1] / second, 1, 1e-10) << text;
+    EXPECT_EQ(result.branches.size(), 5u) << text;
   }
-  EXPECT_THAT(result.doubts,
-              testing::Contains(testing::HasSubstr("is far below the range of lambda: limits of "
-                                                   "lambda of its order in until resolve")));
+}
+
+/// Stiffness s at the foot and 1 between them: [[1 + s, -1], [-1, 1]].
+TEST(SoftMembers, AtTheFootOfAPerfectColumnLeaveItsOtherCriticalLoadsWhereTheyAre) {
+  for (const char* text : {"1e-5", "1e-7", "1e-10", "1e-14"}) {
+    const double s = std::stod(text), second = (2 + s + std::sqrt(4 + s * s)) / 2;
+    const StudyResult result = run(two_links("1", "[-0.1, 4]", 1, text)).of("press");
+    EXPECT_TRUE(complete(result)) << text;
+    const auto loads = lambdas(result, EventKind::branch_point);
+    ASSERT_EQ(loads.size(), 2u) << text;
+    EXPECT_NEAR(loads[0] / (s / second), 1, 1e-10) << text;
+    EXPECT_NEAR(loads[1] / second, 1, 1e-10) << text;
+    EXPECT_EQ(result.branches.size(), 5u) << text;
+  }
 }
 
 }  // namespace
