@@ -114,7 +114,9 @@ std::string two_links(const std::string& s, const std::string& lambda, int depth
          link("q1", foot) + link("q2", s) +
          "]\n[[study]]\nname = \"press\"\ncontrol = \"load\"\ndirection = [0, -1]\nuntil = { "
          "lambda = " +
-         lambda + ", top.x = [-1, 1] }\nbranches = { depth = " + std::to_string(depth) + " }\n";
+         lambda +
+         ", top.x = [-1, 1], a.q2 = [-2, 2] }\nbranches = { depth = " + std::to_string(depth) +
+         " }\n";
 }
 
 TEST(SoftMembers, OfAPerfectColumnAreResolvedWithinLimitsOfTheirOrder) {
