@@ -57,6 +57,7 @@ class Regular {
   }
 
   const Vector& units() const { return columns_; }
+  std::optional<Index> negative() { return factors_.negative(); }
 
  private:
   Linearisation at_{};
@@ -141,6 +142,41 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
   return way < farther * d ? way : infinity;
 }
 
+/// Newton's method at a fixed lambda that goes on also where the second correction is larger than the first, that across a
+/// stiff member is tiny and says nothing of the others, and ends where a place has no more to be corrected: residuals are
+/// rounding of stiff members.
+std::optional<Vector> solution_near(ProblemView problem, Vector x, double lambda,
+                                    const Piece& piece) {
+  constexpr int steps = 12;
+  const Vector weights = problem.metric();
+  const Direction across{Vector::Zero(x.size()), 1};
+  for (int i = 0; i < steps; ++i) {
+    NewtonResult next = correct(problem, weights, std::move(x), lambda, piece, across,
+                                NewtonOptions{.maximum_iterations = 1});
+    if (next.status != NewtonStatus::too_many_iterations && !converged(next)) return std::nullopt;
+    x = std::move(next.x);
+    if (converged(next) || next.corrections.back() <= promised_place) return x;
+  }
+  return std::nullopt;
+}
+
+/// Is there no critical point where K and its rate promise one? A stiff member that turns takes its stiffness along, and the
+/// rate of K alone tells a loss of it. The curve then goes on at both sides, beyond the promised places, with as many
+/// negative eigenvalues.
+bool is_broken_promise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
+                       const Vector& dx, double way, Regular& here) {
+  constexpr double beyond = 1.5;
+  const auto before = here.negative();
+  if (!before) return false;
+  for (const double there : {-beyond * way, beyond * way}) {
+    const auto at = solution_near(problem, x + there * dx, lambda + there, piece);
+    Regular beside;
+    if (!at || !beside.begin(problem, *at, lambda + there, piece)) return false;
+    if (beside.negative() != before) return false;
+  }
+  return true;
+}
+
 /// |dlambda| for |dx| = 1 along the parabola of a curve that turns just beside the point: through it and a corrected point
 /// `clear_motion` away on both sides. Where its vertex lies within twice that, what the tangent says holds nowhere else.
 /// @returns nothing where the curve goes on straight
@@ -208,7 +244,9 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   Response response;
   double change = 1;  // in lambda: what multipliers are measured over
   response.stiffness = stiffness_of(weights, here);
-  if (moved > 0 && way * moved >= clear_motion) {
+  const bool responds = moved > 0 && (way * moved >= clear_motion ||
+                                      is_broken_promise(problem, x, lambda, piece, dx, way, here));
+  if (responds) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * change;
   } else if (const auto bend = moved > 0 && std::isfinite(way)
