@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "flow.hpp"
+#include "lasting.hpp"
 #include "springfold/core/c_handles.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/row_qr.hpp"
@@ -218,29 +219,43 @@ class Integrator {
       if (flag == CV_ROOT_RETURN && !pass_root(cvode, y, t)) return;
       const bool goes_on = observe(state);
       if (options_.keep_way) flow_.way.emplace_back(t, data_.x);
-      if (!goes_on) {
-        flow_.settled = settled();
+      if (!goes_on || (lasting_.is_asked(flow_.steps + 1) && is_known(state))) {
+        flow_.settled = settling_time(taken_, flow_.dissipated);
         return;
       }
     }
   }
 
-  /// When only a small part of all energy was left; between steps what is left fades as an exponential does.
-  double settled() const {
-    constexpr double small_part = 1e-4;
-    const double all = flow_.dissipated, wanted = small_part * all;
-    double before = all, from = 0;
-    for (const auto& [t, taken] : taken_) {
-      const double left = all - taken;
-      if (left <= wanted) {
-        const double part =
-            left > 0 && before > left ? std::log(before / wanted) / std::log(before / left) : 1;
-        return from + part * (t - from);
-      }
-      before = left;
-      from = t;
-    }
-    return flow_.time;
+  bool is_known(const Vector& y) {
+    data_.put(y);
+    const double energy = data_.motion->landscape.energy(data_.x) + kinetic_energy(y);
+    const auto known =
+        lasting_.look({flow_.steps + 1, flow_.time, energy, flow_.dissipated}, data_.x);
+    if (!known) return false;
+    flow_.state = known->state;
+    flow_.left = known->left;
+    flow_.would_settle = known->would_settle;
+    flow_.end = known->has_settled ? Flow::End::rest : Flow::End::swings_on;
+    if (known->has_settled) rest_there();
+    return true;
+  }
+
+  /// What is left of all energy is dissipated on the way there.
+  void rest_there() {
+    flow_.dissipated += flow_.left;
+    Vector y = Vector::Zero(data_.size());
+    y.head(data_.moving()) = flow_.state.x(data_.motion->landscape.moving());
+    data_.piece = flow_.state.piece;
+    const Vector resting = watched(y);
+    if (resting.size() == peaks_.size()) peaks_ = peaks_.cwiseMax(resting);
+    flow_.peak_multipliers = peaks_.tail(peaks_.size() - 1);
+  }
+
+  double kinetic_energy(const Vector& y) const {
+    double twice = 0;
+    for (const MassPoint& mass : data_.motion->masses(data_.x))
+      twice += mass.mass * (mass.jacobian * data_.speeds(y)).squaredNorm();
+    return twice / 2;
   }
 
   /// Switches that change side; the step behind one begins afresh.
@@ -366,6 +381,7 @@ class Integrator {
   Integration data_{};
   Flow flow_{};
   std::vector<std::pair<double, double>> taken_{};  ///< times, and what was dissipated until then
+  Lasting lasting_{options_};
   Vector peaks_{}, last_{};  ///< of what is watched: the largest, those at the last step
 };
 
