@@ -15,6 +15,12 @@ namespace springfold::analysis {
 /// A motion has settled where so much of all its energy is left.
 inline constexpr double settled_part = 1e-4;
 
+inline double kinetic_energy(const std::vector<MassPoint>& masses, const Vector& speeds) {
+  double twice = 0;
+  for (const MassPoint& mass : masses) twice += mass.mass * (mass.jacobian * speeds).squaredNorm();
+  return twice / 2;
+}
+
 /// When only a small part of all energy was left; between steps what is left fades as an exponential does.
 /// @param taken  times, and what was dissipated until then
 inline double settling_time(const std::vector<std::pair<double, double>>& taken, double all) {
