@@ -79,7 +79,8 @@ class Lasting {
     const double more = fallen > 0 ? std::log(left / wanted) / fallen * span
                                    : std::numeric_limits<double>::infinity();
     const double steps = at.steps + more / span * (at.steps - from.steps);
-    if (!is_last(at.steps) && steps <= options_.most_steps) return std::nullopt;
+    constexpr double longer = 4;  // steps grow as the fast modes fade
+    if (!is_last(at.steps) && steps <= longer * options_.most_steps) return std::nullopt;
     return Known{false, *state_, left, at.time + more};
   }
 
