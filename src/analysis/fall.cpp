@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "drive.hpp"
@@ -140,6 +141,32 @@ bool are_one_way(const Landscape& landscape, const Vector& critical, const Depar
 bool lead_to_the_same(const Fall& a, const Fall& b) {
   return a.verdict == b.verdict && a.landing == b.landing && a.may_run_away == b.may_run_away &&
          std::is_permutation(a.minima.begin(), a.minima.end(), b.minima.begin(), b.minima.end());
+}
+
+double lowest_barrier(std::size_t minimum, const Fall& fall, StateBook& book) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const std::size_t s : fall.saddles) {
+    const std::vector<std::size_t>& beside = book.ways_from(s).minima;
+    if (std::find(beside.begin(), beside.end(), minimum) != beside.end())
+      lowest = std::min(lowest, book.states()[s].energy - book.states()[minimum].energy);
+  }
+  return lowest;
+}
+
+std::optional<RestState> caught_by(StateBook& book, const Fall& fall, const Vector& x,
+                                   double energy) {
+  if (fall.is_lost) return std::nullopt;
+  const Descent way = descend(book.landscape(), x);
+  if (way.end != Descent::End::rest || !is_minimum(way.state)) return std::nullopt;
+  for (const std::size_t m : fall.minima) {
+    const RestState minimum = book.states()[m];
+    if (!book.landscape().same(minimum.x, way.state.x)) continue;
+    const double barrier = lowest_barrier(m, fall, book);
+    // Several minima that no known saddle parts: what is between them is not known.
+    const bool is_parted = std::isfinite(barrier) || fall.verdict == SnapVerdict::unambiguous;
+    if (is_parted && energy - minimum.energy < barrier) return minimum;
+  }
+  return std::nullopt;
 }
 
 Fall fall(StateBook& book, const Departure& departure, double energy) {

@@ -46,6 +46,15 @@ struct Fall {
       false;  ///< a way down ended at no state that is known to be stable: the verdict is open
 };
 
+/// Height of the lowest saddle from which a way down leads to a minimum; infinite where there is none.
+double lowest_barrier(std::size_t minimum, const Fall& fall, StateBook& book);
+
+/// The minimum that a motion in the part that was entered cannot leave any more: the way down from where it is ends there,
+/// and what it has of energy in all is below every saddle beside. Where one minimum is all that the part holds, any
+/// energy is.
+std::optional<RestState> caught_by(StateBook& book, const Fall& fall, const Vector& x,
+                                   double energy);
+
 /// Do two departures begin in one part of {Pi < Pi(critical)} beside the critical state? So it is where the energy is
 /// lower in all directions between theirs.
 bool are_one_way(const Landscape& landscape, const Vector& critical, const Departure& a,

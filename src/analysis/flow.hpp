@@ -35,21 +35,27 @@ struct FlowOptions {
   int most_steps = 20000;
   bool keep_way = false;
   std::function<bool()> goes_on{};  ///< asked now and then; false: the motion is given up
+  /// Asked now and then of a motion with masses that lasts: the state of rest that it cannot leave any more with the energy
+  /// that it has in all, if there is one.
+  std::function<std::optional<RestState>(const Vector& x, double energy)> caught_by{};
 };
 
 struct Flow {
   enum class End {
     rest,       ///< at `state`
+    swings_on,  ///< about `state`, which it cannot leave any more, for longer than steps are allowed
     runs_away,  ///< a coordinate left all bounds
     refused,    ///< some motion has no mass, or no damping
     failed,     ///< the integrator gave up, or took too many steps
   };
   End end = End::failed;
   RestState state{};
-  double time = 0;        ///< until it was near rest
-  double settled = 0;     ///< until all but a ten-thousandth of the energy was dissipated
-  double dissipated = 0;  ///< integral of x' . damping x'
-  double peak_speed = 0;  ///< with masses: largest |v| of a mass
+  double time = 0;          ///< until it was near rest
+  double left = 0;          ///< where it swings on: energy above that of `state`
+  double would_settle = 0;  ///< and the time until it settles, as its energy falls there
+  double settled = 0;       ///< until all but a ten-thousandth of the energy was dissipated
+  double dissipated = 0;    ///< integral of x' . damping x'
+  double peak_speed = 0;    ///< with masses: largest |v| of a mass
   Vector
       peak_multipliers{};  ///< with masses: largest size of every multiplier, a component of a chain's wrench
   double closure = 0;             ///< largest gap of the closures on the way

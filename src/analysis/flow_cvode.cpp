@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "flow.hpp"
+#include "lasting.hpp"
 #include "springfold/core/c_handles.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/row_qr.hpp"
@@ -210,37 +211,49 @@ class Integrator {
       const double before = t;
       const int flag = CVode(cvode, far, y, &t, CV_ONE_STEP);
       if (flag < 0) return;
-      if (data_.has_masses()) watch(cvode, y, before, t);
       const Vector state = view(y);
+      Instant now = instant_at(state);
+      if (data_.has_masses()) watch(cvode, y, now, before, t);
       flow_.time = t;
       flow_.dissipated = state[state.size() - 1];
       taken_.emplace_back(t, flow_.dissipated);
-      if (flag == CV_ROOT_RETURN && !pass_root(cvode, y, t)) return;
-      const bool goes_on = observe(state);
+      if (flag == CV_ROOT_RETURN) {
+        if (!pass_root(cvode, y, t)) return;
+        now = instant_at(state);
+      }
+      const bool goes_on = observe(state, now);
       if (options_.keep_way) flow_.way.emplace_back(t, data_.x);
-      if (!goes_on) {
-        flow_.settled = settled();
+      if (!goes_on || (lasting_.is_asked(flow_.steps + 1) && is_known(state))) {
+        flow_.settled = settling_time(taken_, flow_.dissipated);
         return;
       }
     }
   }
 
-  /// When only a small part of all energy was left; between steps what is left fades as an exponential does.
-  double settled() const {
-    constexpr double small_part = 1e-4;
-    const double all = flow_.dissipated, wanted = small_part * all;
-    double before = all, from = 0;
-    for (const auto& [t, taken] : taken_) {
-      const double left = all - taken;
-      if (left <= wanted) {
-        const double part =
-            left > 0 && before > left ? std::log(before / wanted) / std::log(before / left) : 1;
-        return from + part * (t - from);
-      }
-      before = left;
-      from = t;
-    }
-    return flow_.time;
+  bool is_known(const Vector& y) {
+    data_.put(y);
+    const double energy = data_.motion->landscape.energy(data_.x) +
+                          kinetic_energy(data_.motion->masses(data_.x), data_.speeds(y));
+    const auto known =
+        lasting_.look({flow_.steps + 1, flow_.time, energy, flow_.dissipated}, data_.x);
+    if (!known) return false;
+    flow_.state = known->state;
+    flow_.left = known->left;
+    flow_.would_settle = known->would_settle;
+    flow_.end = known->has_settled ? Flow::End::rest : Flow::End::swings_on;
+    if (known->has_settled) rest_there();
+    return true;
+  }
+
+  /// What is left of all energy is dissipated on the way there.
+  void rest_there() {
+    flow_.dissipated += flow_.left;
+    Vector y = Vector::Zero(data_.size());
+    y.head(data_.moving()) = flow_.state.x(data_.motion->landscape.moving());
+    data_.piece = flow_.state.piece;
+    const Vector resting = watched(instant_at(y));
+    if (resting.size() == peaks_.size()) peaks_ = peaks_.cwiseMax(resting);
+    flow_.peak_multipliers = peaks_.tail(peaks_.size() - 1);
   }
 
   /// Switches that change side; the step behind one begins afresh.
@@ -278,18 +291,26 @@ class Integrator {
     return largest;
   }
 
+  /// What is looked at behind every step.
+  struct Instant {
+    std::optional<FlowRate> rate{};
+    Speeds speeds{};
+  };
+  Instant instant_at(const Vector& y) {
+    return {data_.rate(y), data_.has_masses() ? speeds_at(y) : Speeds{}};
+  }
+
   /// What peaks are told of: the largest speed of a mass, then the size of every multiplier.
-  Vector watched(const Vector& y) {
-    const auto rate = data_.rate(y);
-    if (!rate) return {};
-    Vector values(1 + rate->multipliers.size());
-    values << speeds_at(y).moving, rate->multipliers.cwiseAbs();
+  static Vector watched(const Instant& at) {
+    if (!at.rate) return {};
+    Vector values(1 + at.rate->multipliers.size());
+    values << at.speeds.moving, at.rate->multipliers.cwiseAbs();
     return values;
   }
 
   /// Peaks up to the end of a step.
-  void watch(void* cvode, N_Vector y, double from, double to) {
-    const Vector end = watched(view(y));
+  void watch(void* cvode, N_Vector y, const Instant& now, double from, double to) {
+    const Vector end = watched(now);
     if (end.size() == 0) return;
     if (peaks_.size() == 0) peaks_ = last_ = end;
     peaks_ = peaks_.cwiseMax(end);
@@ -315,7 +336,7 @@ class Integrator {
     const auto at = [&](double t) -> Vector {
       if (CVodeGetDky(cvode, t, 0, inside.get()) != 0) return Vector::Zero(peaks_.size());
       Vector closed = view(inside.get());
-      const Vector found = put_on_closures(data_, closed) ? watched(closed) : Vector{};
+      const Vector found = put_on_closures(data_, closed) ? watched(instant_at(closed)) : Vector{};
       return found.size() == peaks_.size() ? found : Vector::Zero(peaks_.size());
     };
     const double part = beside * (end.t - begin.t);
@@ -331,20 +352,20 @@ class Integrator {
   }
 
   /// @returns false at rest
-  bool observe(const Vector& y) {
-    const auto rate = data_.rate(y);
-    if (!rate) return false;
+  bool observe(const Vector& y, const Instant& now) {
+    if (!now.rate) return false;
+    data_.put(y);
     const Landscape& landscape = data_.motion->landscape;
-    const Speeds largest = data_.has_masses() ? speeds_at(y) : Speeds{};
-    const double speed = std::max(largest.moving, largest.turning);
+    const double speed = std::max(now.speeds.moving, now.speeds.turning);
     Vector r;
     if (landscape.terrain().problem.residual(data_.x, landscape.terrain().lambda, data_.piece, r) &&
         !landscape.multipliers().empty())
       flow_.closure =
           std::max(flow_.closure, Vector(r(landscape.multipliers())).lpNorm<Eigen::Infinity>());
     // Far from rest that is seen without second derivatives: power = slope . motion <= |slope| |motion|.
-    const bool is_fast = data_.has_masses() ? speed >= nearly_at_rest
-                                            : rate->power >= nearly_at_rest * rate->rate.norm();
+    const bool is_fast = data_.has_masses()
+                             ? speed >= nearly_at_rest
+                             : now.rate->power >= nearly_at_rest * now.rate->rate.norm();
     if (is_fast) return true;
     const auto at = landscape.ground_on(data_.x, data_.piece);
     if (!at) return false;
@@ -366,6 +387,7 @@ class Integrator {
   Integration data_{};
   Flow flow_{};
   std::vector<std::pair<double, double>> taken_{};  ///< times, and what was dissipated until then
+  Lasting lasting_{options_};
   Vector peaks_{}, last_{};  ///< of what is watched: the largest, those at the last step
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -46,7 +47,7 @@ double critical_factor(const Matrix& K, const Matrix& M, const Matrix& D) {
 int steps_until_rest(const Matrix& K, const Matrix& M, const Matrix& D) {
   constexpr double steps_of_a_period = 400;  // backward differentiation at 1e-8 takes half of it
   constexpr double faded = 14;               // logarithm of the amplitude over that of near rest
-  constexpr double least = 20000, most = 5e6;
+  constexpr double least = 20000, most = 2e5;
   const SymmetricEigen mass = symmetric_eigen(M);
   const Matrix root =
       mass.vectors * mass.values.cwiseSqrt().cwiseInverse().asDiagonal() * mass.vectors.transpose();
@@ -99,6 +100,8 @@ InertialMotion::End end_of(Flow::End end) {
   switch (end) {
     case Flow::End::rest:
       return InertialMotion::End::rest;
+    case Flow::End::swings_on:
+      return InertialMotion::End::swings_on;
     case Flow::End::runs_away:
       return InertialMotion::End::runs_away;
     case Flow::End::refused:
@@ -113,7 +116,7 @@ InertialMotion::End end_of(Flow::End end) {
 
 Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
                          const InertialSettings& settings, const Vector& from,
-                         const RestState* overdamped, const std::function<bool()>& goes_on) {
+                         const RestState* overdamped, const InertialWatch& watch) {
   Inertial result;
   const Masses masses(frozen);
   const auto at = frozen.landscape().ground(from);
@@ -142,7 +145,8 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
   }
   const Landscape landscape(std::move(terrain));
   // Errors of the energy add up over many swings.
-  FlowOptions options{.relative = 1e-9, .absolute = 1e-12, .goes_on = goes_on};
+  FlowOptions options{
+      .relative = 1e-9, .absolute = 1e-12, .goes_on = watch.goes_on, .caught_by = watch.caught_by};
   if (is_massive)
     options.most_steps =
         steps_until_rest(there->hessian, masses.along_motions(*there), landscape.damping(*there));
@@ -152,16 +156,38 @@ Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
   const Flow flow = flow_by_cvode(moving, from, options);
   InertialMotion& motion = result.motion;
   motion.end = end_of(flow.end);
-  if (flow.end == Flow::End::rest) result.landing = flow.state;
+  const bool swings_on = flow.end == Flow::End::swings_on;
+  if (flow.end == Flow::End::rest || swings_on) result.landing = flow.state;
   motion.peak_speed = flow.peak_speed * scales.length / time;
   put_peak(frozen, flow.peak_multipliers, true, scales.force, motion.peak_force,
            motion.peak_force_of);
   put_peak(frozen, flow.peak_multipliers, false, scales.moment(), motion.peak_moment,
            motion.peak_moment_of);
-  motion.duration = flow.settled * time;
+  motion.followed = flow.time * time;
+  if (swings_on) {
+    motion.left = flow.left * scales.moment();
+    motion.would_last = flow.would_settle * time;
+  } else {
+    motion.duration = flow.settled * time;
+  }
   motion.dissipated = flow.dissipated * scales.moment();
   motion.closure = flow.closure;
   return result;
+}
+
+std::string doubt_of(const InertialMotion& motion) {
+  const std::string helps = ": more damping (snap.inertia: damping_ratio, or damping) helps";
+  if (motion.end == InertialMotion::End::swings_on)
+    return "the motion with masses still swings " + rounded(motion.followed) +
+           " after the push, with an energy of " + rounded(motion.left) +
+           " that cannot take it out of where it lands; it would settle after about " +
+           rounded(motion.would_last) + helps;
+  if (motion.end == InertialMotion::End::no_end && motion.followed > 0)
+    return "the motion with masses had not come to rest " + rounded(motion.followed) +
+           " after the push, where its integration ended" + helps;
+  if (motion.end == InertialMotion::End::no_end)
+    return "the motion with masses was not integrated to a state of rest";
+  return "";
 }
 
 }  // namespace springfold::analysis

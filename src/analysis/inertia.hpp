@@ -36,6 +36,13 @@ class Masses {
   double largest_ = 0;
 };
 
+/// What is asked of whoever wants a motion while it is followed.
+struct InertialWatch {
+  std::function<bool()> goes_on{};  ///< now and then; false: the motion is given up
+  /// Of one that lasts, as FlowOptions::caught_by.
+  std::function<std::optional<RestState>(const Vector& x, double energy)> caught_by{};
+};
+
 /// The motion from a push, with peaks and duration in the units of the case; `landing` has no values yet.
 struct Inertial {
   InertialMotion motion{};
@@ -44,9 +51,11 @@ struct Inertial {
 
 /// @param from  after the push, at rest
 /// @param overdamped  the landing whose softest mode sets the damping; null: none
-/// @param goes_on     asked now and then; false: the motion is given up
 Inertial inertial_motion(const Frozen& frozen, const Scales& scales,
                          const InertialSettings& settings, const Vector& from,
-                         const RestState* overdamped, const std::function<bool()>& goes_on = {});
+                         const RestState* overdamped, const InertialWatch& watch = {});
+
+/// Why what was asked of the motion is not all known, and what helps; empty: it is.
+std::string doubt_of(const InertialMotion& motion);
 
 }  // namespace springfold::analysis

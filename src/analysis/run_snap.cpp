@@ -93,6 +93,8 @@ std::string to_string(InertialMotion::End end) {
   switch (end) {
     case InertialMotion::End::rest:
       return "at rest";
+    case InertialMotion::End::swings_on:
+      return "swings on";
     case InertialMotion::End::runs_away:
       return "runs away";
     case InertialMotion::End::no_mass:

@@ -189,13 +189,18 @@ class Jumper {
   /// The motion with masses; where the answer is unambiguous it has to end at the landing.
   void move_with_masses(const Frozen& frozen, const Event& event, const Vector& critical,
                         const Departure& way, const Fall& down, StateBook& book, Jump& jump) {
-    const RestState* landing = down.landing ? &book.states()[*down.landing] : nullptr;
+    // The book may find further states while the motion is followed.
+    const RestState known = down.landing ? book.states()[*down.landing] : RestState{};
+    const RestState* landing = down.landing ? &known : nullptr;
     const auto& moving = frozen.landscape().moving();
     const double far = landing == nullptr ? 0 : Vector((landing->x - critical)(moving)).norm();
     const Departure begin =
         landing == nullptr ? way : shortened(frozen.landscape(), critical, way, far);
+    const auto caught = [&](const Vector& x, double energy) {
+      return caught_by(book, down, x, energy);
+    };
     Inertial inertial =
-        inertial_motion(frozen, scales_, *settings_.inertia, begin.x, landing, goes_on());
+        inertial_motion(frozen, scales_, *settings_.inertia, begin.x, landing, {goes_on(), caught});
     if (landing != nullptr) inertial.motion.push = begin.amplitude / far;
     if (inertial.landing) {
       inertial.motion.landing = written(frozen, *inertial.landing);
@@ -204,8 +209,8 @@ class Jumper {
           !frozen.landscape().same(landing->x, inertial.landing->x))
         doubt(event, "the motion with masses comes to rest somewhere else than the way down");
     }
-    if (inertial.motion.end == InertialMotion::End::no_end)
-      doubt(event, "the motion with masses was not integrated to a state of rest");
+    const std::string why = doubt_of(inertial.motion);
+    if (!why.empty()) doubt(event, why);
     jump.inertial = std::move(inertial.motion);
   }
 
@@ -309,17 +314,6 @@ class Jumper {
     return result;
   }
 
-  /// Height of the lowest saddle from which a way down leads to a minimum; infinite where there is none.
-  double barrier_around(std::size_t minimum, const Fall& fall, StateBook& book) const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const std::size_t s : fall.saddles) {
-      const std::vector<std::size_t>& beside = book.ways_from(s).minima;
-      if (std::find(beside.begin(), beside.end(), minimum) != beside.end())
-        lowest = std::min(lowest, book.states()[s].energy - book.states()[minimum].energy);
-    }
-    return scales_.moment() * lowest;
-  }
-
   /// @param before  a state on the stable side of the point that is left
   void write(const Frozen& frozen, const Vector& before, const Fall& fall, StateBook& book,
              Jump& jump) {
@@ -330,9 +324,12 @@ class Jumper {
     for (const std::size_t s : fall.saddles)
       jump.saddles.push_back(written(frozen, book.states()[s]));
     if (!fall.landing) return;
-    jump.barriers = {barrier_around(*fall.landing, fall, book)};
+    const auto barrier_around = [&](std::size_t minimum) {
+      return scales_.moment() * lowest_barrier(minimum, fall, book);
+    };
+    jump.barriers = {barrier_around(*fall.landing)};
     for (const std::size_t m : fall.minima)
-      if (m != fall.landing) jump.barriers.push_back(barrier_around(m, fall, book));
+      if (m != fall.landing) jump.barriers.push_back(barrier_around(m));
     const RestState& landing = book.states()[*fall.landing];
     jump.landing = written(frozen, landing);
     jump.released = jump.critical.energy - jump.landing.energy;

@@ -82,13 +82,16 @@ std::string inertial_lines(const Sized& sized, const InertialMotion& motion,
           : summary_line("", "with masses it lands " + place_of(motion.landing) + ": " +
                                  pose_text(sized, motion.landing) + ", released " +
                                  rounded(motion.released, summary_digits) + energy);
+  const bool swings_on = motion.end == InertialMotion::End::swings_on;
   constexpr int few = 4;  // of what a motion of a certain push says
   text += summary_line(
       "", "peak speed " + rounded(motion.peak_speed, few) +
               (motion.peak_force_of.empty() ? ""
                                             : ", peak force " + rounded(motion.peak_force, few) +
                                                   " (" + motion.peak_force_of + ")") +
-              ", settled " + rounded(motion.duration, few) + " after a push of " +
+              (swings_on ? ", swings on " + rounded(motion.followed, few)
+                         : ", settled " + rounded(motion.duration, few)) +
+              " after a push of " +
               (std::isnan(motion.push) ? "1e-3 radian or sizes of the mechanism"
                                        : rounded(motion.push, few) + " of the way to the landing"));
   return text;
@@ -167,6 +170,9 @@ Json inertial_json(const StudyResult& result, const Jump& jump) {
           {"peak_moment", motion.peak_moment},
           {"peak_moment_of", motion.peak_moment_of},
           {"duration", motion.duration},
+          {"followed", motion.followed},
+          {"left", motion.left},
+          {"would_last", motion.would_last},
           {"dissipated", motion.dissipated}};
 }
 

@@ -95,12 +95,12 @@ class SpringTerm {
   model::Mat3<double> stiffness_{};
 };
 
-bool is_used(const System& system, std::size_t point) {
-  for (const PointLoad& load : system.loads)
-    if (load.point == point) return true;
+/// Marks the points that a load or a line spring is at: one look at each of them, whatever their number.
+void mark_used(const System& system, std::vector<Workspace::Point>& points) {
+  for (Workspace::Point& point : points) point.is_used = false;
+  for (const PointLoad& load : system.loads) points[load.point].is_used = true;
   for (const PointSpring& spring : system.line_springs)
-    if (spring.from == point || spring.to == point) return true;
-  return false;
+    points[spring.from].is_used = points[spring.to].is_used = true;
 }
 
 }  // namespace
@@ -130,8 +130,9 @@ void add_point_terms(const System& system, const Vector& z, const Inputs& inputs
                      Vector& residual, Matrix* A, Matrix* dR_drho) {
   if (system.loads.empty() && system.line_springs.empty()) return;
   work.points.resize(system.points.size());
+  mark_used(system, work.points);
   for (std::size_t i = 0; i < system.points.size(); ++i)
-    if (is_used(system, i)) evaluate_point(system, i, z, inputs.rho, work.points[i]);
+    if (work.points[i].is_used) evaluate_point(system, i, z, inputs.rho, work.points[i]);
   for (const PointLoad& load : system.loads)
     add_load(system, load, work.points[load.point], inputs.loads, residual, A, dR_drho);
   for (const PointSpring& spring : system.line_springs)

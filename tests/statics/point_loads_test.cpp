@@ -203,5 +203,29 @@ TEST(HangingRod, HasTheStiffnessOfItsWeight) {
   EXPECT_EQ(stability(system, at.A).force_controlled, 0);
 }
 
+/// One look at every spring, whatever their number: with one at all of them for every point this takes a minute.
+TEST(PointLoads, FortyThousandCopiesOfASpringActAsOneOfTheSumOfTheirStiffnesses) {
+  constexpr int copies = 40000;
+  model::Mechanism one = arm(2);
+  one.line_springs = {{"s", {.body = 0, .at = {3, 1, 0}}, {.chain = 0, .point = 0}, 1.5, 0.5}};
+  model::Mechanism many = one;
+  many.line_springs.assign(copies, one.line_springs.front());
+  for (int i = 0; i < copies; ++i) {
+    many.line_springs[static_cast<std::size_t>(i)].name = "s" + std::to_string(i);
+    many.line_springs[static_cast<std::size_t>(i)].stiffness = 1.5 / copies;
+  }
+  const auto state_of = [](const model::Mechanism& mechanism) {
+    State state{prepare(mechanism), {}, {}};
+    state.z = Vector::LinSpaced(state.system.size, -0.4, 0.7);
+    state.inputs = {state.system.commands, Vector::Zero(state.system.load_size), {}};
+    return state;
+  };
+  const State a = state_of(one), b = state_of(many);
+  const Matrix A = evaluate(a).A, B = evaluate(b).A;
+  const Vector r = residual_at(a, {}), s = residual_at(b, {});
+  EXPECT_LT((r - s).norm(), 1e-12 * r.norm());
+  EXPECT_LT((A - B).norm(), 1e-12 * A.norm());
+}
+
 }  // namespace
 }  // namespace springfold::statics

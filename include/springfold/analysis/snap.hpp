@@ -50,6 +50,7 @@ struct SnapWarning {
 struct InertialMotion {
   enum class End {
     rest,       ///< at `landing`
+    swings_on,  ///< about `landing`, which it cannot leave any more, but for too long to be followed until it settles
     runs_away,  ///< a coordinate left all bounds
     no_mass,    ///< refused: `massless` moves and has no mass
     no_end,     ///< refused or given up: no landing that sets the damping, or too many steps
@@ -69,10 +70,15 @@ struct InertialMotion {
   double duration = std::numeric_limits<
       double>::quiet_NaN();  ///< from the push until 0.9999 of the energy is dissipated [time]
   double dissipated = std::numeric_limits<double>::quiet_NaN();  ///< work of the dampers [energy]
-  double closure = 0;  ///< largest gap of the closures on the way [-]
+  double closure = 0;   ///< largest gap of the closures on the way [-]
+  double followed = 0;  ///< time from the push to where the integration ended [time]
+  /// Where it swings on: the energy above that of the landing by then, and the duration that it would have as its energy
+  /// falls there.
+  double left = std::numeric_limits<double>::quiet_NaN();
+  double would_last = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// "at rest", "runs away", "without mass", "no end".
+/// "at rest", "swings on", "runs away", "without mass", "no end".
 std::string to_string(InertialMotion::End end);
 
 /// A moment of a motion.

@@ -180,6 +180,7 @@ struct Workspace {
   struct Point {
     Vector variables{}, forces{};
     model::PointMotion<double> at{};
+    bool is_used = false;  ///< by a load or a line spring
   };
   std::vector<Point> points{};
   struct Shape {
