@@ -9,10 +9,13 @@
 namespace springfold::fuzz {
 
 enum class Mode {
-  check,     ///< `check` of wild mutants
-  run,       ///< `run` of gentle ones, which a signal stops after a fifth of a second
-  uncapped,  ///< `run` of gentle ones to their end, some with figures
+  check,  ///< `check` of wild mutants
+  run,    ///< `run` of gentle ones, which a signal stops after a fifth of a second
+  uncapped,  ///< `run` of gentle ones to their end, some with figures; those that last are stopped late
 };
+
+/// CPU seconds after which a run to its end is a long one: it is sent SIGINT, and must end at once with what it has.
+inline constexpr double long_run = 240;
 
 /// Exit code of a program that a signal has ended. Where it comes in the middle of a long step the process ends at once.
 inline constexpr int ended_by_signal = 130;

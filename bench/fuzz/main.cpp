@@ -9,7 +9,7 @@
 // in findings/: the case file, the name of the file that it comes from, and what was said. A finding is
 //
 //     a crash or a report of a sanitizer    an exit code that is not documented, "internal error" among them
-//     no end: after 300 s of CPU time (`run` 60 s), or ten times as many seconds
+//     no end: after 300 s of CPU time (`run` 60 s), or ten times as many seconds, though SIGINT came before
 //     control characters on the terminal    something written with exit code 3; 0, 4 or 5 without a manifest
 //     run and check do not agree
 #include <CLI/CLI.hpp>
