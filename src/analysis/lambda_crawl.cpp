@@ -42,7 +42,6 @@ void LambdaCrawl::begin(const continuation::Direction& tangent) {
   constexpr double rounding = 1e-12;
   const double slope = length_in(weights_, tangent.dx) / std::abs(tangent.dlambda);
   slope_at_start_ = slope > rounding ? slope : 0;
-  begins_straight_ = slope_at_start_ == 0;
   counting_ = false;
 }
 
@@ -90,11 +89,13 @@ Crawl LambdaCrawl::sees(const continuation::CurvePoint& point) {
       trivial ? 1 : power_of_two_near(continuation::slopes_in_a_unit * by_lambda_ / by_x_);
   if (!trivial && by_lambda_ >= long_way && by_x_ <= slope_at_start_ / much_steeper * by_lambda_)
     factor_ = std::min(largest_, by_response);
-  else if (by_lambda_ >= longest_straight_way)
+  else if (by_lambda_ >= longest_straight_way) {
+    goes_straight_ = true;
     factor_ = std::max(
         1.0, std::min({largest_, next_unit,
                        std::isfinite(range_) ? power_of_two_near(range_ / longest_straight_way)
                                              : by_response}));
+  }
   return factor_ > 1 ? Crawl::unit_too_small : Crawl::none;
 }
 

@@ -51,8 +51,8 @@ class LambdaCrawl {
   /// Where a larger unit of lambda is needed, `factor` says which.
   Crawl sees(const continuation::CurvePoint& point);
 
-  /// Is the curve straight along lambda where it begins? Its unit came from the first critical load then.
-  bool begins_straight() const { return begins_straight_; }
+  /// Has lambda alone filled a long way, and the curve not become steeper? Its unit came from the first critical load then.
+  bool goes_straight() const { return goes_straight_; }
 
   /// How many times larger the unit of lambda should be, a power of two; 1: the unit serves.
   double factor() const { return factor_; }
@@ -65,7 +65,7 @@ class LambdaCrawl {
   Vector weights_{};
   double largest_ = 1, range_;
   double slope_at_start_ = 0;  ///< |dx| over |dlambda|
-  bool begins_straight_ = false;
+  bool goes_straight_ = false;
   bool counting_ = false;
   continuation::CurvePoint last_{};
   double by_x_ = 0, by_lambda_ = 0;  ///< lengths since counting began

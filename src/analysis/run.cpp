@@ -149,7 +149,7 @@ constexpr double long_beside_first_load = 0x1p10;
 struct LambdaAsked {
   double factor =
       1;  ///< by which its unit should grow: then the result is worthless; 1: all is done
-  bool is_straight = false;  ///< the curve goes straight along lambda where it begins
+  bool is_straight = false;  ///< the curve goes straight along lambda all the way
 };
 
 /// Does lambda range over orders of magnitude between the first critical load and the limits?
@@ -208,7 +208,7 @@ LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest,
   if (begun.family != nullptr && study.control == ControlMode::parameter && crawl.factor() == 1)
     doubt_broken_rules(study, *begun.family, quantities, result);
   if (!budget.refused.empty()) result.doubts.push_back(budget.refused);
-  return {crawl.factor(), crawl.begins_straight()};
+  return {crawl.factor(), crawl.goes_straight()};
 }
 
 }  // namespace
