@@ -143,7 +143,7 @@ struct Begun {
 
 /// Where a straight curve's range of lambda is so many times longer than the way to the first critical load asks for, no
 /// unit serves both: lambda is measured in parts of itself beyond that way.
-constexpr double long_beside_first_load = 0x1p10;
+constexpr double long_beside_first_load = 0x1p8;
 
 /// In what lambda is to be measured instead.
 struct LambdaAsked {
