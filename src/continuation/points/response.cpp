@@ -161,17 +161,23 @@ std::optional<Vector> solution_near(ProblemView problem, Vector x, double lambda
 }
 
 /// Is there no critical point where K and its rate promise one? A stiff member that turns takes its stiffness along, and the
-/// rate of K alone tells a loss of it. The curve then goes on at both sides, beyond the promised places, with as many
-/// negative eigenvalues.
+/// rate of K alone tells a loss of it. The curve then goes on beyond a clear motion to both sides, about where its tangent
+/// leads, with as many negative eigenvalues. @param moved  |dx|   @pre the promised way is shorter than that motion
 bool is_broken_promise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
-                       const Vector& dx, double way, Regular& here) {
-  constexpr double beyond = 1.5;
+                       const Vector& dx, double moved, Regular& here) {
+  constexpr double beyond = 1.5, about = 0.5;
   const auto before = here.negative();
   if (!before) return false;
-  for (const double there : {-beyond * way, beyond * way}) {
-    const auto at = solution_near(problem, x + there * dx, lambda + there, piece);
+  const Vector weights = problem.metric();
+  for (const double side : {-beyond, beyond}) {
+    const double there = side * clear_motion / moved;
+    const Vector expected = x + there * dx;
+    const auto at = solution_near(problem, expected, lambda + there, piece);
     Regular beside;
     if (!at || !beside.begin(problem, *at, lambda + there, piece)) return false;
+    if (motion(weights, *at - expected, here.units()) >
+        about * motion(weights, there * dx, here.units()))
+      return false;
     if (beside.negative() != before) return false;
   }
   return true;
@@ -244,8 +250,9 @@ std::optional<Response> response_at(ProblemView problem, const Vector& x, double
   Response response;
   double change = 1;  // in lambda: what multipliers are measured over
   response.stiffness = stiffness_of(weights, here);
-  const bool responds = moved > 0 && (way * moved >= clear_motion ||
-                                      is_broken_promise(problem, x, lambda, piece, dx, way, here));
+  const bool responds =
+      moved > 0 && (way * moved >= clear_motion ||
+                    is_broken_promise(problem, x, lambda, piece, dx, moved, here));
   if (responds) {
     change = 1 / moved;
     response.lambda = slopes_in_a_unit * change;
