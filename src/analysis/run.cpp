@@ -147,8 +147,7 @@ constexpr double long_beside_first_load = 0x1p8;
 
 /// In what lambda is to be measured instead.
 struct LambdaAsked {
-  double factor =
-      1;  ///< by which its unit should grow: then the result is worthless; 1: all is done
+  double factor = 1;  ///< by which its unit should grow, and the result is worthless; 1: done
   bool is_straight = false;  ///< the curve goes straight along lambda all the way
 };
 

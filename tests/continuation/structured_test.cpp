@@ -154,6 +154,26 @@ TEST(StructuredProblem, ThousandsOfUnknownsAreTracedWithoutAnyMatrixOfEntries) {
   EXPECT_NEAR(curve.hits[1].point.lambda, second, 1e-15);
 }
 
+TEST(StructuredProblem, LambdaInPartsOfItselfShowsTheSameBucklingLoadsWithoutEntries) {
+  struct Measured : LinkColumn {
+    static LambdaMeasure lambda_measure() { return {0, 0.25}; }
+    static bool derivatives(const Vector&, double, Matrix&, Vector&) {
+      ADD_FAILURE() << "entries were asked for";
+      return false;
+    }
+  };
+  Measured column;
+  column.n = 10;
+  const TraceOptions options = steps_up_to(0.005);
+  const Vector zero = Vector::Zero(column.n);
+  const Ray ray = ray_of(column, {zero, 0, {}, {zero, 1}}, options);
+  const Curve curve = trace(column, zero, 0, ray, {lambda_reaches(4.5)}, options);
+  ASSERT_EQ(static_cast<Index>(curve.hits.size()), column.n + 1);
+  for (Index j = 0; j < column.n; ++j)
+    EXPECT_NEAR(curve.hits[static_cast<std::size_t>(j)].point.lambda,
+                buckling_load(column.n, static_cast<int>(j) + 1), 1e-11);
+}
+
 TEST(StructuredProblem, PointsBetweenStepsAreTheSameAsWithEntries) {
   LinkColumn column{.n = 12, .across = 0.05};
   const Curve with = pressed(column, 2 * buckling_load(12, 1), 0.05);

@@ -75,7 +75,7 @@ concept ProblemWithSecondDerivatives = requires(const P& problem, const Vector& 
 ///     lambda = centre + linear sinh((mu - centre) / linear),   mu enters the arc length.
 ///
 /// For curves on which what happens lies at lambdas of very different size. Unknowns of weight zero are measured in a
-/// unit that grows with lambda then, and structured_derivatives are not asked for; row i of F belongs to unknown i.
+/// unit that grows with lambda then; row i of F belongs to unknown i.
 struct LambdaMeasure {
   double centre = 0;
   double linear = std::numeric_limits<double>::infinity();

@@ -52,11 +52,11 @@ double Normalised::largest_at(const Vector& x, double lambda, const Piece& piece
 }
 
 /// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that it
-/// finds there, and does not change.
+/// finds there, and does not change. 0: not known.
 double Normalised::largest_that_stays(const Vector& x, double lambda, const Piece& piece) const {
   constexpr double d = distances_beside.back();
   Linearisation at, aside;
-  if (!linearise_densely(problem_, x, lambda, piece, at) ||
+  if (problem_.structured() || !linearise_densely(problem_, x, lambda, piece, at) ||
       !linearise_densely(problem_, x + d * unit_, lambda + d, piece, aside))
     return 0;
   Matrix K = at.dF_dx;
