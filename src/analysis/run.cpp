@@ -141,8 +141,8 @@ struct Begun {
   const statics::FirstEquilibrium& first;
 };
 
-/// Where a curve goes straight along lambda, or becomes so many times steeper, and its range of lambda is so many times longer
-/// than the unit of its start serves, no unit serves both: lambda is measured in parts of itself beyond that one.
+/// Where a straight curve's range of lambda is so many times longer than the way to the first critical load asks for, no
+/// unit serves both: lambda is measured in parts of itself beyond that way.
 constexpr double long_beside_first_load = 0x1p8;
 
 /// In what lambda is to be measured instead.
@@ -151,12 +151,10 @@ struct LambdaAsked {
   bool is_straight = false;  ///< the curve goes straight along lambda all the way
 };
 
-/// Does lambda range over orders of magnitude between the unit of the start and the limits? Works are taken along steep
-/// curves of jumps and cycles, between points that are near to each other in lambda too.
-bool is_of_many_sizes(const Begun& begun, const LambdaAsked& asked, const Setup& first) {
-  const double range = range_of_lambda(begun.study, first);
-  const bool is_steep = asked.factor >= long_beside_first_load && !begun.trace_by;
-  return (asked.is_straight || is_steep) && std::isfinite(range) &&
+/// Does lambda range over orders of magnitude between the first critical load and the limits?
+bool is_of_many_sizes(const Study& study, const LambdaAsked& asked, const Setup& first) {
+  const double range = range_of_lambda(study, first);
+  return asked.is_straight && std::isfinite(range) &&
          range >= long_beside_first_load * longest_straight_way;
 }
 
@@ -243,7 +241,7 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
         result = std::move(attempt);
         break;
       }
-      if (is_of_many_sizes(begun, asked, setup)) {
+      if (is_of_many_sizes(study, asked, setup)) {
         setup.rule.lambda_measure = {setup.lambda_start, 1};
         largest = 1;
         continue;
