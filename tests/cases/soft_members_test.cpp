@@ -129,16 +129,20 @@ TEST(SoftMembers, OfAPerfectColumnAreResolvedWithinLimitsOfTheirOrder) {
 }
 
 /// The smaller eigenvalue without cancellation: their product is s.
+void expect_both_loads(const StudyResult& result, double s, double second, const char* text) {
+  EXPECT_TRUE(complete(result)) << text;
+  const auto loads = lambdas(result, EventKind::branch_point);
+  ASSERT_EQ(loads.size(), 2u) << text;
+  EXPECT_NEAR(loads[0] / (s / second), 1, 1e-10) << text;
+  EXPECT_NEAR(loads[1] / second, 1, 1e-10) << text;
+  EXPECT_EQ(result.branches.size(), 5u) << text;
+}
+
 TEST(SoftMembers, OfAPerfectColumnAreResolvedHoweverLongTheRangeIs) {
   for (const char* text : {"1e-5", "1e-7", "1e-9", "1e-12", "1e-15"}) {
     const double s = std::stod(text), second = (1 + 2 * s + std::sqrt(1 + 4 * s * s)) / 2;
     const StudyResult result = run(two_links(text, "[-0.1, 2]", 1)).of("press");
-    EXPECT_TRUE(complete(result)) << text;
-    const auto loads = lambdas(result, EventKind::branch_point);
-    ASSERT_EQ(loads.size(), 2u) << text;
-    EXPECT_NEAR(loads[0] / (s / second), 1, 1e-10) << text;
-    EXPECT_NEAR(loads[1] / second, 1, 1e-10) << text;
-    EXPECT_EQ(result.branches.size(), 5u) << text;
+    expect_both_loads(result, s, second, text);
   }
 }
 
@@ -147,12 +151,7 @@ TEST(SoftMembers, AtTheFootOfAPerfectColumnLeaveItsOtherCriticalLoadsWhereTheyAr
   for (const char* text : {"1e-5", "1e-7", "1e-10", "1e-14"}) {
     const double s = std::stod(text), second = (2 + s + std::sqrt(4 + s * s)) / 2;
     const StudyResult result = run(two_links("1", "[-0.1, 4]", 1, text)).of("press");
-    EXPECT_TRUE(complete(result)) << text;
-    const auto loads = lambdas(result, EventKind::branch_point);
-    ASSERT_EQ(loads.size(), 2u) << text;
-    EXPECT_NEAR(loads[0] / (s / second), 1, 1e-10) << text;
-    EXPECT_NEAR(loads[1] / second, 1, 1e-10) << text;
-    EXPECT_EQ(result.branches.size(), 5u) << text;
+    expect_both_loads(result, s, second, text);
   }
 }
 

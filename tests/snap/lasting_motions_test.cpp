@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/case_files.hpp"
+#include "snap/damped_truss.hpp"
 #include "springfold/analysis/run.hpp"
 #include "springfold/analysis/snap.hpp"
 
@@ -12,49 +13,10 @@ namespace {
 
 using LastingMotions = io::CaseFiles;
 
-/// A truss with a mass at its apex and dampers under it; the load pulls a little to the side.
+/// The load pulls a little to the side.
 std::string truss(double aside, const std::string& dampers) {
-  return R"toml(
-[[body]]
-name = "apex"
-task_space = "xy"
-pose = [0, 1]
-mass = 1
-
-[[chain]]
-name = "left"
-from_at = [-1, 0]
-elements = [
-  { joint = "revolute", axis = "z", name = "foot", initial = "pi/4" },
-  { joint = "prismatic", axis = "x", name = "bar", role = "virtual", stiffness = 1 },
-  { rigid = ["sqrt(2)", 0] },
-]
-
-[[chain]]
-name = "right"
-from_at = [1, 0]
-elements = [
-  { joint = "revolute", axis = "z", name = "foot", initial = "3*pi/4" },
-  { joint = "prismatic", axis = "x", name = "bar", role = "virtual", stiffness = 1 },
-  { rigid = ["sqrt(2)", 0] },
-]
-
-[[chain]]
-name = "damper"
-elements = [
-  { joint = "prismatic", axis = "x", name = "across" },
-  { joint = "prismatic", axis = "y", name = "along", initial = 1 },
-]
-
-[[study]]
-name = "press"
-kind = "snap_through"
-control = "load"
-direction = [)toml" +
-         std::to_string(aside) + R"toml(, -1]
-until = { lambda = [-0.1, 0.5], apex.y = [-1.5, 1.5] }
-snap = { inertia = { damping = { )toml" +
-         dampers + " } } }\n";
+  return damped_truss("[" + std::to_string(aside) + ", -1]",
+                      "lambda = [-0.1, 0.5], apex.y = [-1.5, 1.5]", dampers);
 }
 
 StudyResult run_of(const io::Case& c) {
