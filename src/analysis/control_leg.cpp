@@ -5,6 +5,7 @@
 
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/number_text.hpp"
 #include "zero_lengths.hpp"
@@ -150,15 +151,29 @@ bool ends_at_zero_length(const CommandSetup& setup, const ControlProblem& proble
   return false;
 }
 
+/// Where a spring switches the change is the spring's: one event tells both.
+/// @returns whether one does
+bool is_of_switching(const LegEvent& change, Leg& leg) {
+  for (LegEvent& event : leg.events) {
+    if (event.kind != EventKind::switching ||
+        std::abs(event.place - change.place) > continuation::one_place)
+      continue;
+    event.detail += "; " + change.detail;
+    return true;
+  }
+  return false;
+}
+
 void add_changes(const CommandSetup& setup, const ControlProblem& problem,
                  const std::vector<CurvePoint>& points, Leg& leg) {
   std::optional<Index> before;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto modes = unstable_modes_at(setup, state_at(problem, points[i]));
     if (!modes) continue;
-    if (before && *before != *modes)
-      leg.events.push_back(
-          locate_change(setup, problem, points[i - 1], points[i], *before, *modes));
+    if (before && *before != *modes) {
+      LegEvent change = locate_change(setup, problem, points[i - 1], points[i], *before, *modes);
+      if (!is_of_switching(change, leg)) leg.events.push_back(std::move(change));
+    }
     before = modes;
   }
 }

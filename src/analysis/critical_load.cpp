@@ -1,6 +1,6 @@
 #include "critical_load.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include "analysis/undefined.hpp"
@@ -74,7 +74,8 @@ CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& stat
   // lambda from 0 to 1 is the load from 0 to its limit.
   const Vector rate = settings.up_to * settings.direction.cwiseQuotient(setup.wrench_scale);
   const PathProblem problem(setup.system, load_rule(setup, state, rate));
-  if (!problem.symmetric()) return {undefined, "moments on a spatial body have no potential"};
+  if (!problem.symmetric())
+    return {undefined, "moments on a spatial body that turns about several axes have no potential"};
   const Vector y = problem.reduce(state.z);
   const auto rays = rays_from(problem, y, 0, state.piece, options);
   const continuation::Ray* forward = nullptr;
@@ -85,22 +86,26 @@ CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& stat
     return {undefined, "the node is no ordinary point of its curve"};
   const std::vector<continuation::Event> events{
       {"limit", [](const CurvePoint& p) { return p.lambda - 1; }, continuation::EventAction::stop}};
-  const Hit* loss = nullptr;
-  Hit found;
-  const auto curve = trace(problem, y, 0, *forward, events, options, {}, [&](const Hit& hit) {
-    if (!loses_stability(problem, hit)) return true;
-    found = hit;
-    loss = &found;
-    return false;
-  });
-  if (loss != nullptr && loss->kind != HitKind::unresolved)
-    return {settings.up_to * loss->point.lambda, ""};
-  if (loss == nullptr && curve.stop == continuation::StopReason::event)
-    return {std::numeric_limits<double>::infinity(), ""};
-  return {undefined, loss != nullptr
-                         ? "stability is lost near the load " +
-                               rounded(settings.up_to * loss->point.lambda) + ", unresolved"
-                         : stop_of(curve).reason};
+  // Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone: there the
+  // number of unstable modes ends it.
+  const auto is_stable = [&](const CurvePoint& p) {
+    return !p.negative || *p.negative <= problem.closures();
+  };
+  const auto keeps_stability = [&](const Hit& hit) { return !loses_stability(problem, hit); };
+  const auto curve = trace(problem, y, 0, *forward, events, options, is_stable, keeps_stability);
+  const auto loss = std::ranges::find_if_not(curve.hits, keeps_stability);
+  if (loss == curve.hits.end()) {
+    const bool is_whole = curve.stop == continuation::StopReason::event;
+    if (is_whole) return {std::numeric_limits<double>::infinity(), ""};
+    const bool is_lost = curve.stop == continuation::StopReason::observer;
+    return {undefined, is_lost ? "stability is lost without a special point before the load " +
+                                     rounded(settings.up_to * curve.points.back().lambda)
+                               : stop_of(curve).reason};
+  }
+  if (loss->kind == HitKind::unresolved)
+    return {undefined, "stability is lost near the load " +
+                           rounded(settings.up_to * loss->point.lambda) + ", unresolved"};
+  return {settings.up_to * loss->point.lambda, ""};
 }
 
 }  // namespace springfold::analysis

@@ -8,6 +8,7 @@
 #include "spring_origins.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/scaling.hpp"
+#include "springfold/model/axis_of_turn.hpp"
 #include "springfold/statics/prepare_again.hpp"
 #include "units.hpp"
 
@@ -145,11 +146,15 @@ void set_control(const Study& study, const ParameterFamily* family, const Origin
 std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanism,
                                                 const Study& study) {
   std::vector<std::string> list;
+  // A parameter may tilt an axis, and what turned about one direction turns about two.
+  const model::AxesOfTurn turns = study.control == ControlMode::parameter
+                                      ? model::AxesOfTurn(mechanism.bodies.size())
+                                      : axes_of_turn(mechanism);
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
     model::Load load = mechanism.loads[i];
     // A parameter may make a load of what is zero at the start.
     if (study.control == ControlMode::parameter && load.vector.isZero(0)) load.vector.setOnes();
-    if (is_conservative(mechanism, load)) continue;
+    if (is_conservative(mechanism, turns, load)) continue;
     const std::string kind = load.kind == model::LoadKind::force ? "force" : "moment";
     list.push_back((load.follows ? "follower " : "fixed-axis ") + kind + " " +
                    (load.name.empty() ? std::to_string(i + 1) : load.name));
@@ -160,7 +165,8 @@ std::vector<std::string> non_conservative_loads(const model::Mechanism& mechanis
                       study.control == ControlMode::load && study.direction.size() > 0 &&
                       !study.direction.tail(3).isZero(0);
   const bool loads = study.constant_load.size() > 0 && !study.constant_load.tail(3).isZero(0);
-  if (drives || loads) list.push_back("fixed-axis moment on " + mechanism.bodies[body].name);
+  if ((drives || loads) && !turns[body])
+    list.push_back("fixed-axis moment on " + mechanism.bodies[body].name);
   return list;
 }
 

@@ -146,7 +146,7 @@ void hold_free_part(const Study& study, const statics::FirstEquilibrium& first, 
   const bool is_spatial =
       setup.system.mechanism.bodies[static_cast<std::size_t>(study.body - 1)].task_space ==
       model::TaskSpace::spatial;
-  if (is_spatial && held.tail(3).lpNorm<Eigen::Infinity>() > 1e-12 * held.norm())
+  if (is_spatial && !body.turn && held.tail(3).lpNorm<Eigen::Infinity>() > 1e-12 * held.norm())
     setup.rule.symmetric = false;  // a moment about fixed axes holds it
 }
 

@@ -1,9 +1,9 @@
 #include "springfold/model/point.hpp"
 
+#include "springfold/model/axis_of_turn.hpp"
+
 namespace springfold::model {
 namespace {
-
-constexpr double parallel = 1e-12;
 
 /// Directions, in the frame of the body where the way begins and with all joints at zero, of all
 /// axes about which the point can turn; whether it can turn about any axis at all.
@@ -12,9 +12,13 @@ struct Turning {
   bool freely = false;
 };
 
-Turning turning_of(const CompiledPoint& point) {
+/// @param body  how the body where the way begins turns, if it is spatial and turns about one direction
+Turning turning_of(const CompiledPoint& point, const std::optional<AxisOfTurn>& body) {
   Turning turning;
-  turning.freely = point.body_moves && point.space == TaskSpace::spatial;
+  if (point.body_moves && point.space == TaskSpace::spatial) {
+    turning.freely = !body.has_value();
+    if (body && body->turns) turning.axes.push_back(body->base.transpose() * body->axis);
+  }
   if (point.body_moves && point.space == TaskSpace::planar)
     turning.axes.push_back(Vec3<double>::UnitZ());
   Mat3<double> R = Mat3<double>::Identity();
@@ -25,16 +29,9 @@ Turning turning_of(const CompiledPoint& point) {
   return turning;
 }
 
-bool are_parallel(const Vec3<double>& a, const Vec3<double>& b) {
-  return cross<double>(a, b).norm() <= parallel * a.norm() * b.norm();
-}
-
-/// Direction of the vector with all joints at zero; that of axes of one direction does not depend on
-/// their angles.
-Vec3<double> at_zero(const CompiledPoint& point, const Vec3<double>& vector) {
-  Mat3<double> R = Mat3<double>::Identity();
-  for (const auto& step : point.joints) R = R * step.before.R;
-  return R * point.last.R * vector;
+Index body_of(const Mechanism& mechanism, const Anchor& anchor) {
+  if (anchor.chain < 0) return anchor.body;
+  return mechanism.chains[static_cast<std::size_t>(anchor.chain)].from;
 }
 
 }  // namespace
@@ -73,17 +70,30 @@ CompiledPoint compile(const Mechanism& mechanism, const Anchor& anchor) {
 }
 
 bool is_conservative(const Mechanism& mechanism, const Load& load) {
+  const Index body = body_of(mechanism, load.on);
+  const bool asks =
+      load.kind != LoadKind::pressure && body > 0 &&
+      (load.kind == LoadKind::moment || load.follows) &&
+      mechanism.bodies[static_cast<std::size_t>(body - 1)].task_space == TaskSpace::spatial;
+  return is_conservative(mechanism, asks ? axes_of_turn(mechanism) : AxesOfTurn{}, load);
+}
+
+bool is_conservative(const Mechanism& mechanism, const AxesOfTurn& turns, const Load& load) {
   const bool dead_force = load.kind == LoadKind::force && !load.follows;
   if (dead_force || load.kind == LoadKind::pressure || load.vector.isZero(0)) return true;
   const CompiledPoint point = compile(mechanism, load.on);
-  const Turning turning = turning_of(point);
+  std::optional<AxisOfTurn> body;
+  if (point.body_moves && point.space == TaskSpace::spatial)
+    body = turns[static_cast<std::size_t>(body_of(mechanism, load.on) - 1)];
+  const Turning turning = turning_of(point, body);
   if (turning.freely) return false;
   if (turning.axes.empty()) return true;
   for (const Vec3<double>& axis : turning.axes)
     if (!are_parallel(axis, turning.axes.front())) return false;
   // About one direction: the moment along it is constant, and so is a force along it.
-  return load.kind == LoadKind::moment ||
-         are_parallel(at_zero(point, load.vector), turning.axes.front());
+  if (are_parallel(at_zero(point, load.vector), turning.axes.front())) return true;
+  // What turns with joints beyond such a body is not known to the statics as a potential.
+  return load.kind == LoadKind::moment && (!load.follows || !body || point.joints.empty());
 }
 
 }  // namespace springfold::model

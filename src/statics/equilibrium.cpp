@@ -5,6 +5,7 @@
 #include "shape_terms.hpp"
 #include "springfold/core/finite.hpp"
 #include "springfold/statics/system.hpp"
+#include "turn_moment.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -29,6 +30,13 @@ void reserve(const System& system, Workspace& work) {
   work.wrenches.resize(system.chains.size());
 }
 
+/// A moment in world axes as the body takes it: with its potential where the body can turn about one direction only.
+TurnMoment moment_on(const BodySlice& body, const model::Vec3<double>& phi,
+                     const model::Vec3<double>& moment) {
+  if (body.turn) return turn_moment(*body.turn, turned_at(*body.turn, phi), moment, false);
+  return {moment, model::Mat3<double>::Zero()};
+}
+
 /// Generalised force of the body's external wrench: its rotational part does work on
 /// omega = J_l dphi, so J_l^T m stands there for spatial bodies.
 void add_loads(const System& system, const Vector& z, const Vector& W, Vector& residual,
@@ -42,12 +50,16 @@ void add_loads(const System& system, const Vector& z, const Vector& W, Vector& r
     }
     const model::Vec3<double> phi = z.segment(body.t + 3, 3), moment = load.tail(3);
     residual.segment(body.t, 3) -= load.head(3);
-    residual.segment(body.t + 3, 3) -= model::left_jacobian(phi).transpose() * moment;
-    if (A == nullptr || moment.isZero(0)) continue;
+    if (moment.isZero(0)) continue;
+    const TurnMoment m = moment_on(body, phi, moment);
+    const model::Mat3<double> J = model::left_jacobian(phi);
+    residual.segment(body.t + 3, 3) -= J.transpose() * m.vector;
+    if (A == nullptr) continue;
     const auto dJ = model::left_jacobian_derivatives(phi);
     for (Index k = 0; k < 3; ++k)
       A->block(body.t + 3, body.t + 3 + k, 3, 1) -=
-          dJ[static_cast<std::size_t>(k)].transpose() * moment;
+          dJ[static_cast<std::size_t>(k)].transpose() * m.vector +
+          J.transpose() * m.rate * J.col(k);
   }
 }
 
@@ -171,7 +183,10 @@ Matrix load_columns(const System& system, const Vector& z) {
         Matrix::Identity(body.count, body.count);
     if (system.mechanism.bodies[b].task_space != TaskSpace::spatial) continue;
     const model::Vec3<double> phi = z.segment(body.t + 3, 3);
-    columns.block(body.t + 3, body.W + 3, 3, 3) = -model::left_jacobian(phi).transpose();
+    for (Index k = 0; k < 3; ++k)
+      columns.block(body.t + 3, body.W + 3 + k, 3, 1) =
+          -model::left_jacobian(phi).transpose() *
+          moment_on(body, phi, model::Vec3<double>::Unit(k)).vector;
   }
   return columns;
 }

@@ -178,7 +178,7 @@ ControlResult by_paper(const System& system, const ControlProblem& problem, Cont
 bool has_potential(const System& system, const Inputs& inputs) {
   for (std::size_t b = 0; b < system.body_slices.size(); ++b)
     if (system.mechanism.bodies[b].task_space == model::TaskSpace::spatial &&
-        !inputs.W.segment(system.body_slices[b].W + 3, 3).isZero(0))
+        !system.body_slices[b].turn && !inputs.W.segment(system.body_slices[b].W + 3, 3).isZero(0))
       return false;
   return true;
 }

@@ -1,5 +1,6 @@
 #include "springfold/statics/moved_places.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace springfold::statics {
@@ -16,16 +17,24 @@ bool renew_law(const model::SpringLaw& law, Index first_switch, model::CompiledS
   return true;
 }
 
-void renew_load(std::size_t number, System& system) {
+/// On bodies that turn about one direction, and beyond them, what a moment or a follower comes to depends on its direction.
+/// @returns false where that is so
+bool renew_load(std::size_t number, System& system) {
   const model::Load& load = system.mechanism.loads[number];
+  const bool keeps_form = load.kind == model::LoadKind::pressure ||
+                          (load.kind == model::LoadKind::force && !load.follows) ||
+                          std::none_of(system.body_slices.begin(), system.body_slices.end(),
+                                       [](const BodySlice& body) { return body.turn.has_value(); });
+  if (!keeps_form) return false;
   const auto own = static_cast<Index>(number);
   if (load.kind == model::LoadKind::pressure) {
     for (PointShape& shape : system.shapes)
       if (shape.load == own) shape.pressure = load.vector[0];
-    return;
+    return true;
   }
   for (PointLoad& acting : system.loads)
     if (acting.number == own) acting.vector = load.vector;
+  return true;
 }
 
 }  // namespace
@@ -87,8 +96,8 @@ bool renew(const MovedPlaces& places, System& system) {
     if (!renew_law(mechanism.shape_springs[i].law, own.first_switch, own.law, system.switches))
       return false;
   }
-  for (const std::size_t i : parts.loads) renew_load(i, system);
-  return true;
+  return std::all_of(parts.loads.begin(), parts.loads.end(),
+                     [&](std::size_t i) { return renew_load(i, system); });
 }
 
 }  // namespace springfold::statics

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "shape_terms.hpp"
+#include "turn_moment.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -29,11 +30,34 @@ double force_rate(const PointLoad& load, const PointMotion<double>& at, const Ve
   return rate;
 }
 
+/// A moment with a potential, at a body that turns about one direction only or on a chain from it: the potential of
+/// turn_moment.hpp, with the angles of the chain's joints added to that of the body.
+void add_moment_about_one_axis(const System& system, const PointLoad& load, const PointSlice& slice,
+                               const PointMotion<double>& at, const Vec3<double>& vector,
+                               Vector& residual, Matrix* A) {
+  const BodyTurn& turn = *system.body_slices[static_cast<std::size_t>(slice.body - 1)].turn;
+  const TurnMoment m = turn_moment(turn, at.body.pose.R * turn.reference, vector, load.follows);
+  const Index first = at.rotation, joints = slice.point.first_joint();
+  for (Index j = first; j < joints; ++j) {
+    const Index row = slice.z[static_cast<std::size_t>(j)];
+    residual[row] -= at.spin.col(j).dot(m.vector);
+    for (Index k = first; A != nullptr && k < joints; ++k)
+      (*A)(row, slice.z[static_cast<std::size_t>(k)]) -=
+          m.vector.dot(spin_rate(at, j, k)) + at.spin.col(j).dot(m.rate * at.spin.col(k));
+  }
+  const Vector along = directions_of_joints(turn, slice.point).transpose() * vector;
+  for (Index j = 0; j < along.size(); ++j)
+    if (const Index row = slice.z[static_cast<std::size_t>(joints + j)]; row >= 0)
+      residual[row] -= along[j];
+}
+
 void add_load(const System& system, const PointLoad& load, Workspace::Point& point,
               const Vector& factors, Vector& residual, Matrix* A, Matrix* dR_drho) {
   const PointSlice& slice = system.points[load.point];
   const PointMotion<double>& at = point.at;
   const Vec3<double> vector = vector_of(load, at, factors);
+  if (load.about_one_axis)
+    return add_moment_about_one_axis(system, load, slice, at, vector, residual, A);
   Vector& Q = point.forces;  // generalised, one per variable of the point
   Q.noalias() = (load.kind == LoadKind::force ? at.dp : at.spin).transpose() * vector;
   for (Index j = 0; j < Q.size(); ++j) {
@@ -192,6 +216,17 @@ double energy_of_linear_springs(const System& system, const Vector& z, const Vec
   return energy;
 }
 
+/// Of a moment with a potential, which turns about axes of one direction, each by its own variable.
+double work_of_moment(const System& system, const PointLoad& load, const Workspace::Point& point,
+                      const Vec3<double>& vector, const Vector& z, const Vector& rho) {
+  const PointSlice& slice = system.points[load.point];
+  if (!load.about_one_axis) return (point.at.spin.transpose() * vector).dot(point.variables);
+  const BodyTurn& turn = *system.body_slices[static_cast<std::size_t>(slice.body - 1)].turn;
+  const Vector along = directions_of_joints(turn, slice.point).transpose() * vector;
+  return vector.dot(turn.axis) * angle_of(turn, z, rho) +
+         along.dot(point.variables.tail(along.size()));
+}
+
 }  // namespace
 
 double spring_energy(const System& system, const Vector& z, const Vector& rho) {
@@ -219,16 +254,22 @@ double spring_energy(const System& system, const Vector& z) {
 double load_potential(const System& system, const Vector& z, const Inputs& inputs) {
   double potential = 0;
   Workspace::Point point;
-  const PointMotion<double>& at = point.at;
   for (const PointLoad& load : system.loads) {
     evaluate_point(system, load.point, z, inputs.rho, point);
-    const Vec3<double> vector = vector_of(load, at, inputs.loads);
-    // A moment with a potential turns about axes of one direction, each by its own variable.
-    potential -= load.kind == LoadKind::force ? vector.dot(at.pose.p)
-                                              : (at.spin.transpose() * vector).dot(point.variables);
+    const Vec3<double> vector = vector_of(load, point.at, inputs.loads);
+    if (load.kind == LoadKind::force)
+      potential -= vector.dot(point.at.pose.p);
+    else
+      potential -= work_of_moment(system, load, point, vector, z, inputs.rho);
   }
-  for (const BodySlice& body : system.body_slices)
-    potential -= inputs.W.segment(body.W, body.count).dot(z.segment(body.t, body.count));
+  for (const BodySlice& body : system.body_slices) {
+    const auto W = inputs.W.segment(body.W, body.count);
+    if (body.turn)
+      potential -= W.head(3).dot(z.segment(body.t, 3)) +
+                   W.tail(3).dot(body.turn->axis) * angle_of(*body.turn, z, inputs.rho);
+    else
+      potential -= W.dot(z.segment(body.t, body.count));
+  }
   if (!system.shapes.empty()) potential += pressure_potential(system, z, inputs);
   return potential;
 }

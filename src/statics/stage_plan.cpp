@@ -27,7 +27,7 @@ Index chain_of(const System& system, const PointLoad& load) {
 }
 
 bool is_conservative(const System& system, const PointLoad& load) {
-  return load.number < 0 ||
+  return load.number < 0 || load.about_one_axis ||
          model::is_conservative(system.mechanism,
                                 system.mechanism.loads[static_cast<std::size_t>(load.number)]);
 }
@@ -306,7 +306,8 @@ bool has_stage_form(const System& system, std::size_t chain, const StageOptions&
     if (from == static_cast<Index>(chain) || to == static_cast<Index>(chain)) return false;
   }
   for (const PointLoad& load : system.loads)
-    if (chain_of(system, load) == static_cast<Index>(chain) && !is_conservative(system, load))
+    if (chain_of(system, load) == static_cast<Index>(chain) &&
+        (load.about_one_axis || !is_conservative(system, load)))
       return false;
   const std::vector<Index> first = cut(system, system.chain_slices[chain], options.coordinates);
   for (std::size_t s = 0; s + 1 < first.size(); ++s)

@@ -16,10 +16,16 @@ void refresh(const DensePart& part, const System& system, Index chain, System& o
   if (chain >= 0) out.chains.front() = system.chains[static_cast<std::size_t>(chain)];
   for (std::size_t k = 0; k < part.points.size(); ++k)
     out.points[k].point = system.points[part.points[k]].point;
+  for (std::size_t b = 0; b < out.body_slices.size(); ++b)
+    out.body_slices[b].turn = system.body_slices[b].turn;
   for (std::size_t k = 0; k < part.springs.size(); ++k)
     out.springs[k].law = system.springs[part.springs[k]].law;
-  for (std::size_t k = 0; k < part.loads.size(); ++k)
-    out.loads[k].vector = system.loads[part.loads[k]].vector;
+  for (std::size_t k = 0; k < part.loads.size(); ++k) {
+    const PointLoad& load = system.loads[part.loads[k]];
+    out.loads[k].vector = load.vector;
+    out.loads[k].follows = load.follows;
+    out.loads[k].about_one_axis = load.about_one_axis;
+  }
   for (std::size_t k = 0; k < part.line_springs.size(); ++k) {
     out.line_springs[k].stiffness = system.line_springs[part.line_springs[k]].stiffness;
     out.line_springs[k].free = system.line_springs[part.line_springs[k]].free;

@@ -5,7 +5,9 @@
 
 #include "form.hpp"
 #include "shape_terms.hpp"
+#include "springfold/model/axis_of_turn.hpp"
 #include "springfold/statics/prepare_again.hpp"
+#include "turn_moment.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -142,6 +144,22 @@ void add_weight(System& system, std::size_t point, double mass) {
   system.loads.push_back({.point = point, .vector = mass * system.mechanism.gravity});
 }
 
+/// A load on what can turn about one direction only: what nothing turns is a fixed load, other moments have a potential
+/// where the model says so.
+void keep_potential(const System& system, const model::AxesOfTurn& turns, const model::Load& load,
+                    PointLoad& own) {
+  const PointSlice& slice = system.points[own.point];
+  if (slice.body == 0) return;
+  const auto& turn = turns[static_cast<std::size_t>(slice.body - 1)];
+  if (!turn) return;
+  if (const auto fixed = load.follows ? unturned(*turn, slice.point, load.vector) : std::nullopt) {
+    own.follows = false;
+    own.vector = *fixed;
+  }
+  own.about_one_axis =
+      own.kind == model::LoadKind::moment && is_conservative(system.mechanism, turns, load);
+}
+
 /// All chain points, so that named ones can be watched, then what acts on them and elsewhere.
 void add_points(System& system) {
   const model::Mechanism& mechanism = system.mechanism;
@@ -161,11 +179,13 @@ void add_points(System& system) {
     const model::Anchor at{.body = static_cast<Index>(b + 1), .at = body.centre};
     add_weight(system, add_point(system, at, ""), body.mass);
   }
+  const auto turns = set_body_turns(system);
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
     const model::Load& load = mechanism.loads[i];
     if (load.kind == model::LoadKind::pressure) continue;  // add_shapes
     const std::size_t point = add_point(system, load.on, "");
     system.loads.push_back({point, load.kind, load.follows, static_cast<Index>(i), load.vector});
+    keep_potential(system, turns, load, system.loads.back());
   }
   for (const model::LineSpring& spring : mechanism.line_springs) {
     const std::size_t from = add_point(system, spring.from, "");
@@ -324,35 +344,6 @@ System prepare(model::Mechanism mechanism, System old) {
   old.redundant = 0;
   add_what_acts(old);
   return old;
-}
-
-void turn_frames(const System& system, const std::vector<model::Mat3<double>>& rotations,
-                 System& turned) {
-  const auto turn = [&](Index body, model::Pose<double>& frame,
-                        const model::Pose<double>& original) {
-    const auto b = static_cast<std::size_t>(body - 1);
-    if (body == 0 || system.mechanism.bodies[b].task_space != TaskSpace::spatial) return;
-    frame.R = rotations[b] * original.R;
-    frame.p = rotations[b] * original.p;
-  };
-  for (std::size_t i = 0; i < system.chains.size(); ++i) {
-    const model::Chain& ends = system.mechanism.chains[i];
-    const model::CompiledChain& from = system.chains[i];
-    model::CompiledChain& to = turned.chains[i];
-    turn(ends.to, to.to_attachment, from.to_attachment);
-    if (from.joints.empty())
-      turn(ends.from, to.last, from.last);
-    else
-      turn(ends.from, to.joints.front().before, from.joints.front().before);
-  }
-  for (std::size_t i = 0; i < system.points.size(); ++i) {
-    const model::CompiledPoint& from = system.points[i].point;
-    model::CompiledPoint& to = turned.points[i].point;
-    if (from.joints.empty())
-      turn(system.points[i].body, to.last, from.last);
-    else
-      turn(system.points[i].body, to.joints.front().before, from.joints.front().before);
-  }
 }
 
 Vector guess(const System& system) {

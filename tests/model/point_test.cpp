@@ -78,9 +78,9 @@ TEST(PointDerivatives, AreExactAtARotationOfAHalfTurn) {
   }
 }
 
-/// A planar arm and a spatial body, with a load that a test chooses.
+/// A body on an arm with these axes, with a load that a test chooses: at the end of the arm; without axes on the body.
 bool conservative(TaskSpace space, LoadKind kind, bool follows, const Vec3<double>& vector,
-                  const std::vector<Vec3<double>>& axes = {}) {
+                  const std::vector<Vec3<double>>& axes = {}, bool on_body = false) {
   Mechanism m;
   m.bodies = {{"tool", space, Vector::Zero(dimension(space))}};
   Chain chain{.name = "arm"};
@@ -91,7 +91,7 @@ bool conservative(TaskSpace space, LoadKind kind, bool follows, const Vec3<doubl
   chain.points.push_back({.name = "tip", .elements_before = chain.elements.size()});
   m.chains = {chain};
   Load load{.kind = kind, .follows = follows, .vector = vector};
-  if (axes.empty())
+  if (axes.empty() || on_body)
     load.on.body = 1;
   else
     load.on.chain = 0;
@@ -113,8 +113,9 @@ TEST(ConservativeLoads, AreMomentsInThePlaneAndAboutOneAxis) {
 }
 
 TEST(ConservativeLoads, AreNotMomentsInSpace) {
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, e_z));
-  EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, true, e_z));
+  for (const bool follows : {false, true})
+    EXPECT_FALSE(
+        conservative(TaskSpace::spatial, LoadKind::moment, follows, e_z, {e_x, e_z}, true));
   EXPECT_FALSE(conservative(TaskSpace::spatial, LoadKind::moment, false, e_z, {e_x, e_z}));
 }
 

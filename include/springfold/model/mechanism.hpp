@@ -218,8 +218,8 @@ std::vector<std::string> problems_in(const Mechanism& mechanism);
 TaskSpace task_space_of(const Mechanism& mechanism, const Chain& chain);
 
 /// Has the load a potential, whatever the mechanism does: dead forces, and loads whose point can
-/// turn only about axes of one direction so that they stay constant. Fixed-axis and follower moments
-/// on planar bodies are of this kind; a moment on a spatial body or a follower force is not.
+/// turn only about axes of one direction so that they stay constant. Moments on planar bodies are of this kind,
+/// and on spatial bodies that turn about one direction (axis_of_turn.hpp); most follower forces are not.
 /// @pre problems_in(mechanism).empty()
 bool is_conservative(const Mechanism& mechanism, const Load& load);
 

@@ -15,7 +15,8 @@ struct StageOptions {
 };
 
 /// Can the chain be cut into stages? Not with line springs at its points, not where coupled springs
-/// hold more than `largest` coordinates together, not under loads without potential at its points.
+/// hold more than `largest` coordinates together, not under loads without potential at its points, nor under moments
+/// whose potential is that of the body where it begins.
 bool has_stage_form(const System& system, std::size_t chain, const StageOptions& options = {});
 
 /// Can the equilibrium be written as strings of fronts? Chains without stage form are then one dense

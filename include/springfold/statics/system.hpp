@@ -25,9 +25,24 @@ struct ChainSlice {
   std::vector<Index> rho_of{};            ///< likewise: its command in rho, or -1
 };
 
+/// How a spatial body turns that can turn about one direction only: moments on it have a potential (turn_moment.hpp).
+struct BodyTurn {
+  model::Vec3<double> axis = model::Vec3<double>::UnitZ();
+  /// Exp(phi) reference is what the body has turned from where all joints are at zero.
+  model::Mat3<double> reference = model::Mat3<double>::Identity();
+  /// The angle is the sum of such coordinates, each times its sign.
+  struct Part {
+    Index z = -1;    ///< place in z, or -1
+    Index rho = -1;  ///< likewise a command
+    double sign = 1;
+  };
+  std::vector<Part> angle{};
+};
+
 struct BodySlice {
   Index t = 0, count = 0;  ///< pose coordinates in z
   Index W = 0;             ///< the body's wrench in the stacked load vector
+  std::optional<BodyTurn> turn{};
 };
 
 /// A spring on one coordinate.
@@ -69,6 +84,8 @@ struct PointLoad {
   bool follows = false;
   Index number = -1;  ///< among the mechanism's loads, or -1: a weight
   model::Vec3<double> vector = model::Vec3<double>::Zero();
+  bool about_one_axis =
+      false;  ///< a moment with a potential, at a body with a BodyTurn or on a chain from it
 };
 
 /// A line spring between two points.
