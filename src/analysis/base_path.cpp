@@ -13,6 +13,7 @@
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "start_hits.hpp"
+#include "switching_starts.hpp"
 #include "within_limits.hpp"
 #include "zero_lengths.hpp"
 
@@ -28,9 +29,6 @@ using continuation::Hit;
 
 /// So many points are kept behind the last special point that is asked for: narrow places are judged from both sides.
 constexpr int points_behind = 8;
-
-/// Springs that switch at once move on together with a parameter where their rates differ by no more.
-constexpr double same_rate = 1e-8;
 
 /// The special point of the engine that became this event: the same arc length on the same side.
 const Hit* hit_at(const Curve& curve, double s) {
@@ -62,15 +60,6 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurveP
                  [](const Member& member, const CurvePoint& point) {
                    return member.evaluator().force_rate(point).value;
                  });
-}
-
-/// Where the force turns back at a corner and lambda does not: its rate along the curve of either side.
-continuation::RateFunction force_turns(const CaseCurves& curves) {
-  return [&curves](const CurvePoint& point, double mu) -> std::optional<double> {
-    const Member* member = curves.equations_at(mu);
-    if (member == nullptr) return std::nullopt;
-    return member->evaluator().force_rate(point).value;
-  };
 }
 
 /// The rate of the column whose extremum the point is. Its curve may turn back in lambda: the tangent's sense is the one there.
@@ -149,56 +138,10 @@ const Hit* hit_at_start(const std::vector<Hit>& hits, EventKind kind) {
   return hits.empty() ? nullptr : &hits.front();
 }
 
-/// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise one for
-/// each of them, with itself alone behind it: on either side of the parameter another one may be the first.
-std::vector<CriticalStart> starts_on_surfaces(const CaseCurves& curves,
-                                              const std::vector<Index>& switches,
-                                              CriticalStart start) {
-  if (switches.empty()) return {};
-  start.switching = switches.front();
-  if (switches.size() == 1) return {start};
-  std::vector<CriticalStart> starts;
-  std::optional<continuation::CriticalPoint> first;
-  bool together = true;
-  for (const Index j : switches) {
-    CriticalStart one = start;
-    one.switching = j;
-    one.behind = one.piece;
-    auto& behind = one.behind[static_cast<std::size_t>(j)];
-    behind = static_cast<std::int8_t>(-behind);
-    const auto rate = critical_rate(curves.family(), one);
-    if (!rate) return {};
-    if (!first) first = rate;
-    const double size =
-        std::max({1.0, first->dx.lpNorm<Eigen::Infinity>(), std::abs(first->dlambda)});
-    together = together && std::abs(rate->dlambda - first->dlambda) <= same_rate * size &&
-               (rate->dx - first->dx).lpNorm<Eigen::Infinity>() <= same_rate * size;
-    starts.push_back(std::move(one));
-  }
-  if (together) return {start};
-  return starts;
-}
-
-/// The same at a switching or corner of a path.
-std::vector<CriticalStart> starts_at_switching(const CaseCurves& curves, const SpecialPoint& point,
-                                               CriticalStart start) {
-  const Hit& hit = point.hit;
-  if (hit.leaving.empty()) return {};
-  start.kind = CriticalKind::surface;
-  start.behind = hit.leaving.front().piece;
-  if (point.kind == EventKind::corner_limit_point && hit.kind != continuation::HitKind::corner)
-    start.turns = force_turns(curves);
-  return starts_on_surfaces(curves, hit.switches, std::move(start));
-}
-
 /// The place of a special point, to be followed.
 CriticalStart start_at(const Member& member, const SpecialPoint& point) {
   const CurvePoint& p = point.hit.point;
   return {.x = p.x, .lambda = p.lambda, .mu = member.mu, .piece = p.piece};
-}
-
-std::string several_switch(const SpecialPoint& point) {
-  return "several springs switch at " + point.label + " at once";
 }
 
 }  // namespace
@@ -311,8 +254,10 @@ CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool 
   for (;;) {
     result.curves = std::make_unique<CaseCurves>(study, parameter, result.lambda_unit);
     if (!result.curves->base().report.found) return result;
-    result.path = base_path(result.curves->base(), forward_only, observer,
-                            largest_change_of_lambda_unit / result.lambda_unit);
+    const Member& base = result.curves->base();
+    const bool in_parts = std::isfinite(base.setup.rule.lambda_measure.linear);
+    result.path = base_path(base, forward_only, observer,
+                            in_parts ? 1 : largest_change_of_lambda_unit / result.lambda_unit);
     if (!(result.path.lambda_unit > 1)) return result;
     result.lambda_unit *= result.path.lambda_unit;
   }
@@ -345,6 +290,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::switching:
     case EventKind::corner_limit_point:
     case EventKind::branching_kink:
+      if (springs_rest(member, point)) return start_at_rest(curves, member, point, why);
       if (auto starts = starts_at_switching(curves, point, start); starts.size() == 1)
         return std::move(starts.front());
       why = several_switch(point);
@@ -368,7 +314,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
-  if (is_at_switching(point.kind)) {
+  if (is_at_switching(point.kind) && !springs_rest(member, point)) {
     auto starts = starts_at_switching(curves, point, start_at(member, point));
     if (starts.empty()) why = several_switch(point);
     return starts;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "first_unwanted.hpp"
+#include "switching_starts.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -13,19 +14,29 @@ namespace {
 /// change, and modes are that far apart.
 constexpr double beside = 0x1p-10;
 
+/// Branch points, and those of the pieces beside springs that rest: one after the other on one branch.
+bool is_mode(const DesignPath& path, const SpecialPoint& point) {
+  return point.kind == EventKind::branch_point || springs_rest(path.base(), point);
+}
+
+int modes_at(const DesignPath& path, const SpecialPoint& point) {
+  const int pieces = springs_rest(path.base(), point)
+                         ? static_cast<int>(pieces_at_rest(point).size())
+                         : point.hit.multiplicity;
+  return std::max(1, pieces);
+}
+
 FirstModes modes_of(const DesignPath& path, const CriticalRequirement& wanted) {
   const CriticalPointSettings settings = settings_of(wanted);
   FirstModes found;
   for (const SpecialPoint& point : path.path().points) {
     if (!is_unwanted(path.base(), settings, path.path(), point)) continue;
     const bool more = found.first != nullptr;
-    if (more &&
-        (point.kind != EventKind::branch_point || found.first->kind != EventKind::branch_point))
-      break;
+    if (more && !(is_mode(path, point) && is_mode(path, *found.first))) break;
     if (!more) found.first = &point;
     const auto reached = path.at_point(point, wanted.quantity);
     if (!reached || (more && !(reached->value >= found.modes.front().value))) break;
-    const int count = std::max(1, point.hit.multiplicity);
+    const int count = modes_at(path, point);
     for (int i = 0; i < count && found.modes.size() < modes_together; ++i)
       found.modes.push_back(*reached);
   }
@@ -49,7 +60,7 @@ CriticalPointSettings settings_of(const CriticalRequirement& wanted) {
 FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignPath& path,
                        const CriticalRequirement& wanted, const Observer& observer) {
   FirstModes found = modes_of(path, wanted);
-  const bool is_multiple = found.first != nullptr && found.first->hit.multiplicity > 1;
+  const bool is_multiple = found.first != nullptr && modes_at(path, *found.first) > 1;
   if (!is_multiple || knows_rates(found)) return found;
   // Every parameter by another amount: those of a symmetric structure do not move alike.
   Vector near = values;

@@ -5,14 +5,45 @@
 #include <iterator>
 #include <string>
 
+#include "analysis/undefined.hpp"
 #include "critical_rows.hpp"
 #include "cut_curve.hpp"
 #include "springfold/core/number_text.hpp"
+#include "switching_starts.hpp"
 
 namespace springfold::analysis {
 namespace {
 
+constexpr double tenth = 0.1;
+
 constexpr const char* in_next_piece = "goes on in the next piece";
+
+/// Pieces are cut where their loads differ by `same_load`: as far from their meeting as they are slow to part. The difference
+/// of two smooth loads is a straight line there.
+void end_where_equal(const CaseCurves& curves, LoadPiece& last, LoadPiece& next, double room) {
+  using Points = std::pair<std::optional<continuation::CriticalPoint>,
+                           std::optional<continuation::CriticalPoint>>;
+  const auto points_at = [&](double mu) {
+    return Points{point_of_curve(curves, last.start, last.growing.curve, mu, room),
+                  point_of_curve(curves, next.start, next.falling.curve, mu, room)};
+  };
+  const auto difference = [](const Points& at) {
+    return at.first && at.second ? at.first->lambda - at.second->lambda : undefined;
+  };
+  const double mu = last.growing.end, aside = mu - tenth * room;
+  const double here = difference(points_at(mu)), there = difference(points_at(aside));
+  const double meeting = mu - here * (aside - mu) / (there - here);
+  if (!(std::abs(meeting - mu) <= room)) return;
+  const Points both = points_at(meeting);
+  if (!(std::abs(difference(both)) <= tenth * std::abs(here))) return;
+  // Both are the points that were followed: where branches cross another one may be found.
+  if (!is_same_load_at_ends(both.first->lambda, load_at_end(last.growing)) ||
+      !is_same_load_at_ends(both.second->lambda, load_at_end(next.falling)))
+    return;
+  end_curve_at(*both.first, another_is_first, last.growing.curve);
+  end_curve_at(*both.second, another_is_first, next.falling.curve);
+  last.growing.end = next.falling.end = meeting;
+}
 
 constexpr const char* at_this_value = "at this value alone: it does not move with the parameter";
 
@@ -102,10 +133,13 @@ Branch row_alone(const CaseCurves& curves, const Member& member, const SpecialPo
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point) {
   std::string why;
   const auto start = critical_start(curves, member, point, why);
-  if (point.kind == EventKind::branch_point)
+  const bool is_branch_point =
+      start ? start->kind == continuation::CriticalKind::branch_point : false;
+  if (point.kind == EventKind::branch_point || is_branch_point)
     return start && !critical_rate(curves.family(), *start);
-  // Several springs that switch at once, each with a curve of its own.
-  return is_at_switching(point.kind) && !start && point.hit.switches.size() > 1;
+  // Several springs that switch at once, each with a curve of its own; springs that rest at this value alone.
+  return is_at_switching(point.kind) && !start &&
+         (point.hit.switches.size() > 1 || springs_rest(member, point));
 }
 
 bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,
@@ -134,12 +168,17 @@ void leave_out_points(std::vector<LoadPiece>& pieces, double room) {
   }
 }
 
-void say_what_goes_on(std::vector<LoadPiece>& pieces, double room) {
+void say_what_goes_on(const CaseCurves& curves, const std::vector<double>& alone,
+                      std::vector<LoadPiece>& pieces, double room) {
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     Side &before = pieces[i].growing, &behind = pieces[i + 1].falling;
     const bool has_points = !before.curve.points.empty() && !behind.curve.points.empty();
     if (std::abs(behind.end - before.end) > room || !has_points) continue;
     if (!is_same_load_at_ends(load_at_end(before), load_at_end(behind))) continue;
+    const bool is_left_out = std::any_of(
+        alone.begin(), alone.end(), [&](double mu) { return std::abs(mu - before.end) <= room; });
+    if (before.another_first && behind.another_first && !is_left_out)
+      end_where_equal(curves, pieces[i], pieces[i + 1], room);
     for (Side* side : {&before, &behind})
       if (side->another_first) side->curve.stop_detail = in_next_piece;
   }

@@ -73,7 +73,10 @@ bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, 
 /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
 void leave_out_points(std::vector<LoadPiece>& pieces, double room);
 
-/// Where one piece meets the next one with the same load, the same point goes on.
-void say_what_goes_on(std::vector<LoadPiece>& pieces, double room);
+/// Where one piece meets the next one with the same load, the same point goes on, or the lesser one of two loads: both end
+/// where they are equal.
+/// @param alone  values with a point of their own: no piece comes to them
+void say_what_goes_on(const CaseCurves& curves, const std::vector<double>& alone,
+                      std::vector<LoadPiece>& pieces, double room);
 
 }  // namespace springfold::analysis

@@ -353,7 +353,7 @@ class LoadsOverParameter {
       for (std::string& text : doubted.told(curves_.name()))
         result_.doubts.push_back(std::move(text));
     leave_out_points(pieces_, at_degeneracy * width_);
-    say_what_goes_on(pieces_, at_degeneracy * width_);
+    say_what_goes_on(curves_, alone_, pieces_, at_degeneracy * width_);
     for (const LoadPiece& piece : pieces_) {
       const FollowedCurve followed{.start = piece.start,
                                    .of = piece.of,

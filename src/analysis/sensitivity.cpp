@@ -65,11 +65,16 @@ std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t nu
   return best;
 }
 
-void say_lost(const std::string& labels, const std::string& parameter, BasePath& path) {
-  for (const SpecialPoint& point : path.points)
+/// A point without a rate, and why, where that is known.
+struct LostRate {
+  std::string label{}, why{};
+};
+
+void say_lost(const std::vector<LostRate>& lost, const std::string& parameter, BasePath& path) {
+  for (const LostRate& one : lost)
     for (Event& event : path.branch.events)
-      if (event.label == point.label && labels.find(point.label) != std::string::npos)
-        event.detail += "; no rate by " + parameter;
+      if (event.label == one.label)
+        event.detail += "; no rate by " + parameter + (one.why.empty() ? "" : ": " + one.why);
 }
 
 /// Columns of the laws of imperfections; what other rows do not have is undefined.
@@ -166,14 +171,15 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
     const Member& base = curves.base();
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities()[i].name, parameter), Unit::none});
-    std::string lost;
+    std::vector<LostRate> lost;
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const SpecialPoint& point = path.points[k];
-      auto rates = rates_at_special(curves, base, point, column_values(columns));
+      std::string why;
+      auto rates = rates_at_special(curves, base, point, column_values(columns), &why);
       const bool has_rates =
           laws[k].enter(curves, rates ? (*rates)[static_cast<Index>(lambda)] : undefined);
       if (!has_rates) rates.reset();
-      if (!rates || std::isnan((*rates)[0])) lost += (lost.empty() ? "" : ", ") + point.label;
+      if (!rates || std::isnan((*rates)[0])) lost.push_back({point.label, why});
       auto& values = path.branch.samples[point.row].values;
       for (std::size_t i = 0; i < columns.size(); ++i)
         values.push_back(rates ? (*rates)[static_cast<Index>(i)] : undefined);

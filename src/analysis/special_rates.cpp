@@ -18,9 +18,11 @@ constexpr double shorter = 0x1p-3, least_step = 0x1p-18;
 }  // namespace
 
 std::optional<Vector> rates_at_special(const CaseCurves& curves, const Member& base,
-                                       const SpecialPoint& point, const StateValues& values) {
+                                       const SpecialPoint& point, const StateValues& values,
+                                       std::string* why_none) {
   std::string why;
   const auto start = critical_start(curves, base, point, why);
+  if (why_none != nullptr) *why_none = why;
   return start ? rates_at_followed(curves, base, *start, values) : std::nullopt;
 }
 

@@ -17,8 +17,10 @@ std::optional<Vector> rates_at_followed(const CaseCurves& curves, const Member& 
 
 /// Total derivatives of `values` at a special point by the parameter of `curves`, the point being kept special; nothing
 /// where it is degenerate or of a kind that is not followed.
+/// @param why_none  set: why it is not followed; empty where it is
 std::optional<Vector> rates_at_special(const CaseCurves& curves, const Member& base,
-                                       const SpecialPoint& point, const StateValues& values);
+                                       const SpecialPoint& point, const StateValues& values,
+                                       std::string* why_none = nullptr);
 
 /// The same at the start.
 std::optional<Vector> rates_at_start(const CaseCurves& curves, const StateValues& values);

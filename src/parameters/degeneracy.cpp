@@ -92,12 +92,45 @@ double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   return *rate * h->dot(t) / std::max(smallest_number, h->norm());
 }
 
+/// Of a switch that rests: as long as it does, and as long as the mode leaves to its side.
+void watch_resting(const Augmented& system, Index j, const std::string& name,
+                   std::vector<Watch>& watches) {
+  constexpr double zero = TraceOptions{}.simultaneous;
+  const auto rests = [&system, j](const CurvePoint& p) {
+    const auto at = system.family().at(p.lambda);
+    Vector g;
+    if (!at || !at->switches(system.state(p.x), system.lambda(p.x), g)) return not_a_number;
+    return 1 - std::abs(g[j]) / zero;
+  };
+  const auto along_mode = [&system, j](const CurvePoint& p) {
+    const auto at = system.family().at(p.lambda);
+    const auto place = system.place(p.x, p.lambda);
+    Matrix dg_dx;
+    Vector dg_dlambda;
+    if (!at || !place ||
+        !at->switch_gradients(system.state(p.x), system.lambda(p.x), dg_dx, dg_dlambda))
+      return not_a_number;
+    return dg_dx.row(j).dot(place->V.col(0).normalized());
+  };
+  watches.push_back(
+      {Degeneracy::fold_meets_activation, name, rests, EventAction::stop, {}, true, 1});
+  if (system.start().corank > 1) return;
+  watches.push_back(
+      {Degeneracy::fold_meets_activation, name, along_mode, EventAction::stop, {}, true});
+  watches.back().noise = root_of_rounding;
+}
+
 void watch_surfaces(const Augmented& system, std::vector<Watch>& watches) {
   const auto problem = system.family().at(system.start().mu);
   if (!problem) return;
   const bool on_surface = system.start().kind == CriticalKind::surface;
+  const std::vector<Index>& resting = system.start().resting;
   for (Index j = 0; j < problem->switch_count(); ++j) {
     if (on_surface && j == system.start().switching) continue;
+    if (std::find(resting.begin(), resting.end(), j) != resting.end()) {
+      watch_resting(system, j, problem->switch_name(j), watches);
+      continue;
+    }
     watches.push_back({on_surface ? Degeneracy::two_switches : Degeneracy::fold_meets_activation,
                        problem->switch_name(j),
                        [&system, j](const CurvePoint& p) {

@@ -177,7 +177,10 @@ class Follower {
                  : "the second parameter does not keep the branch";
     } else if (accepted_ >= options_.maximum_points) {
       curve_.stop = StopReason::max_points;
-      curve_.stop_detail = std::string{to_string(StopReason::max_points)};
+      curve_.stop_detail =
+          std::string{to_string(StopReason::max_points)} + ": " + std::to_string(accepted_) +
+          " points: maximum_points allows more, a larger maximum_step takes fewer; "
+          "a parameter over several decades is better followed as an exponent";
     }
     last_ = curve.points.back();
     return renew && curve.stop == StopReason::observer;

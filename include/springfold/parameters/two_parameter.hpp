@@ -50,6 +50,9 @@ struct CriticalStart {
   /// Kind limit_point: modes that vanish at the same point and along which the curve does not move, left and right ones,
   /// n x h each; hilltop_start() finds them. Empty: none.
   Matrix held_left{}, held_right{};
+  /// Kind branch_point: switches that are zero all along the branch, which is crossed in `piece` to one side of them. The
+  /// curve ends where one of them leaves zero, and where the mode comes to its surface.
+  std::vector<Index> resting{};
 };
 
 /// A point of a critical curve. Rates are by its arc length, in the problem's metric.

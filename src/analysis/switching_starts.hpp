@@ -1,0 +1,39 @@
+// Special points at switching springs as the engine follows them in a parameter. Private to analysis.
+#pragma once
+
+#include "base_path.hpp"
+
+namespace springfold::analysis {
+
+/// What turns back at a corner at which the force does and lambda does not: its rate along the curve of either side.
+continuation::RateFunction force_turns(const CaseCurves& curves);
+
+/// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise one
+/// for each of them, with itself alone behind it: on either side of the parameter another one may be the first.
+std::vector<continuation::CriticalStart> starts_on_surfaces(const CaseCurves& curves,
+                                                            const std::vector<Index>& switches,
+                                                            continuation::CriticalStart start);
+
+/// The same at a switching or corner of a path. Empty: several_switch() says why.
+std::vector<continuation::CriticalStart> starts_at_switching(const CaseCurves& curves,
+                                                             const SpecialPoint& point,
+                                                             continuation::CriticalStart start);
+
+std::string several_switch(const SpecialPoint& point);
+
+/// Do the springs of this special point rest, before it and behind it? Then none of them switches there: the eigenvalue of a
+/// piece vanishes.
+bool springs_rest(const Member& member, const SpecialPoint& point);
+
+/// Where springs rest: the pieces in which half-branches leave, or the path's own where none does.
+std::vector<Piece> pieces_at_rest(const SpecialPoint& point);
+
+/// A point at which springs rest is a branch point of the piece whose half-branch leaves, or of the path's own piece where none
+/// does, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them alike, as mirror
+/// images do. Nothing: `why`.
+std::optional<continuation::CriticalStart> start_at_rest(const CaseCurves& curves,
+                                                         const Member& member,
+                                                         const SpecialPoint& point,
+                                                         std::string& why);
+
+}  // namespace springfold::analysis
