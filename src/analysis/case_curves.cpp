@@ -108,6 +108,7 @@ bool CaseCurves::set_up_anew(Member& member, const Member* near, bool again,
     member.report.where = "start.from";
   }
   if (near == nullptr) return true;
+  member.setup.rule.lambda_measure = near->setup.rule.lambda_measure;
   const statics::System &own = member.setup.system, &of_others = near->setup.system;
   const bool is_alike =
       own.size == of_others.size && own.switches.size() == of_others.switches.size();

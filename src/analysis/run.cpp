@@ -1,7 +1,7 @@
 #include "springfold/analysis/run.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "branches.hpp"
@@ -131,32 +131,26 @@ StudyResult run_study(const model::Mechanism& mechanism, const Study& study,
 
 namespace {
 
-/// A study whose start is found, in the units of `setup`.
+/// A study whose start is found.
 struct Begun {
   const model::Mechanism& mechanism;
   const Study& study;
   const ParameterFamily* family;
   const Observer& observer;
   const TraceBy& trace_by;
-  const statics::FirstEquilibrium& first;
 };
 
-/// Where a straight curve's range of lambda is so many times longer than the way to the first critical load asks for, no
-/// unit serves both: lambda is measured in parts of itself beyond that way.
-constexpr double long_beside_first_load = 0x1p8;
+/// The units that it is traced in, and its start in them.
+struct InUnits {
+  Setup setup;
+  statics::FirstEquilibrium first;
+};
 
 /// In what lambda is to be measured instead.
 struct LambdaAsked {
   double factor = 1;  ///< by which its unit should grow, and the result is worthless; 1: done
   bool is_straight = false;  ///< the curve goes straight along lambda all the way
 };
-
-/// Does lambda range over orders of magnitude between the first critical load and the limits?
-bool is_of_many_sizes(const Study& study, const LambdaAsked& asked, const Setup& first) {
-  const double range = range_of_lambda(study, first);
-  return asked.is_straight && std::isfinite(range) &&
-         range >= long_beside_first_load * longest_straight_way;
-}
 
 void report_start(const Evaluator& evaluator, const CurvePoint& start, StartReport& report) {
   report.stiffness = evaluator.platform_stiffness(start);
@@ -172,21 +166,22 @@ void watch_lambda(const Tracing& t, const CurvePoint& start) {
   if (rays.rays.size() == 2 && rays.complete) t.crawl.begin(rays.rays.front().tangent);
 }
 
-/// @param setup    begins at the start
 /// @param largest  factor by which the unit of lambda may still grow
-LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest,
+LambdaAsked run_in_units(const Begun& begun, const InUnits& units, double largest,
                          StudyResult& result) {
   const Study& study = begun.study;
+  Setup setup = units.setup;
+  begin_at(study, units.first, setup);
   const PathProblem problem(setup.system, setup.rule);
   const Evaluator evaluator(problem, study, setup.scales);
   const auto quantities =
       quantities_of(study, setup.system, setup.scales, setup.lambda_scale, result.lambda_unit);
-  CurvePoint start = start_point(problem, setup, begun.first);
+  CurvePoint start = start_point(problem, setup, units.first);
   count_negative(problem, start);
   refuse_contradiction(evaluator, start, result.start);
   refuse_held_twice(evaluator, study, start, result.start);
   if (!result.start.found) return {};
-  report_tangent(evaluator, start, begun.first.z, result.start);
+  report_tangent(evaluator, start, units.first.z, result.start);
   report_range(study, evaluator, quantities, start, result.start);
   report_start(evaluator, start, result.start);
   RowBudget budget;
@@ -210,6 +205,44 @@ LambdaAsked run_in_units(const Begun& begun, const Setup& setup, double largest,
   return {crawl.factor(), crawl.goes_straight()};
 }
 
+bool has_unresolved(const StudyResult& result) {
+  const auto is_unresolved = [](const Event& e) { return e.kind == EventKind::unresolved; };
+  return std::ranges::any_of(result.branches, [&](const Branch& branch) {
+    return std::ranges::any_of(branch.events, is_unresolved);
+  });
+}
+
+/// From the start, again and again until no other unit of lambda is asked for. Beside a critical load that is far below
+/// its range a curve bends sharply and becomes steep: in the larger unit that may be missed. Parts of lambda take more
+/// points, and digits of the works of jumps and cycles, so that they come second, and not at all where those are asked for.
+/// @param empty  what is known before
+StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyResult& empty) {
+  std::optional<InUnits> before_steep;
+  double largest = largest_change_of_lambda_unit;
+  for (;;) {
+    StudyResult result = empty;
+    const LambdaAsked asked = run_in_units(begun, units, largest, result);
+    if (asked.factor > 1) {
+      const bool is_long = is_of_many_sizes(range_of_lambda(begun.study, units.setup));
+      if (is_long && asked.is_straight) {
+        measure_lambda_in_parts(units.setup);
+        largest = 1;
+        continue;
+      }
+      if (is_long && asked.factor >= long_beside_first_load && !before_steep) before_steep = units;
+      largest /= asked.factor;
+      enlarge_lambda_unit(begun.mechanism, begun.study, begun.family, asked.factor, units.first,
+                          units.setup);
+      continue;
+    }
+    if (!before_steep || begun.trace_by || !has_unresolved(result)) return result;
+    measure_lambda_in_parts(before_steep->setup);
+    StudyResult in_parts = empty;
+    run_in_units(begun, *before_steep, 1, in_parts);
+    return complete(in_parts) ? in_parts : result;
+  }
+}
+
 }  // namespace
 
 StudyResult run_from_start(const model::Mechanism& given, const Study& study,
@@ -230,25 +263,8 @@ StudyResult run_from_start(const model::Mechanism& given, const Study& study,
     begin_at(study, first, setup);
     find_equilibria(setup, study, first, observer, result);
   } else if (result.start.found) {
-    const Begun begun{mechanism, study, family, observer, trace_by, first};
-    double largest = largest_change_of_lambda_unit;
-    for (;;) {
-      StudyResult attempt = result;
-      Setup at_start = setup;
-      begin_at(study, first, at_start);
-      const LambdaAsked asked = run_in_units(begun, at_start, largest, attempt);
-      if (!(asked.factor > 1)) {
-        result = std::move(attempt);
-        break;
-      }
-      if (is_of_many_sizes(study, asked, setup)) {
-        setup.rule.lambda_measure = {setup.lambda_start, 1};
-        largest = 1;
-        continue;
-      }
-      largest /= asked.factor;
-      enlarge_lambda_unit(mechanism, study, family, asked.factor, first, setup);
-    }
+    result = run_in_growing_units({mechanism, study, family, observer, trace_by},
+                                  {std::move(setup), std::move(first)}, result);
   }
   result.seconds = thread_seconds() - began;
   return result;

@@ -170,6 +170,12 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
                setup);
 }
 
+bool is_of_many_sizes(double range) {
+  return std::isfinite(range) && range >= long_beside_first_load * longest_straight_way;
+}
+
+void measure_lambda_in_parts(Setup& setup) { setup.rule.lambda_measure = {setup.lambda_start, 1}; }
+
 void reach_range(const model::Mechanism& mechanism, const Study& study,
                  const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
   constexpr double rounding = 1e-12;
@@ -185,7 +191,10 @@ void reach_range(const model::Mechanism& mechanism, const Study& study,
   const auto tangent = continuation::tangent_at(at, problem.metric(), along);
   if (!tangent) return;
   const double dx = std::sqrt(tangent->dx.cwiseAbs2().dot(problem.metric()));
-  if (dx <= rounding * std::abs(tangent->dlambda))
+  if (!(dx <= rounding * std::abs(tangent->dlambda))) return;
+  if (is_of_many_sizes(range_of_lambda(study, setup)))
+    measure_lambda_in_parts(setup);
+  else
     enlarge_lambda_unit(mechanism, study, family, power_of_two_near(longer), first, setup);
 }
 

@@ -35,7 +35,8 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
                          statics::FirstEquilibrium& first, Setup& setup);
 
 /// Where x stands still at the start its response says nothing, and the unit of lambda comes from the first critical load.
-/// The others may be orders of magnitude away: then the unit grows until a finite range is so many units long.
+/// The others may be orders of magnitude away: then the unit grows until a finite range is so many units long, or lambda is
+/// measured in parts of itself.
 void reach_range(const model::Mechanism& mechanism, const Study& study,
                  const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup);
 
@@ -44,5 +45,14 @@ inline constexpr double longest_straight_way = 64;
 
 /// Length of the range of lambda that is asked for, in its unit; infinity: none is.
 double range_of_lambda(const Study& study, const Setup& setup);
+
+/// Where a curve goes straight along lambda, or becomes so many times steeper, and its range of lambda is so many times
+/// longer than the unit of its start serves, no unit may serve both: lambda is measured in parts of itself beyond that one.
+inline constexpr double long_beside_first_load = 0x1p8;
+
+/// Does such a range of lambda span orders of magnitude between what the unit serves and the limits?
+bool is_of_many_sizes(double range);
+
+void measure_lambda_in_parts(Setup& setup);
 
 }  // namespace springfold::analysis

@@ -146,6 +146,52 @@ TEST(SoftMembers, OfAPerfectColumnAreResolvedHoweverLongTheRangeIs) {
   }
 }
 
+/// The path of an imperfect column bends beside the first critical load of the perfect one, and stays stable.
+TEST(SoftMembers, OfANearlyPerfectColumnBendItBesideItsFirstCriticalLoad) {
+  for (const char* askew : {"1e-8", "1e-5"}) {
+    std::string text = two_links("1e-9", "[-0.1, 2]");
+    const std::string down = "direction = [0, -1]";
+    text.replace(text.find(down), down.size(), std::string("direction = [") + askew + ", -1]");
+    const StudyResult result = run(text).of("press");
+    EXPECT_TRUE(complete(result)) << askew;
+    EXPECT_TRUE(lambdas(result, EventKind::branch_point).empty()) << askew;
+    EXPECT_TRUE(lambdas(result, EventKind::limit_point).empty()) << askew;
+    const std::size_t rows = result.branches.at(0).samples.size();
+    EXPECT_LT(value(result, 0, "lambda"), -0.09) << askew;
+    EXPECT_LT(value(result, rows - 1, "lambda"), 1e-6) << askew;
+    for (std::size_t i = 0; i < rows; ++i) ASSERT_EQ(value(result, i, "index"), 0) << askew;
+  }
+}
+
+/// lambda^2 - (f + 2 s) lambda + f s = 0 with the stiffness f at the foot.
+TEST(SoftMembers, OfAPerfectColumnMoveItsCriticalLoadsAsTheClosedFormSays) {
+  for (const char* text : {"1e-4", "1e-8", "1e-11"}) {
+    const double s = std::stod(text), second = (1 + 2 * s + std::sqrt(1 + 4 * s * s)) / 2;
+    std::string with = two_links("\"soft\"", "[-0.1, 2]", 0, "\"foot\"");
+    const std::string kind = "control = \"load\"";
+    with.replace(
+        with.find(kind), kind.size(),
+        "kind = \"sensitivity\"\nsensitivity = { parameters = [\"soft\", \"foot\"] }\n" + kind);
+    const StudyResult result =
+        run(std::string("[parameters]\nfoot = 1\nsoft = ") + text + "\n" + with).of("press");
+    EXPECT_TRUE(complete(result)) << text;
+    std::vector<std::size_t> rows;
+    for (const auto& event : result.branches.at(0).events)
+      if (event.kind == EventKind::branch_point) rows.push_back(event.row);
+    ASSERT_EQ(rows.size(), 2u) << text;
+    // What a change of the whole parameter moves, to rounding.
+    const auto slope = [s](double load) { return 2 * load - (1 + 2 * s); };
+    const double first = s / second;
+    EXPECT_NEAR(value(result, rows[0], "d(lambda)/d(soft)"), (2 * first - 1) / slope(first), 1e-11)
+        << text;
+    EXPECT_NEAR(s * value(result, rows[1], "d(lambda)/d(soft)"),
+                s * (2 * second - 1) / slope(second), 1e-12)
+        << text;
+    EXPECT_NEAR(value(result, rows[1], "d(lambda)/d(foot)"), (second - s) / slope(second), 1e-9)
+        << text;
+  }
+}
+
 /// Stiffness s at the foot and 1 between them: [[1 + s, -1], [-1, 1]].
 TEST(SoftMembers, AtTheFootOfAPerfectColumnLeaveItsOtherCriticalLoadsWhereTheyAre) {
   for (const char* text : {"1e-5", "1e-7", "1e-10", "1e-14"}) {
