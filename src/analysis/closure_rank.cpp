@@ -174,11 +174,16 @@ bool forces_become_infinite(const ChainState& before, const ChainState& end) {
   return std::isfinite(growth) && fall > fallen && std::abs(growth - fall) < inexact * fall;
 }
 
-/// Is this the end of the reach?
-bool ends_reach(const ChainState& far, const ChainState& before, const ChainState& end) {
-  const bool is_there = end.smallest < at_end * far.smallest && far.wrench > 0 &&
-                        end.wrench > more_force * far.wrench;
-  return is_there || forces_become_infinite(before, end);
+/// Has the value fallen, and the force grown, as far as at the end of the reach?
+bool has_grown(const ChainState& far, const ChainState& end) {
+  return end.smallest < at_end * far.smallest && far.wrench > 0 &&
+         end.wrench > more_force * far.wrench;
+}
+
+void judge(const ChainState& far, const ChainState& before, const ChainState& end,
+           StretchedChains& found) {
+  found.has_grown |= has_grown(far, end);
+  found.is_end_of_reach |= has_grown(far, end) || forces_become_infinite(before, end);
 }
 
 /// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead centre.
@@ -191,13 +196,13 @@ std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const E
   const auto here = rank(curve.end), before = rank(curve.before);
   const auto there = largest_rank(problem, curve, false);
   if (!here || !before || !there || !(here->smallest < fallen * *there)) return std::nullopt;
-  return StretchedChains{
+  StretchedChains found{
       "the joints of " + words_for(problem.layout(), here->null) +
-          " hardly move any further what is driven, and the force that drives it grows without "
-          "bound",
-      ends_reach({*there, whole_wrench(far)},
-                 {before->smallest, whole_wrench(states_of_chains(problem, curve.before))},
-                 {here->smallest, whole_wrench(states)})};
+      " hardly move any further what is driven, and the forces in them grow without bound"};
+  judge({*there, whole_wrench(far)},
+        {before->smallest, whole_wrench(states_of_chains(problem, curve.before))},
+        {here->smallest, whole_wrench(states)}, found);
+  return found;
 }
 
 }  // namespace
@@ -214,13 +219,14 @@ std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
     if (!(here[i].smallest < fallen * there[i].smallest)) continue;
     names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
     ++count;
-    found.is_end_of_reach = found.is_end_of_reach || ends_reach(there[i], before[i], here[i]);
+    judge(there[i], before[i], here[i], found);
   }
   if (count == 0) return stopped_drive(problem, curve, here, there);
-  found.text = (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
-               std::string(
-                   " stretched out here: the joints hardly move the end any further, and the force "
-                   "along it grows without bound");
+  found.text =
+      (count == 1 ? "chain " + names + " is" : "chains " + names + " are") +
+      std::string(
+          " stretched out or folded here: the joints hardly move the end any further in one "
+          "direction, and the force in it grows without bound");
   return found;
 }
 

@@ -58,6 +58,7 @@ struct StretchedChains {
       false;  ///< the curve goes to infinite forces here, and there is nothing behind: the value is
               ///< below a thousandth and the force has grown a hundredfold, or the force grows as
               ///< the inverse of the value
+  bool has_grown = false;  ///< the former
 };
 
 /// @returns nothing where there is none

@@ -1,8 +1,13 @@
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "branch_rows.hpp"
 #include "closure_rank.hpp"
+#include "infinite_force.hpp"
 #include "lambda_crawl.hpp"
 #include "neutral_motions.hpp"
 #include "vanishing_lengths.hpp"
@@ -33,30 +38,71 @@ Stop explained(Stop stop, const EndOfCurve& at, const Curve& curve, const PathPr
   return stop;
 }
 
+namespace {
+
+struct EndOfReach {
+  std::optional<CurvePoint> point{};  ///< none: the last one that is known
+  std::string text{};
+};
+
+/// The end of the reach behind the first `count` points, where these lead to one.
+/// @param within      arc length in which the pole lies that makes itself felt: one farther on has nothing to do with it
+/// @param unresolved  the point that could not be told, or nullptr
+std::optional<EndOfReach> reach_behind(const PathProblem& problem, const Curve& curve,
+                                       std::size_t count, double within,
+                                       const CurvePoint* unresolved) {
+  if (count < 2) return std::nullopt;
+  const CurvePoint &before = curve.points[count - 2], &near = curve.points[count - 1];
+  auto last = beside_infinite_force(problem, before, near);
+  if (last && last->s > near.s + within) last.reset();
+  if (!last && unresolved != nullptr && is_solved_on_side_of(problem, *unresolved, near))
+    last = *unresolved;
+  // Forces may be so large already that rounding leaves no nearer point.
+  EndOfCurve at{last ? *last : near, last ? near : before, {}};
+  for (const std::size_t quarter : {0u, 1u, 2u, 3u})
+    at.far.push_back(&curve.points[quarter * count / 4]);
+  const auto legs = stretched_chains(problem, at);
+  if (!legs || !(last ? legs->is_end_of_reach : legs->has_grown)) return std::nullopt;
+  return EndOfReach{std::move(last), "end of the reach: " + legs->text};
+}
+
+}  // namespace
+
 void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
                   const PathProblem& problem) {
+  const auto end_at = [&](EndOfReach reach, auto first_hit, std::size_t count) {
+    stop = {std::move(reach.text), true};
+    const double known = curve.points[count - 1].s;
+    curve.hits.erase(first_hit, curve.hits.end());
+    curve.points.resize(count);
+    if (reach.point) curve.points.push_back(*std::move(reach.point));
+    std::erase_if(curve.hits,
+                  [&](const continuation::Hit& h) { return h.point.s > curve.points.back().s; });
+    std::erase_if(between, [&](const CurvePoint& p) { return p.s >= known; });
+    curve.stop = StopReason::unbounded;
+  };
   for (auto hit = curve.hits.begin(); hit != curve.hits.end(); ++hit) {
     const auto has_junction = [](const continuation::Hit& h) { return h.junction >= 0; };
     if (std::any_of(hit, curve.hits.end(), has_junction)) continue;
-    if (hit->kind != continuation::HitKind::unresolved) continue;
+    // Where forces are very large rounding makes touches, too.
+    const bool is_unresolved = hit->kind == continuation::HitKind::unresolved;
+    if (!is_unresolved && hit->kind != continuation::HitKind::touch) continue;
     const auto behind = std::find_if(curve.points.begin(), curve.points.end(),
                                      [&](const CurvePoint& p) { return p.s >= hit->point.s; });
-    const auto before = std::distance(curve.points.begin(), behind);
-    if (before < 2 || behind == curve.points.end()) continue;
-    EndOfCurve at{hit->point, curve.points[static_cast<std::size_t>(before - 1)], {}};
-    for (const int quarter : {0, 1, 2, 3})
-      at.far.push_back(&curve.points[static_cast<std::size_t>(quarter * before / 4)]);
-    const auto legs = stretched_chains(problem, at);
-    if (!legs || !legs->is_end_of_reach) continue;
-    stop = {"end of the reach: " + legs->text, true};
-    const CurvePoint last = hit->point;
-    curve.hits.erase(hit, curve.hits.end());
-    curve.points.erase(behind, curve.points.end());
-    curve.points.push_back(last);
-    std::erase_if(between, [&](const CurvePoint& p) { return p.s >= last.s; });
-    curve.stop = StopReason::unbounded;
-    return;
+    const auto count = static_cast<std::size_t>(std::distance(curve.points.begin(), behind));
+    const double step =
+        std::max(hit->s_after, hit->point.s) - (count > 0 ? curve.points[count - 1].s : 0);
+    if (auto reach =
+            reach_behind(problem, curve, count, 2 * step, is_unresolved ? &hit->point : nullptr))
+      return end_at(*std::move(reach), hit, count);
   }
+  if (curve.stop != StopReason::step_too_small) return;
+  const std::size_t count = curve.points.size();
+  double one_step = 0;
+  for (std::size_t i = 1; i < count; ++i)
+    one_step = std::max(one_step, curve.points[i].s - curve.points[i - 1].s);
+  if (auto reach = reach_behind(problem, curve, count, one_step, nullptr))
+    end_at(*std::move(reach), curve.hits.end(), count);
 }
 
 Stop stop_of(const Curve& curve, bool follows_branches) {

@@ -105,5 +105,92 @@ TEST(Reach, EndsWhereACurveWouldGoOnThroughAnInfiniteForce) {
     EXPECT_GT(value(result, row, "force"), 0);
 }
 
+/// A parallelogram on torsion springs 0.9 and 0.6 at its feet and 0.2 at one end of the coupler: 1.7 s = 0.9 f + 0.98 with the
+/// angle s of both cranks and the free angle f of the first spring. Flat, at s = 0 and pi, the cranks cannot pass forces to
+/// each other: those along them grow as 1/sin(s).
+const std::string parallelogram = R"toml(
+[parameters]
+f = 1
+[[body]]
+name = "c"
+task_space = "planar"
+pose = ["0.5*cos(1.1)", "0.5*sin(1.1)", 0]
+[[chain]]
+name = "l"
+elements = [
+  { joint = "revolute", axis = "z", name = "s", role = "preloaded", initial = 1.1, spring = { law = "linear", stiffness = 0.9, free = "f" } },
+  { rigid = [0.5, 0] }, { joint = "revolute", axis = "z", initial = -1.1 } ]
+[[chain]]
+name = "r"
+from_at = [1.2, 0]
+to_at = [1.2, 0]
+elements = [
+  { joint = "revolute", axis = "z", role = "preloaded", initial = 1.1, spring = { law = "linear", stiffness = 0.6, free = 1.3 } },
+  { rigid = [0.5, 0] },
+  { joint = "revolute", axis = "z", role = "preloaded", initial = -1.1, spring = { law = "linear", stiffness = 0.2, free = -1 } } ]
+[[study]]
+name = "wind"
+control = "parameter"
+parameter = "f"
+until = { lambda = [-5, 9] }
+)toml";
+
+TEST(Reach, OfAParallelogramEndsBesideItsFlatPositionsInRowsThatAreEquilibria) {
+  const auto result = run(parallelogram).of("wind");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  for (const auto& stop : {branch.backward, branch.forward})
+    EXPECT_EQ(stop.reason.rfind("end of the reach: ", 0), 0u) << stop.reason;
+  const std::size_t rows = branch.samples.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double s = value(result, row, "l.s");
+    const double rounded = 1e-11 * std::abs(value(result, row, "l.Fx"));
+    EXPECT_NEAR(1.7 * s, 0.9 * value(result, row, "lambda") + 0.98, 1e-11 + rounded) << row;
+    EXPECT_GT(s, 0) << row;
+    EXPECT_LT(s, std::numbers::pi) << row;
+  }
+  EXPECT_NEAR(value(result, 0, "l.s"), 0, 1e-3);
+  EXPECT_NEAR(value(result, rows - 1, "l.s"), std::numbers::pi, 1e-3);
+  EXPECT_LT(value(result, 0, "l.Fx"), -1e3);
+  EXPECT_GT(value(result, rows - 1, "l.Fx"), 1e3);
+}
+
+/// A crank of 0.6 and a rod as long, folded where the slider stands in the crank's foot: x = 1.2 cos(a). There it has a force
+/// across the slide that grows as 1/x: 1.3 (a - 0.8) = c.Fy x with the torque of the crank's spring.
+TEST(Reach, OfAFoldedRodEndsInARowThatBalances) {
+  const auto result = run(R"toml(
+[[body]]
+name = "s"
+task_space = "xy"
+pose = ["1.2*cos(0.8)", 0]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", name = "a", initial = 0.8, role = "preloaded", spring = { law = "linear", stiffness = 1.3, free = 0.8 } },
+  { rigid = [0.6, 0] }, { joint = "revolute", axis = "z", initial = -1.6 }, { rigid = [0.6, 0] } ]
+[[chain]]
+name = "g"
+elements = [ { joint = "prismatic", axis = "x", initial = 0.83, role = "preloaded", spring = { law = "linear", stiffness = 0.4, free = 0.5 } } ]
+[[study]]
+name = "push"
+control = "mixed"
+direction = [-1, 0]
+until = { lambda = [-0.3, 2.2] }
+)toml")
+                          .of("push");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  EXPECT_EQ(branch.forward.reason.rfind("end of the reach: chain c is stretched out or folded", 0),
+            0u);
+  const std::size_t last = branch.samples.size() - 1;
+  EXPECT_NEAR(value(result, last, "c.a"), std::numbers::pi / 2, 1e-9);
+  for (const std::size_t row : {last - 1, last}) {
+    const double x = 1.2 * std::cos(value(result, row, "c.a"));
+    const double torque = 1.3 * (value(result, row, "c.a") - 0.8);
+    const double force = value(result, row, "c.Fy");
+    EXPECT_NEAR(force * x, torque, 1e-11 + 1e-14 * force) << row;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io
