@@ -155,5 +155,50 @@ TEST(AFamily, OfTwoLinksInADeadBandThatEndsUprightIsOne) {
   }
 }
 
+/// A gravity-balanced arm whose spring between (0, a) and b along the arm is too stiff by a share e: with the payload P at its end
+/// the potential is (e m g - P) L (1 - sin theta), so that all positions are equilibria at P = e m g. Its matrix is a small
+/// difference of large terms there.
+TEST(AFamily, LeavesTheUprightStateOfAnArmAtThePayloadThatBalancesIt) {
+  for (const char* share : {"1e-1", "1e-3", "1e-5"}) {
+    const auto result =
+        run(std::string("gravity = [0, -9.81]\n[parameters]\nexcess = ") + share + R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 0.73]
+mass = 2.3
+[[chain]]
+name = "arm"
+elements = [ { joint = "revolute", axis = "z", name = "theta", initial = "90*deg" }, { rigid = [0.44, 0] }, { point = "p", at = [0, 0] }, { rigid = [0.29, 0] } ]
+[[spring]]
+name = "balance"
+from_at = [0, 0.31]
+to = "arm.p"
+stiffness = "2.3*9.81*0.73/(0.31*0.44)*(1 + excess)"
+[[study]]
+name = "s"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-5, 5], arm.theta = ["-80*deg", "260*deg"] }
+branches = { depth = 1 }
+)toml")
+            .of("s");
+    EXPECT_TRUE(analysis::complete(result)) << share;
+    ASSERT_EQ(result.branches.size(), 3u) << share;
+    const double balanced = std::stod(share) * 2.3 * 9.81;
+    for (const std::size_t number : {1u, 2u}) {
+      const auto& branch = result.branches[number];
+      const auto is_family = [](const analysis::Event& e) {
+        return e.kind == analysis::EventKind::family;
+      };
+      EXPECT_EQ(std::ranges::count_if(branch.events, is_family), 1) << share;
+      for (const auto& sample : branch.samples)
+        EXPECT_NEAR(sample.values[static_cast<std::size_t>(column(result, "lambda"))], balanced,
+                    1e-9 * balanced + 1e-11);
+      EXPECT_LT(branch.samples.size(), 400u) << share;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -7,6 +7,7 @@
 #include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/singular.hpp"
+#include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -21,6 +22,71 @@ Hit* open_family(const CurvePoint& from, Curve& curve) {
   for (auto hit = curve.hits.rbegin(); hit != curve.hits.rend(); ++hit)
     if (hit->kind == HitKind::family && hit->s_after >= from.s) return &*hit;
   return nullptr;
+}
+
+/// What an error of size 1 in the equations' rates along the tangent makes of lambda's.
+double freedom_of_rate(const Walker& walker, const CurvePoint& p) {
+  const LinearisedPoint* at = linearised_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
+  return at ? rate_error(extended_matrix(at->at, walker.weights, p.tangent), 1) : 0;
+}
+
+/// Is lambda's rate lost in what the equations are solved to?
+bool rate_is_lost(const Walker& walker, const CurvePoint& p) {
+  const double error =
+      residual_bound(walker.problem, p.piece, walker.options.newton, std::max(1.0, size_of(p)));
+  return std::abs(p.tangent.dlambda) <= clear_of_rounding * error * freedom_of_rate(walker, p);
+}
+
+/// Do values at equal distances jump about, so that they are nothing but rounding? Fourth differences of a smooth function are
+/// small, however flat it is; those of noise are several times as large as itself.
+bool are_nothing_but_rounding(std::vector<double> values) {
+  const auto largest = [&values] {
+    double most = 0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    return most;
+  };
+  const double most = largest();
+  for (int order = 0; order < 4; ++order) {
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) values[i] = values[i + 1] - values[i];
+    values.pop_back();
+  }
+  return largest() > most;
+}
+
+/// What Newton's method leaves at its tolerance moves rates, too: solved to rounding, where that can be.
+std::optional<CurvePoint> finest_point_at(const Walker& walker, const CurvePoint& from, double ds) {
+  Walker finest = walker;
+  finest.options.newton.residual_tolerance = few_roundings;
+  auto point = point_at(finest, from, ds);
+  return point ? point : point_at(walker, from, ds);
+}
+
+/// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly know it
+/// there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns.
+bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
+  constexpr int intervals = 12;
+  const auto is_flat = [](const CurvePoint& p) { return std::abs(p.tangent.dlambda) <= flat_rate; };
+  if (!is_flat(here) || !is_flat(end) || !(negligible_share * freedom_of_rate(walker, here) > 1) ||
+      !rate_is_lost(walker, here) || !rate_is_lost(walker, end))
+    return false;
+  std::vector<CurvePoint> points;
+  std::vector<double> rates;
+  for (int i = 1; i <= intervals; ++i) {
+    const auto next = finest_point_at(walker, here, i * level_reach / intervals);
+    if (!next || !is_flat(*next) || !rate_is_lost(walker, *next)) return false;
+    points.push_back(*next);
+    rates.push_back(next->tangent.dlambda);
+  }
+  std::vector<const CurvePoint*> all{&here};
+  for (const CurvePoint& p : points) all.push_back(&p);
+  return are_nothing_but_rounding(std::move(rates)) && same_level(walker, all);
+}
+
+/// Has lambda been seen to stand still?
+bool seen_standing_still(const Walker& walker, const Progress& progress, const CurvePoint& end,
+                         Curve& curve) {
+  return progress.flat || open_family(progress.here, curve) != nullptr ||
+         rests_beside_singular(walker, progress.here, end);
 }
 
 /// Does lambda stand still along the step? On a short one its rate must vanish to rounding, or an
@@ -222,7 +288,7 @@ StepEvents passage_events(const Walker& walker, const Progress& progress, const 
   for (const Index j : kink.touched)
     curve.log.push_back(
         {begin.s, length, walker.problem.switch_name(j) + " is touched, not crossed"});
-  const bool seen = progress.flat || open_family(begin, curve) != nullptr;
+  const bool seen = seen_standing_still(walker, progress, end, curve);
   if (stands_still(walker, begin, inside ? middle : nullptr, end, seen))
     return family_events(walker, begin, end, middle, events, kink.singular, curve);
   std::optional<Beside> from, to;  // where they are not the ends of the step

@@ -190,4 +190,11 @@ double rate_noise(const ExtendedMatrix& E) {
   return std::isfinite(noise) ? std::max(noise, few_roundings) : infinity;
 }
 
+double rate_error(const ExtendedMatrix& E, double error) {
+  const Index n = E.rows();
+  const auto row = BorderedMatrix(E, {}).solve(Matrix(Vector::Unit(n, n - 1)), true);
+  const double most = row ? error * row->col(0).head(n - 1).lpNorm<1>() : infinity;
+  return std::isfinite(most) ? most : infinity;
+}
+
 }  // namespace springfold::continuation

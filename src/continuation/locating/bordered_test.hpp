@@ -39,4 +39,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders);
 /// Infinity where E is singular.
 double rate_noise(const ExtendedMatrix& E);
 
+/// The same of errors that the equations' own rates along the tangent may have, each no larger than `error`: terms that cancel
+/// in an entry leave more rounding than the entry tells.
+double rate_error(const ExtendedMatrix& E, double error);
+
 }  // namespace springfold::continuation

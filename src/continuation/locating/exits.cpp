@@ -179,6 +179,15 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   result.exits.push_back(std::move(exit));
 }
 
+/// Two curves cross, and only these: the quadratic terms of one equation in two unknowns say so where they have two real lines. Signs
+/// balance then as well, but on spheres that another eigenvalue's zero lies inside of, as where two modes become critical together
+/// but for little.
+bool is_crossing_of_two(const ReducedEquation& e, const std::vector<Vector>& sure,
+                        const RaySet& set) {
+  constexpr std::size_t ways = 4;
+  return e.k == 1 && sure.size() == ways && set.rays.size() == ways;
+}
+
 struct Search {
   RaySet set{};
   std::string doubt{};  ///< set: the radii do not agree
@@ -198,7 +207,8 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
       complement(e, set, last);
     }
     const bool same = agreeing > 0 && same_rays(last, set);
-    const bool good = set.doubt.empty() && balanced(set) && covers(set, sure, near_share);
+    const bool good = set.doubt.empty() && covers(set, sure, near_share) &&
+                      (balanced(set) || is_crossing_of_two(e, sure, set));
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);
