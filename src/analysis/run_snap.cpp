@@ -13,13 +13,19 @@ namespace {
 constexpr const char* no_potential =
     "loads without potential act: there is no energy that decides where a jump ends";
 
+constexpr const char* begin_stable =
+    "; a cycle begins in a stable state: another guess of the start may lead to one, or a start "
+    "from "
+    "the end of a study";
+
 /// What is left open by a load cycle, as doubts. That a jump has no landing is an answer.
 void doubt_cycle(const LoadCycle& cycle, const Scales& scales, StudyResult& result) {
   /// The area is integrated on states of 1e-12.
   constexpr double allowed_gap = 1e-10;
   if (cycle.end != LoadCycle::End::complete && cycle.end != LoadCycle::End::no_landing)
     result.doubts.push_back("the load cycle ended on the way to level " +
-                            std::to_string(cycle.level) + ": " + to_string(cycle.end));
+                            std::to_string(cycle.level) + ": " + to_string(cycle.end) +
+                            (cycle.end == LoadCycle::End::not_stable ? begin_stable : ""));
   double size = std::max({scales.moment(), std::abs(cycle.area), cycle.released});
   // On the way out and back areas cancel that are much larger than what is left.
   for (const CycleStep& step : cycle.steps) size = std::max(size, std::abs(step.area));

@@ -108,12 +108,19 @@ class StartEquations {
            largest(r, false) <= tolerance * std::max(size, wrench);
   }
 
-  /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of force.
+  /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of force: each
+  /// row that of its own terms. (Those of a bar that has shrunk to no length would excuse every other row.)
   bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
     Matrix J;
     if (!(largest(r, true) <= tolerance) || !jacobian(state, J)) return false;
-    const Vector sizes = J.cwiseAbs() * pack(state).cwiseAbs();
-    return largest(r, false) <= few_roundings * largest(sizes, false);
+    Vector sizes = pack(state).cwiseAbs();
+    for (Index i = 0; i < sizes.size(); ++i)
+      if (!is_wrench(i)) sizes[i] = std::max(1.0, sizes[i]);
+    const Vector rounding = few_roundings * J.cwiseAbs() * sizes;
+    const double most = tolerance * std::max(size_of(state, false), size_of(state, true));
+    for (Index i = 0; i < r.size(); ++i)
+      if (!is_gap(i) && !(std::abs(r[i]) <= std::max(most, rounding[i]))) return false;
+    return true;
   }
 
   /// Gaps against lengths, every force against the unit of force and the terms of its own row: a stiff spring must not
