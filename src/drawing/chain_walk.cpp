@@ -136,8 +136,8 @@ class Walk {
     for (; joint_at(i) != nullptr && joint_at(i)->kind == JointKind::revolute && !is_elastic_[i];
          ++i) {
       const Joint& joint = *joint_at(i);
-      constexpr double parallel = 1e-9;  // sine of the angle: rounding of given axes
-      if (before && model::cross<double>(before->axis, joint.axis).norm() > parallel) ++axes;
+      constexpr double same_axis = 1e-9;  // sine of the angle: rounding of given axes
+      if (before && model::cross<double>(before->axis, joint.axis).norm() > same_axis) ++axes;
       if (rank_of(joint.role) > rank_of(part.role)) part.role = joint.role;
       add_spiral(joint, i);
       move(joint, command(i) + coordinate(i));

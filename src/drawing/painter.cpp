@@ -261,11 +261,11 @@ class Painter {
   /// A force along the direction is drawn there already.
   bool is_covered(const LoadPart& direction) const {
     return std::any_of(scene_.loads.begin(), scene_.loads.end(), [&](const LoadPart& load) {
-      constexpr double parallel = 0.99;  // cosine: arrows that cannot be told apart
+      constexpr double same_direction = 0.99;  // cosine: arrows that cannot be told apart
       const double sizes = load.vector.norm() * direction.vector.norm();
       return !load.is_direction && load.at == direction.at && sizes > 0 &&
              load.is_moment == direction.is_moment &&
-             std::abs(load.vector.dot(direction.vector)) > parallel * sizes;
+             std::abs(load.vector.dot(direction.vector)) > same_direction * sizes;
     });
   }
 

@@ -1,0 +1,59 @@
+#!/bin/bash
+# Builds everything with Clang and the address and undefined-behaviour sanitizers, then runs the tests:
+#     scripts/sanitize.sh [--quick] [--build | --test]
+# --quick leaves to the release build what repeats the same lines for long (tests/long_with_sanitizers.txt): CI's way. All
+# of them take half an hour on two processors. With Clang, so that the second compiler is heard too.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+quick=no build=no test=no
+for option in "$@"; do
+  case $option in
+    --quick) quick=yes ;;
+    --build) build=yes ;;
+    --test) test=yes ;;
+    *) echo "sanitize.sh: unknown option $option" >&2; exit 2 ;;
+  esac
+done
+
+if [[ $build$test == nono ]]; then
+  build=yes test=yes
+fi
+
+build() {
+  cmake --preset sanitize --log-level=NOTICE -DSPRINGFOLD_WARNINGS_AS_ERRORS=ON >/dev/null
+  cmake --build --preset sanitize
+}
+
+# A list that names no test any more would hide that the test was renamed.
+must_exist() {
+  local name
+  for name in ${1//:/ }; do
+    grep -rqE "^TEST(_F|_P)?\\(${name%%.*}, ${name##*.}\\)" tests --include='*.cpp' || {
+      echo "sanitize.sh: tests/long_with_sanitizers.txt: no test is called $name" >&2
+      exit 1
+    }
+  done
+}
+
+# Many tests in one process, some processes beside each other: with sanitizers every process takes some seconds for its
+# start and its search for leaks. A process that hangs ends after an hour. No debug information, which costs a fifth of
+# the build: reports name functions, and undefined behaviour its line. Lines of all:
+# cmake --preset sanitize -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1".
+run_tests() {
+  local shards=3 left_out=""
+  if [[ $quick == yes ]]; then
+    left_out=$(grep -v -e '^#' -e '^$' tests/long_with_sanitizers.txt | paste -sd:)
+    must_exist "$left_out"
+  fi
+  local -x GTEST_FILTER="-$left_out"
+  export LSAN_OPTIONS="suppressions=$PWD/tests/leaks_of_libraries.txt:print_suppressions=0"
+  find build/sanitize/tests -maxdepth 1 -name 'springfold_*_tests' | sort |
+    while read -r program; do
+      for ((shard = 0; shard < shards; ++shard)); do printf '%s %s\n' "$program" "$shard"; done
+    done | xargs -P "$(nproc)" -L 1 bash -c \
+    'GTEST_TOTAL_SHARDS=$0 GTEST_SHARD_INDEX=$2 timeout 3600 "$1" --gtest_brief=1 || { echo "FAILED: $1, shard $2"; exit 1; }' "$shards"
+}
+
+[[ $build == no ]] || build
+[[ $test == no ]] || run_tests
