@@ -1,7 +1,5 @@
 #include "springfold/model/axis_of_turn.hpp"
 
-#include <algorithm>
-
 namespace springfold::model {
 namespace {
 

@@ -30,11 +30,12 @@ double freedom_of_rate(const Walker& walker, const CurvePoint& p) {
   return at ? rate_error(extended_matrix(at->at, walker.weights, p.tangent), 1) : 0;
 }
 
-/// Is lambda's rate lost in what the equations are solved to?
-bool rate_is_lost(const Walker& walker, const CurvePoint& p) {
+/// Is lambda's rate zero, and lost in what the equations are solved to?
+bool is_flat(const Walker& walker, const CurvePoint& p) {
   const double error =
       residual_bound(walker.problem, p.piece, walker.options.newton, std::max(1.0, size_of(p)));
-  return std::abs(p.tangent.dlambda) <= clear_of_rounding * error * freedom_of_rate(walker, p);
+  return std::abs(p.tangent.dlambda) <=
+         std::min(flat_rate, clear_of_rounding * error * freedom_of_rate(walker, p));
 }
 
 /// Do values at equal distances jump about, so that they are nothing but rounding? Fourth differences of a smooth function are
@@ -61,25 +62,28 @@ std::optional<CurvePoint> finest_point_at(const Walker& walker, const CurvePoint
   return point ? point : point_at(walker, from, ds);
 }
 
-/// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly know it
-/// there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns.
-bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
+/// Does lambda stand still along `level_reach` from here, to one side?
+bool rests_along(const Walker& walker, const CurvePoint& here, int direction) {
   constexpr int intervals = 12;
-  const auto is_flat = [](const CurvePoint& p) { return std::abs(p.tangent.dlambda) <= flat_rate; };
-  if (!is_flat(here) || !is_flat(end) || !(negligible_share * freedom_of_rate(walker, here) > 1) ||
-      !rate_is_lost(walker, here) || !rate_is_lost(walker, end))
-    return false;
   std::vector<CurvePoint> points;
   std::vector<double> rates;
   for (int i = 1; i <= intervals; ++i) {
-    const auto next = finest_point_at(walker, here, i * level_reach / intervals);
-    if (!next || !is_flat(*next) || !rate_is_lost(walker, *next)) return false;
+    const auto next = finest_point_at(walker, here, direction * i * level_reach / intervals);
+    if (!next || !is_flat(walker, *next)) return false;
     points.push_back(*next);
     rates.push_back(next->tangent.dlambda);
   }
   std::vector<const CurvePoint*> all{&here};
   for (const CurvePoint& p : points) all.push_back(&p);
   return are_nothing_but_rounding(std::move(rates)) && same_level(walker, all);
+}
+
+/// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly know it
+/// there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns. A curve that rests on one side
+/// of a point does so on the other: the singular point itself, where its tangent is not defined, may lie on either.
+bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
+  return negligible_share * freedom_of_rate(walker, here) > 1 && is_flat(walker, here) &&
+         is_flat(walker, end) && (rests_along(walker, here, 1) || rests_along(walker, here, -1));
 }
 
 /// Has lambda been seen to stand still?
