@@ -82,8 +82,10 @@ bool rests_along(const Walker& walker, const CurvePoint& here, int direction) {
 /// there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns. A curve that rests on one side
 /// of a point does so on the other: the singular point itself, where its tangent is not defined, may lie on either.
 bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
-  return negligible_share * freedom_of_rate(walker, here) > 1 && is_flat(walker, here) &&
-         is_flat(walker, end) && (rests_along(walker, here, 1) || rests_along(walker, here, -1));
+  const double rate = std::max(std::abs(here.tangent.dlambda), std::abs(end.tangent.dlambda));
+  return rate <= flat_rate && negligible_share * freedom_of_rate(walker, here) > 1 &&
+         is_flat(walker, here) && is_flat(walker, end) &&
+         (rests_along(walker, here, 1) || rests_along(walker, here, -1));
 }
 
 /// Has lambda been seen to stand still?
