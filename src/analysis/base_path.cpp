@@ -6,6 +6,7 @@
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "held_twice.hpp"
+#include "infinite_force.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "merged_hits.hpp"
@@ -193,8 +194,10 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   crawl.begin(rays.rays[0].tangent);
   int left = points_behind;
   Crawl seen = Crawl::none;
+  InfiniteForceWatch forces(problem);
   const auto observe = [&](const CurvePoint& p) {
     if (path.is_enough && left-- == 0) return false;
+    if (forces.sees(p)) return false;
     seen = crawl.sees(p);
     return seen == Crawl::none && (!observer || observer(++points, p.s));
   };
@@ -206,6 +209,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   const auto follow = [&](const continuation::Ray& ray) {
     Curve curve = trace_within_limits(with, start, ray, events, options, observe, at_hit);
     if (seen == Crawl::without_bound) end_without_bound(curve);
+    forces.end(curve, options);
     return curve;
   };
   Curve forward = follow(rays.rays[0]);

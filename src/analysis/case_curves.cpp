@@ -216,19 +216,30 @@ const Member* CaseCurves::equations_at(double mu) const {
   return member;
 }
 
-/// Of those whose start is known the one that is nearest to mu.
-const Member& CaseCurves::nearest(double mu) const {
-  const Member* near = base_.get();
-  const auto is_nearer = [&](const Recent& other) {
-    return std::abs(other.member->mu - mu) < std::abs(near->mu - mu);
-  };
-  const auto middle = recent_.lower_bound(mu);
+/// Of those whose start is known: the nearest ones on both sides.
+CaseCurves::Neighbours CaseCurves::neighbours(double mu) const {
   const auto is_known = [](const auto& entry) { return entry.second.member->report.found; };
+  const auto middle = recent_.lower_bound(mu);
   const auto above = std::find_if(middle, recent_.end(), is_known);
-  if (above != recent_.end() && is_nearer(above->second)) near = above->second.member.get();
   const auto below = std::find_if(std::make_reverse_iterator(middle), recent_.rend(), is_known);
-  if (below != recent_.rend() && is_nearer(below->second)) near = below->second.member.get();
-  return *near;
+  const Member* up = above != recent_.end() ? above->second.member.get() : nullptr;
+  const Member* down = below != recent_.rend() ? below->second.member.get() : nullptr;
+  const bool base_is_below = base_->mu <= mu;
+  Neighbours beside{base_is_below ? down : up, base_is_below ? up : down};
+  const bool is_behind_base =
+      beside.inward != nullptr &&
+      (base_is_below ? beside.inward->mu < base_->mu : beside.inward->mu > base_->mu);
+  if (beside.inward == nullptr || is_behind_base) beside.inward = base_.get();
+  return beside;
+}
+
+/// The neighbour whose start the one at mu belongs to: the nearest one. Where those on both sides are different ones, that on
+/// the side of the first member: starts are followed away from it as far as they exist.
+const Member& CaseCurves::nearest(double mu) const {
+  const auto [inward, outward] = neighbours(mu);
+  const bool is_outward = outward != nullptr && outward->sheet == inward->sheet &&
+                          std::abs(outward->mu - mu) < std::abs(inward->mu - mu);
+  return is_outward ? *outward : *inward;
 }
 
 Member* CaseCurves::member_at(double mu) const {

@@ -94,6 +94,11 @@ class CaseCurves {
 
  private:
   Member* member_at(double mu) const;
+  struct Neighbours {
+    const Member* inward;   ///< on the side of the first member, or that one itself
+    const Member* outward;  ///< nullptr: none is known
+  };
+  Neighbours neighbours(double mu) const;
   const Member& nearest(double mu) const;
   void settle_start(Member& member) const;
   std::unique_ptr<Member> make(double mu, const Member* near,
@@ -101,6 +106,11 @@ class CaseCurves {
   bool set_up_anew(Member& member, const Member* near, bool again, model::Mechanism& mechanism,
                    std::optional<ParameterFamily>& along, std::optional<std::string>& way) const;
   bool put_numbers(Member& member, bool again) const;
+  std::optional<statics::StartProblem> problem_beside(const Member& member,
+                                                      const Member& near) const;
+  bool solve_beside(Member& member, const Member& near) const;
+  std::unique_ptr<Member> on_the_way(double mu, const Member& near) const;
+  bool walk_to(Member& member, const Member& near) const;
   bool solve_near(Member& member, const Member& near) const;
   bool solve(Member& member, const statics::StartProblem& problem) const;
   bool solve_by_itself(Member& member) const;

@@ -51,22 +51,17 @@ bool CaseCurves::solve(Member& member, const statics::StartProblem& problem) con
 bool CaseCurves::solve_by_itself(Member& member) const {
   statics::StartProblem problem =
       start_problem(member.setup, member.study.body, start_beside(member.study));
+  problem.attempts = member.study.start.attempts;
   if (keeps_commands(member.study) && base_) problem.inputs.rho = base_->first.inputs.rho;
   return solve(member, problem);
 }
 
-/// The start that belongs to the neighbour's. Where that cannot be told, which is farther away or behind a start that
-/// vanishes, the member begins as the case with this value does; and where that finds nothing, at whatever start is found
-/// from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
-bool CaseCurves::solve_near(Member& member, const Member& near) const {
-  if (starts_move_freely() && solve_by_itself(member)) {
-    member.sheet = near.sheet;
-    return true;
-  }
+/// What a start beside a neighbour's is sought from.
+std::optional<statics::StartProblem> CaseCurves::problem_beside(const Member& member,
+                                                                const Member& near) const {
   const StartOptions how = start_beside(member.study);
-  const bool keeps = keeps_commands(member.study);
   statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
-  if (near.first.z.size() != problem.z.size()) return false;
+  if (near.first.z.size() != problem.z.size()) return std::nullopt;
   problem.foresight = foresight(member.mu, near);
   const auto& body =
       member.setup.system.body_slices[static_cast<std::size_t>(member.study.body - 1)];
@@ -78,17 +73,80 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   } else {
     problem.z = near.first.z;
   }
-  if (keeps) problem.inputs.rho = (base_ ? *base_ : near).first.inputs.rho;
+  if (keeps_commands(member.study)) problem.inputs.rho = (base_ ? *base_ : near).first.inputs.rho;
   if (how.solve == StartSolve::actuators)
     problem.inputs.rho = near.first.inputs.rho;
   else
     problem.foresight.rho.resize(0);
-  problem.is_neighbour = true;
+  return problem;
+}
+
+/// The start that belongs to the neighbour's; false where that cannot be told.
+bool CaseCurves::solve_beside(Member& member, const Member& near) const {
+  auto problem = problem_beside(member, near);
+  if (!problem) return false;
+  problem->is_neighbour = true;
   member.sheet = near.sheet;
-  if (solve(member, problem)) return true;
+  return solve(member, *problem);
+}
+
+/// A member on the way to another one, with its start alone.
+std::unique_ptr<Member> CaseCurves::on_the_way(double mu, const Member& near) const {
+  auto member = std::make_unique<Member>();
+  member->mu = mu;
+  model::Mechanism mechanism;
+  std::optional<ParameterFamily> along;
+  std::optional<std::string> way;
+  if (!put_numbers(*member, false) && !set_up_anew(*member, &near, false, mechanism, along, way))
+    return nullptr;
+  if (way || !solve_beside(*member, near)) return nullptr;
+  member->first.factors = start_factors(*member);
+  return member;
+}
+
+/// Follows the neighbour's start to the member, in steps that are short enough for each to be told from the one before.
+/// @returns false where it vanishes on the way
+bool CaseCurves::walk_to(Member& member, const Member& near) const {
+  constexpr int most_steps = 64;
+  constexpr double shortest = 0x1p-8;  // of the way
+  const double way = member.mu - near.mu;
+  std::unique_ptr<Member> here;
+  double gone = 0, step = 0.5;
+  for (int i = 0; i < most_steps && step >= shortest; ++i) {
+    const Member& from = here ? *here : near;
+    if (gone + step >= 1) {
+      if (solve_beside(member, from)) return true;
+      step /= 2;
+      continue;
+    }
+    if (auto next = on_the_way(near.mu + (gone + step) * way, from)) {
+      here = std::move(next);
+      gone += step;
+      step *= 2;
+    } else {
+      step /= 2;
+    }
+  }
+  return false;
+}
+
+/// The start that belongs to the neighbour's. Behind a start that vanishes it is that of the neighbour on the other side, or the
+/// member begins as the case with this value does; and where that finds nothing, at whatever start is found from the
+/// neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
+bool CaseCurves::solve_near(Member& member, const Member& near) const {
+  if (starts_move_freely() && solve_by_itself(member)) {
+    member.sheet = near.sheet;
+    return true;
+  }
+  if (solve_beside(member, near) || walk_to(member, near)) return true;
+  const Member* const outward = neighbours(member.mu).outward;
+  if (outward != nullptr && outward->sheet != near.sheet && solve_beside(member, *outward))
+    return true;
   member.sheet = ++sheets_;
-  problem.is_neighbour = false;
-  if (!(!keeps && solve_by_itself(member)) && !solve(member, problem)) return false;
+  const auto problem = problem_beside(member, near);
+  if (!problem) return false;
+  if (!(!keeps_commands(member.study) && solve_by_itself(member)) && !solve(member, *problem))
+    return false;
   member.first.factors = start_factors(member);
   return true;
 }

@@ -216,7 +216,8 @@ std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
   int count = 0;
   StretchedChains found;
   for (std::size_t i = 0; i < std::min({here.size(), before.size(), there.size()}); ++i) {
-    if (!(here[i].smallest < fallen * there[i].smallest)) continue;
+    const bool is_singular_all_along = there[i].smallest <= same_rank;
+    if (is_singular_all_along || !(here[i].smallest < fallen * there[i].smallest)) continue;
     names += (names.empty() ? "" : ", ") + problem.layout().mechanism.chains[i].name;
     ++count;
     judge(there[i], before[i], here[i], found);

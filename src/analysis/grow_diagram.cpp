@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "closure_rank.hpp"
+#include "infinite_force.hpp"
 #include "limits.hpp"
 #include "search_box.hpp"
 #include "springfold/continuation/between.hpp"
@@ -71,9 +72,11 @@ class Grower {
     options_.maximum_branches = t_.study.branches.maximum;
     int points = 0;
     std::vector<CurvePoint> away;  // where lambda grows without bound
+    InfiniteForceWatch forces(t_.problem);
     const auto observe = [&](const CurvePoint& point) {
       ++points;
       if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;
+      if (forces.sees(point)) return false;
       const Crawl crawl = t_.crawl.sees(point);
       if (crawl == Crawl::without_bound) away.push_back(point);
       stopped_ = stopped_ || crawl == Crawl::unit_too_small ||
@@ -88,6 +91,8 @@ class Grower {
                    p.x == branch.curve.points.back().x;
           }))
         end_without_bound(branch.curve);
+    for (continuation::Branch& branch : grown_.diagram.branches)
+      forces.end(branch.curve, options_.trace);
     for (continuation::Branch& branch : grown_.diagram.branches)
       cut_to_range(t_.study, t_.evaluator, t_.quantities, branch.curve);
   }

@@ -1,12 +1,15 @@
 #include "infinite_force.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "closure_rank.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/continuation/verification.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
@@ -75,6 +78,39 @@ std::optional<CurvePoint> nearer(const PathProblem& problem, const CurvePoint& e
   return std::nullopt;
 }
 
+struct Approach {
+  CurvePoint before{}, at{};  ///< the last two points
+  bool has_grown = false;     ///< a hundredfold
+  bool is_pole =
+      false;  ///< up to the last point wrenches grow as the inverse of the way that is left
+};
+
+/// Solved points, each nearer to the zero of 1/w.
+Approach approach(const PathProblem& problem, const CurvePoint& earlier, const CurvePoint& last) {
+  constexpr int most_points = 100;  // of which each leaves at most three quarters of the way
+  // Closures of chains that lie flat together have errors of rounding over their singular value, and with such wrenches the
+  // equilibrium one over its square: nearer points than this may not be found, but that there is a pole is certain.
+  constexpr double certain_growth = 1e2;
+  // Of w times the way that is left from one point to the next: beside a pole it stays, at a finite peak it is lost.
+  constexpr double same_inverse = 1.25;
+  Approach to{earlier, last};
+  double inverse = 0;
+  for (int i = 0; i < most_points; ++i) {
+    const auto left = way_left(problem, to.before, to.at);
+    const double earlier_inverse = inverse;
+    inverse = left ? *left * wrenches_of(problem, to.at.x).norm() : 0;
+    to.is_pole =
+        inverse < same_inverse * earlier_inverse && earlier_inverse < same_inverse * inverse;
+    if (!left || *left <= continuation::promised_place) break;
+    auto next = nearer(problem, to.before, to.at, *left);
+    if (!next) break;
+    to.before = std::exchange(to.at, *std::move(next));
+  }
+  to.has_grown =
+      wrenches_of(problem, to.at.x).norm() >= certain_growth * wrenches_of(problem, last.x).norm();
+  return to;
+}
+
 void complete_point(const PathProblem& problem, const CurvePoint& earlier, CurvePoint& point) {
   point.negative.reset();
   count_negative(problem, point);
@@ -89,23 +125,11 @@ void complete_point(const PathProblem& problem, const CurvePoint& earlier, Curve
 
 std::optional<CurvePoint> beside_infinite_force(const PathProblem& problem,
                                                 const CurvePoint& earlier, const CurvePoint& last) {
-  constexpr int most_points = 100;  // of which each leaves at most three quarters of the way
-  // Closures of chains that lie flat together have errors of rounding over their singular value, and with such wrenches the
-  // equilibrium one over its square: nearer points than this may not be found, but that there is a pole is certain.
-  constexpr double certain_growth = 1e2;
   if (earlier.piece != last.piece || !(last.s > earlier.s)) return std::nullopt;
-  CurvePoint a = earlier, b = last;
-  for (int i = 0; i < most_points; ++i) {
-    const auto left = way_left(problem, a, b);
-    if (!left || *left <= continuation::promised_place) break;
-    auto next = nearer(problem, a, b, *left);
-    if (!next) break;
-    a = std::exchange(b, *std::move(next));
-  }
-  const double grown = wrenches_of(problem, b.x).norm() / wrenches_of(problem, last.x).norm();
-  if (!(grown >= certain_growth)) return std::nullopt;
-  complete_point(problem, a, b);
-  return b;
+  Approach to = approach(problem, earlier, last);
+  if (!to.has_grown) return std::nullopt;
+  complete_point(problem, to.before, to.at);
+  return std::move(to.at);
 }
 
 bool is_solved_on_side_of(const PathProblem& problem, const CurvePoint& point,
@@ -116,6 +140,67 @@ bool is_solved_on_side_of(const PathProblem& problem, const CurvePoint& point,
          F.lpNorm<Eigen::Infinity>() <=
              continuation::residual_bound(problem, point.piece, {}, size) &&
          wrenches_of(problem, point.x).dot(wrenches_of(problem, before.x)) >= 0;
+}
+
+InfiniteForceWatch::InfiniteForceWatch(const PathProblem& problem) : problem_{problem} {
+  const statics::System& layout = problem.layout();
+  for (Index i = 0; i < layout.first_pose; ++i)
+    if (layout.is_wrench[static_cast<std::size_t>(i)]) wrenches_.push_back(i);
+}
+
+void InfiniteForceWatch::begin(const CurvePoint& point, double force) {
+  last_ = point;
+  far_ = {point};
+  count_ = 1;
+  asked_at_ = looked_at_from * force;
+}
+
+bool InfiniteForceWatch::sees(const CurvePoint& point) {
+  double square = 0;
+  for (const Index i : wrenches_) square += point.x[i] * point.x[i];
+  const double force = std::sqrt(square);
+  if (count_ == 0 || !(point.s > last_.s)) {
+    begin(point, force);
+    return false;
+  }
+  const CurvePoint before = std::exchange(last_, point);
+  ++count_;
+  if (std::has_single_bit(count_)) far_.push_back(point);
+  if (!(force > asked_at_)) return false;
+  return ends_behind(before, point, force);
+}
+
+bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint& point,
+                                     double force) {
+  constexpr double steps_ahead = 2;  // a pole farther on has nothing to do with these two points
+  if (before.piece != point.piece) return false;
+  const auto left = way_left(problem_, before, point);
+  if (!left || *left > steps_ahead * (point.s - before.s)) return false;
+  constexpr double next_time = 4;
+  asked_at_ = next_time * force;
+  Approach to = approach(problem_, before, point);
+  if (!to.has_grown || !to.is_pole) return false;
+  EndOfCurve end{to.at, point, {}};
+  for (const CurvePoint& p : far_) end.far.push_back(&p);
+  const auto legs = stretched_chains(problem_, end);
+  if (!legs || !legs->is_end_of_reach) return false;
+  complete_point(problem_, to.before, to.at);
+  ends_.push_back({point, std::move(to.at), "end of the reach: " + legs->text});
+  return true;
+}
+
+void InfiniteForceWatch::end(continuation::Curve& curve,
+                             const continuation::TraceOptions& options) const {
+  if (curve.stop != continuation::StopReason::observer) return;
+  const CurvePoint& last = curve.points.back();
+  for (const End& end : ends_)
+    if (end.seen.lambda == last.lambda && end.seen.x == last.x) {
+      if (options.verify_arcs) curve.arcs = verified_arcs(problem_, curve, options);
+      curve.points.push_back(end.at);
+      curve.stop = continuation::StopReason::unbounded;
+      curve.stop_detail = end.text;
+      return;
+    }
 }
 
 }  // namespace springfold::analysis

@@ -1,10 +1,14 @@
 // The end of a curve that goes to infinite forces. Private to analysis.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "path_problem.hpp"
 #include "springfold/continuation/curve.hpp"
+#include "springfold/continuation/options.hpp"
 
 namespace springfold::analysis {
 
@@ -21,5 +25,40 @@ std::optional<continuation::CurvePoint> beside_infinite_force(
 /// Is it an equilibrium, with wrenches in the sense of those of `before`?
 bool is_solved_on_side_of(const PathProblem& problem, const continuation::CurvePoint& point,
                           const continuation::CurvePoint& before);
+
+/// Watches a curve while it is traced, and ends it where it goes to infinite forces. Rounding would bring touches and branch
+/// points where they are very large, and in a diagram branches of them.
+class InfiniteForceWatch {
+ public:
+  explicit InfiniteForceWatch(const PathProblem& problem);
+
+  /// To be told every point of a curve, in order; a smaller s begins another curve.
+  /// @returns whether the curve ends behind this point: forces have grown a hundredfold since its start, the pole is no farther
+  ///          than the next two steps, and solved points up to it show that it is one and no finite peak
+  bool sees(const continuation::CurvePoint& point);
+
+  /// Puts the solved point beside the pole behind a curve that was ended for this reason, and says so.
+  void end(continuation::Curve& curve, const continuation::TraceOptions& options) const;
+
+ private:
+  struct End {
+    continuation::CurvePoint seen{}, at{};
+    std::string text{};
+  };
+
+  static constexpr double looked_at_from = 1e2;  ///< forces so much larger than at the start
+
+  void begin(const continuation::CurvePoint& point, double force);
+  bool ends_behind(const continuation::CurvePoint& before, const continuation::CurvePoint& point,
+                   double force);
+
+  const PathProblem& problem_;
+  std::vector<Index> wrenches_{};                ///< their places among the unknowns
+  std::vector<continuation::CurvePoint> far_{};  ///< the 1st, 2nd, 4th, 8th ... point
+  continuation::CurvePoint last_{};
+  std::size_t count_ = 0;
+  double asked_at_ = 0;  ///< from which force on it is looked again
+  std::vector<End> ends_{};
+};
 
 }  // namespace springfold::analysis

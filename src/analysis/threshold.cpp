@@ -11,6 +11,7 @@
 #include "first_unwanted.hpp"
 #include "limits.hpp"
 #include "load_pieces.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -186,9 +187,12 @@ class Threshold {
     };
     double bad = from;
     std::optional<double> clear;
+    // Where points merge a path is told from one without them at this distance before.
+    const double last =
+        at_end ? to : to - towards_ * distances_beside.back() * std::max(std::abs(to), 1e-3);
     for (int i = 1; i <= values_between && !clear; ++i) {
-      const double value = i == values_between ? to : from + (to - from) * i / values_between;
-      if (value == to && !at_end) break;
+      const double value = i == values_between ? last : from + (to - from) * i / values_between;
+      if (towards_ * (last - value) < 0 || towards_ * (value - from) <= 0) break;
       const At at = look(value);
       if (at == At::clear) clear = value;
       if (at == At::happens) bad = value;
@@ -196,6 +200,9 @@ class Threshold {
     while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
       const double middle = bad + 0.5 * (*clear - bad);
       const At at = look(middle);
+      const bool is_placed = std::abs(*clear - bad) <=
+                             continuation::promised_place * std::max(std::abs(to), width());
+      if (at == At::unknown && is_placed) break;
       if (at == At::unknown) {
         result_.doubts.push_back("between " + study_.critical.parameter + " = " +
                                  rounded(bad * curves_.scale()) + " and " +

@@ -8,6 +8,7 @@
 #include "branches.hpp"
 #include "closure_rank.hpp"
 #include "degenerate_state.hpp"
+#include "infinite_force.hpp"
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "run_traced.hpp"
@@ -34,9 +35,11 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   const auto events = events_of(t.study, t.evaluator, t.quantities);
   int points = 1;
   Crawl crawl = Crawl::none;
+  InfiniteForceWatch forces(t.problem);
   const auto observe = [&](double sign) {
-    return [&points, &crawl, &t, sign](const CurvePoint& point) {
+    return [&points, &crawl, &forces, &t, sign](const CurvePoint& point) {
       ++points;
+      if (forces.sees(point)) return false;
       crawl = t.crawl.sees(point);
       if (crawl != Crawl::none) return false;
       return !t.observer || t.observer(points, sign * point.s);
@@ -48,6 +51,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
     continuation::Curve curve =
         trace_within_limits(with, start, ray, events, options, observe(sign));
     if (crawl == Crawl::without_bound) end_without_bound(curve);
+    forces.end(curve, options);
     return curve;
   };
   BranchSource source;

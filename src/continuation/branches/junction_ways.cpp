@@ -42,9 +42,17 @@ bool leaves_beside(const Walker& walker, const Hit& hit, const Ray& ray) {
 /// The ways out of a point, as many as were told where it was met, and the way back.
 Rays rays_told(const Walker& walker, const Hit& hit, const std::vector<Index>& active) {
   const std::size_t told = hit.leaving.size() + hit.leaving_beside.size() + 1;
-  Rays rays = rays_around(walker, hit.point, active, located_rank);
-  if (hit.kind != HitKind::branching_kink || rays.rays.size() >= told) return rays;
-  rays = rays_around(walker, hit.point, active, half_branch_rank);
+  if (hit.kind != HitKind::branching_kink)
+    return rays_around(walker, hit.point, active, located_rank);
+  std::vector<Piece> pieces{hit.point.piece};
+  for (const auto* ways : {&hit.leaving, &hit.leaving_beside})
+    for (const CurvePoint& way : *ways) pieces.push_back(way.piece);
+  const auto among_them = [&](double full_rank) {
+    return rays_around(walker, hit.point, active, full_rank, nullptr, false, &pieces);
+  };
+  Rays rays = among_them(located_rank);
+  if (rays.rays.size() >= told) return rays;
+  rays = among_them(half_branch_rank);
   if (rays.complete && rays.rays.size() < told) {
     rays.complete = false;
     rays.why = "ways that lead on could not be found again";

@@ -94,23 +94,20 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
 }
 
 /// Does the point lie on the surface of a switch to rounding?
-bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, const Vector& g, Index j) {
+bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, Index j) {
   const double size = surfaces.dg_dx.row(j).cwiseAbs().dot(at.x.cwiseAbs()) +
                       std::abs(surfaces.dg_dlambda[j] * at.lambda);
-  return is_exact(std::abs(g[j]), size);
+  return is_exact(std::abs(surfaces.g[j]), size);
 }
 
 /// The rate of a switch along a way, positive on the side of the piece. Below the accuracy of the way it is known as well as the
 /// equations determine it, where the point lies on the surface to rounding: a stiff member moves little, and surely.
-KnownRate rate_on_way(const Walker& walker, const CurvePoint& at, const PieceWay& way,
-                      const Surfaces& surfaces, Index j, SwitchRates& rates) {
+KnownRate rate_on_way(const CurvePoint& at, const PieceWay& way, const Surfaces& surfaces, Index j,
+                      SwitchRates& rates) {
   const double side = at.piece[static_cast<std::size_t>(j)];
   const KnownRate seen{side * switch_rate(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent),
                        way.accuracy};
-  Vector g;
-  if (seen.has_sign() || way.start || !walker.problem.switches(at.x, at.lambda, g) ||
-      !is_on_surface(at, surfaces, g, j))
-    return seen;
+  if (seen.has_sign() || way.start || !is_on_surface(at, surfaces, j)) return seen;
   KnownRate solved = rates.of(surfaces.dg_dx, surfaces.dg_dlambda, j, way.tangent);
   solved.value *= side;
   return solved.error < way.accuracy ? solved : seen;
@@ -127,7 +124,7 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
   };
   if (std::ranges::any_of(surfaces.active, leads_out)) return;
   for (const Index j : surfaces.active) {
-    const KnownRate rate = rate_on_way(walker, at, way, surfaces, j, rates);
+    const KnownRate rate = rate_on_way(at, way, surfaces, j, rates);
     if (!rate.has_sign())
       grazed.push_back(j);
     else if (rate.value < 0)
@@ -184,11 +181,13 @@ std::vector<Index> active_switches(const Walker& walker, const Vector& x, double
 }
 
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
-                 double full_rank, const Direction* along, bool polished) {
+                 double full_rank, const Direction* along, bool polished,
+                 const std::vector<Piece>* among) {
   assert(active.size() <= most_active);
   Surfaces surfaces{.active = active};
   if (!active.empty() &&
-      !walker.problem.switch_gradients(at.x, at.lambda, surfaces.dg_dx, surfaces.dg_dlambda))
+      (!walker.problem.switch_gradients(at.x, at.lambda, surfaces.dg_dx, surfaces.dg_dlambda) ||
+       !walker.problem.switches(at.x, at.lambda, surfaces.g)))
     return {.complete = false, .why = "switching functions are not defined here"};
   Rays rays;
   std::vector<unsigned> singular;
@@ -200,6 +199,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
+    if (among && std::ranges::find(*among, ray.piece) == among->end()) continue;
     const bool arrives = along && ray.piece == at.piece;
     PieceWays ways = arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, polished);
     if (along && active.size() == 1 && !ways.list.empty()) {

@@ -95,8 +95,10 @@ inline constexpr double half_branch_rank = 10 * located_rank;
 /// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
 ///               equations look singular; nullptr: not known
 /// @param polished   as regular_ways() has it: a start, which was not located
+/// @param among      pieces that are looked at; nullptr: all 2^k
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
-                 double full_rank, const Direction* along = nullptr, bool polished = false);
+                 double full_rank, const Direction* along = nullptr, bool polished = false,
+                 const std::vector<Piece>* among = nullptr);
 
 /// A direction in which a curve of the piece leaves, whether it leads into the piece or not.
 struct PieceWay {
@@ -129,6 +131,7 @@ struct Surfaces {
   std::vector<Index> active{};
   Matrix dg_dx{};
   Vector dg_dlambda{};
+  Vector g{};  ///< values of all switches; empty: not asked for
 };
 
 /// All ways of a piece that is singular here, with starts before the next switching surface. Those of

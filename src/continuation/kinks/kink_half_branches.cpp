@@ -204,7 +204,12 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
              const std::vector<ZeroBeside>& places, ZeroBeside& place) {
   Hit& hit = place.hit;
   const std::string names = names_of(walker.problem, resting);
-  const Rays rays = rays_around(walker, hit.point, resting, half_branch_rank);
+  // The curve stays within all surfaces: a piece that is regular here has no other way.
+  std::vector<Piece> singular{hit.point.piece};
+  for (const ZeroBeside& other : places)
+    singular.insert(singular.end(), other.pieces.begin(), other.pieces.end());
+  const Rays rays =
+      rays_around(walker, hit.point, resting, half_branch_rank, nullptr, false, &singular);
   hit.switches = resting;
   hit.leaving = {start_of(walker, hit.point, {hit.point.piece, hit.point.tangent})};
   for (const Ray& ray : rays.rays)
