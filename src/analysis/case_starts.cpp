@@ -51,7 +51,6 @@ bool CaseCurves::solve(Member& member, const statics::StartProblem& problem) con
 bool CaseCurves::solve_by_itself(Member& member) const {
   statics::StartProblem problem =
       start_problem(member.setup, member.study.body, start_beside(member.study));
-  problem.attempts = member.study.start.attempts;
   if (keeps_commands(member.study) && base_) problem.inputs.rho = base_->first.inputs.rho;
   return solve(member, problem);
 }

@@ -197,7 +197,7 @@ void InfiniteForceWatch::end(continuation::Curve& curve,
     if (end.seen.lambda == last.lambda && end.seen.x == last.x) {
       if (options.verify_arcs) curve.arcs = verified_arcs(problem_, curve, options);
       curve.points.push_back(end.at);
-      curve.stop = continuation::StopReason::unbounded;
+      curve.stop = continuation::StopReason::pole;
       curve.stop_detail = end.text;
       return;
     }

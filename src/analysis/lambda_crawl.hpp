@@ -29,7 +29,8 @@ inline constexpr const char* grows_without_bound =
 /// Did its observer end the curve, for whatever reason?
 inline bool was_ended(const continuation::Curve& curve) {
   return curve.stop == continuation::StopReason::observer ||
-         curve.stop == continuation::StopReason::unbounded;
+         curve.stop == continuation::StopReason::unbounded ||
+         curve.stop == continuation::StopReason::pole;
 }
 
 /// The observer of this curve ended it there.

@@ -79,7 +79,7 @@ void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
     std::erase_if(curve.hits,
                   [&](const continuation::Hit& h) { return h.point.s > curve.points.back().s; });
     std::erase_if(between, [&](const CurvePoint& p) { return p.s >= known; });
-    curve.stop = StopReason::unbounded;
+    curve.stop = StopReason::pole;
   };
   for (auto hit = curve.hits.begin(); hit != curve.hits.end(); ++hit) {
     const auto has_junction = [](const continuation::Hit& h) { return h.junction >= 0; };
@@ -108,7 +108,8 @@ void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
 Stop stop_of(const Curve& curve, bool follows_branches) {
   if (curve.stop == StopReason::event && !curve.hits.empty() && curve.hits.back().tag == whole_turn)
     return {curve.stop_detail, false};
-  if (was_ended(curve) && !curve.stop_detail.empty()) return {curve.stop_detail, false};
+  if (was_ended(curve) && !curve.stop_detail.empty())
+    return {curve.stop_detail, curve.stop == StopReason::pole};
   Stop stop;
   stop.reason = std::string(to_string(curve.stop));
   const bool is_refused =

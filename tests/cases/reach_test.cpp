@@ -192,5 +192,69 @@ until = { lambda = [-0.3, 2.2] }
   }
 }
 
+/// Three legs at a body of irregular sizes, one of which the force along an irregular direction stretches. Behind 1e5 times the forces
+/// of the start rounding would make touches of a curve that has none.
+TEST(Reach, IsFoundWhileACurveIsFollowedBeforeRoundingMakesEvents) {
+  const auto result = run(R"toml(
+[[body]]
+name="b"
+task_space="planar"
+pose=[0.025, 1.054, 0.275]
+[[chain]]
+name="c0"
+from_at=[-1.152, 0.013]
+to_at=[-0.1, 0.02]
+elements=[{joint="revolute",axis="z",name="j0",initial=1.2796192280277734,role="preloaded",spring={law="linear",stiffness=0.194,free=1.251}},
+{rigid=[0.447,0]},
+{joint="revolute",axis="z",name="j2",initial=-0.12228756325619794,role="preloaded",spring={law="linear",stiffness=0.186,free=-0.043}},
+{rigid=[0.829,0]},
+{joint="revolute",axis="z",name="j4",initial=-1.4034652099491713,role="preloaded",spring={law="linear",stiffness=0.288,free=-1.309}},
+{rigid=[0.633,0]},
+{joint="revolute",axis="z",name="j6",initial=0.5211335451775958,role="preloaded",spring={law="polynomial",coefficients=[0,0.18,0.054,0.144],free=0.569}}]
+[[chain]]
+name="c1"
+from_at=[0.097, -0.103]
+to_at=[-0.002, -0.052]
+elements=[{joint="revolute",axis="z",name="j0",initial=0.9843372159770429,role="preloaded",spring={law="polynomial",coefficients=[0,2.125,0.6375,1.7],free=0.689}},
+{rigid=[0.709,0]},
+{joint="revolute",axis="z",name="j2",initial=1.3061449501102373,role="preloaded",spring={law="linear",stiffness=0.453,free=1.013}},
+{rigid=[0.686,0]},
+{joint="revolute",axis="z",name="j4",initial=-2.0154821660872804}]
+[[chain]]
+name="c2"
+from_at=[0.901, 0.191]
+to_at=[0.391, 0.111]
+elements=[{joint="revolute",axis="z",name="j0",initial=2.0283522516296872,role="preloaded",spring={law="linear",stiffness=2.747,free=1.859}},
+{joint="prismatic",axis="x",name="j1",initial=0.9993782585200923,role="preloaded",spring={law="linear",stiffness=1.7599999999999998,free=1.061}},
+{rigid=[0.2,0]},
+{joint="revolute",axis="z",name="j3",initial=-1.7533522516296873}]
+[[spring]]
+name="g"
+from_at=[0.1,-1.5]
+to="b"
+stiffness=0.3
+free=0.5
+[[study]]
+name="s"
+body="b"
+control="mixed"
+direction=[-0.403, 0.646, 0]
+until={lambda=[-1.2, 1.2]}
+branches={depth=1,maximum=6}
+)toml")
+                          .of("s");
+  EXPECT_TRUE(complete(result));
+  ASSERT_EQ(result.branches.size(), 1u);
+  const auto& branch = result.branches.front();
+  EXPECT_EQ(branch.forward.reason.rfind("end of the reach: chain c1 is stretched out or folded", 0),
+            0u)
+      << branch.forward.reason;
+  for (const analysis::Event& event : branch.events)
+    EXPECT_EQ(event.kind, analysis::EventKind::end_of_range);
+  const std::size_t last = branch.samples.size() - 1;
+  EXPECT_GT(value(result, last, "force"), 1e6);
+  EXPECT_NEAR(std::remainder(value(result, last, "c1.j2"), std::numbers::pi), 0, 1e-6);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -47,8 +47,10 @@ Rays rays_told(const Walker& walker, const Hit& hit, const std::vector<Index>& a
   std::vector<Piece> pieces{hit.point.piece};
   for (const auto* ways : {&hit.leaving, &hit.leaving_beside})
     for (const CurvePoint& way : *ways) pieces.push_back(way.piece);
+  const bool are_known = hit.leaving.size() > 1;  // at a start they are not
   const auto among_them = [&](double full_rank) {
-    return rays_around(walker, hit.point, active, full_rank, nullptr, false, &pieces);
+    return rays_around(walker, hit.point, active, full_rank, nullptr, false,
+                       are_known ? &pieces : nullptr);
   };
   Rays rays = among_them(located_rank);
   if (rays.rays.size() >= told) return rays;

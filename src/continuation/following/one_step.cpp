@@ -125,6 +125,19 @@ bool take_step(const Walker& walker, const Progress& progress, const Curve& curv
   return !refused.astray;
 }
 
+/// A kink is located by points that are corrected on their own. It must lie where the step's ends and middle lead, nearer than
+/// these are known without the middle: just behind a branch point Newton's method is drawn to the branch that crosses there.
+bool is_on_step(const Walker& walker, const CurvePoint& here, const KinkSearch& kink) {
+  const CurvePoint &middle = walker.memory->middle, &next = walker.memory->next;
+  ArcModel &model = walker.memory->ahead, &chord = walker.memory->chord;
+  if (kink.singular || !model.go_through(walker.weights, here, StepSamples(here, &middle, next)) ||
+      !chord.go_through(walker.weights, here, StepSamples(here, nullptr, next)))
+    return true;
+  const double off = distance_of(walker, model, here, kink.point);
+  return off <= one_place * (1 + kink.point.x.norm()) ||
+         off <= small_share * distance_of(walker, chord, here, kink.point);
+}
+
 /// May the curve go on past special points that are not told apart? They are then one unresolved point.
 bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progress, Curve& curve,
                Refusal& refused) {
@@ -227,6 +240,11 @@ Outcome advance(const Following& following, bool report, Progress& progress, Cur
     if (goes_on_from_rest(walker, kink.suspect, progress, curve)) return Outcome::go_on;
     refused.reason = "close to " + (kink.suspect >= 0 ? walker.problem.switch_name(kink.suspect)
                                                       : std::string("a switching surface"));
+    return Outcome::shorten;
+  }
+  if (kink.status == KinkSearch::Status::found && middle &&
+      !is_on_step(walker, progress.here, kink)) {
+    refused.reason = "the kink is not where the curve leads: another branch may be near";
     return Outcome::shorten;
   }
   const auto start = start_again(walker, curve.points.front(), progress.here, next);

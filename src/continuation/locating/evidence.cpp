@@ -213,6 +213,14 @@ std::optional<Separation> separation_at(const TestedStep& arc, const CurvePoint&
   return Separation{blur_of_point(arc, *E, point), told_apart * weakest.here() / change};
 }
 
+std::optional<double> change_of_rounding(const TestedStep& arc, const CurvePoint& point) {
+  const auto E = arc.matrix(point);
+  if (!E) return std::nullopt;
+  const auto change = WeakestDirection(arc, *E, point).change(told_apart);
+  if (!change) return std::nullopt;
+  return *change / told_apart * exact_model * std::max(1.0, size_of(point));
+}
+
 bool stays_within(const TestedStep& arc, const CurvePoint& point, double radius, double share) {
   const auto E = arc.matrix(point);
   if (!E) return false;

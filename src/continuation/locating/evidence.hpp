@@ -44,6 +44,9 @@ struct Separation {
 /// @returns nothing where E is not defined
 std::optional<Separation> separation_at(const TestedStep& arc, const CurvePoint& point);
 
+/// What the rounding of a corrected point makes of the value of E along its weakest direction; nothing outside the domain.
+std::optional<double> change_of_rounding(const TestedStep& arc, const CurvePoint& point);
+
 /// Does E, in its weakest direction, change by no more than a share of itself within so far of the point?
 /// @returns false where E is not defined
 bool stays_within(const TestedStep& arc, const CurvePoint& point, double radius, double share);

@@ -15,6 +15,9 @@
 namespace springfold::continuation {
 namespace {
 
+/// Of two curves that cross.
+constexpr std::size_t ways_of_two = 4;
+
 Direction direction_of(const ReducedEquation& e, const Vector& U) {
   return unit_direction(*e.walker, Vector(U.cwiseQuotient(e.root)));
 }
@@ -179,13 +182,12 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   result.exits.push_back(std::move(exit));
 }
 
-/// Two curves cross, and only these: the quadratic terms of one equation in two unknowns say so where they have two real lines. Signs
-/// balance then as well, but on spheres that another eigenvalue's zero lies inside of, as where two modes become critical together
+/// Two curves cross, and only these: the quadratic terms of one equation in two unknowns say so where they have two real lines. A
+/// sphere on which there are other ways is too large: they belong to a branch that passes beside the point. Signs balance
+/// then as well, but on spheres that another eigenvalue's zero lies inside of, as where two modes become critical together
 /// but for little.
-bool is_crossing_of_two(const ReducedEquation& e, const std::vector<Vector>& sure,
-                        const RaySet& set) {
-  constexpr std::size_t ways = 4;
-  return e.k == 1 && sure.size() == ways && set.rays.size() == ways;
+bool is_crossing_of_two(const ReducedEquation& e, const std::vector<Vector>& sure) {
+  return e.k == 1 && sure.size() == ways_of_two;
 }
 
 struct Search {
@@ -198,9 +200,11 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
   const int needed = e.k == 2 ? 2 : 3;
   const double shrink = e.k == 2 ? 0.5 : 1.0 / 3;
   const std::vector<Vector> sure = quadratic_rays(e);
+  const bool crosses = is_crossing_of_two(e, sure);
   RaySet last;
   std::string doubt = "different radii show different branches";
-  for (int i = 0, agreeing = 0; i < radii; ++i, rho *= shrink) {
+  int agreeing = 0;
+  for (int i = 0; i < radii; ++i, rho *= shrink) {
     RaySet set = rays_on_sphere(e, rho, i == 0 ? 360 : 120);
     if (i > 0) {
       complement(e, last, set);
@@ -208,12 +212,14 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
     }
     const bool same = agreeing > 0 && same_rays(last, set);
     const bool good = set.doubt.empty() && covers(set, sure, near_share) &&
-                      (balanced(set) || is_crossing_of_two(e, sure, set));
+                      (crosses ? set.rays.size() == ways_of_two : balanced(set));
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);
     if (agreeing == needed) return {std::move(last), {}};
   }
+  // Another branch may be so near that few spheres are small enough: one shows the ways that are known to be all.
+  if (crosses && agreeing > 0) doubt.clear();
   return {std::move(last), doubt};
 }
 

@@ -23,11 +23,20 @@ TestedStep::TestedStep(const Walker& walker, Samples samples)
   for (const CurvePoint* p : samples) samples_[sample_count_++] = p;
 }
 
+/// Solved to rounding, where that can be: beside a singular point what Newton's method leaves at its tolerance moves a point
+/// by that over the least singular value, and so much is there no more than the value itself.
 std::optional<CurvePoint> TestedStep::corrected(double ds) const {
+  if (!finest_) {
+    finest_ = walker_;
+    finest_->options.newton.residual_tolerance = few_roundings;
+  }
   std::optional<CurvePoint> point(std::in_place);
-  model_.point(walker_.weights, from_, ds, *point);
-  if (!find_point(walker_, from_.piece, from_.tangent, *point)) return {};
-  return point;
+  const Walker& finest = *finest_;
+  for (const Walker* walker : {&finest, &walker_}) {
+    model_.point(walker_.weights, from_, ds, *point);
+    if (find_point(*walker, from_.piece, from_.tangent, *point)) return point;
+  }
+  return {};
 }
 
 bool TestedStep::model_of_samples() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "continuation/locating/cluster.hpp"
+#include "continuation/locating/evidence.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
@@ -88,6 +89,28 @@ std::vector<Singularity> multiple_zeros(const TestedStep& arc, double t, double 
   return best;
 }
 
+/// Does det Sigma cross zero here in the first order, as far as to half the way to its next zero? Where m modes vanish it has a zero
+/// of order m at least: one that is as straight as this is of one mode, however small the others are.
+bool is_simple_zero(const TestedStep& arc, double at, Index m, double free) {
+  constexpr double straight_at_least = 1.5,
+                   straight_at_most = 3;  // 2 on a line, 4 and more where modes vanish together
+  const auto& middle = arc.point(0.5 * arc.length());
+  const auto E = middle ? arc.matrix(*middle) : std::nullopt;
+  if (!E) return false;
+  const Borders borders = borders_of(*E, m);
+  const auto value = [&](double ds) {
+    const auto Sigma = arc.sigma(std::clamp(ds, arc.low(), arc.high()), borders);
+    return Sigma ? Sigma->determinant() : 0;
+  };
+  const double far = near_share * free, near = 0.5 * far;
+  const double left = value(at - near), right = value(at + near);
+  const auto is_straight = [&](double outer, double inner) {
+    return outer / inner > straight_at_least && outer / inner < straight_at_most;
+  };
+  return left * right < 0 && is_straight(value(at - far), left) &&
+         is_straight(value(at + far), right);
+}
+
 /// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
 /// place, otherwise a simple one, where the zero is.
 std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros,
@@ -102,7 +125,9 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
     if (auto candidate = candidate_at(arc, alone, zeros, m, touches))
       result.push_back(std::move(*candidate));
   };
-  for (Index m = most; m > 1; --m) {
+  const bool is_simple = zeros.size() == 1 && crossings == 1 && most > 1 &&
+                         is_simple_zero(arc, zeros.front().at, most, free);
+  for (Index m = is_simple ? 1 : most; m > 1; --m) {
     const auto places = multiple_zeros(arc, middle, free, m);
     for (const Singularity& place : places) add(place, m, false);
     // Some of the eigenvalues may only touch zero: the determinant knows.
@@ -198,8 +223,11 @@ TestedZeros singularities_on(const TestedStep& arc, Samples samples) {
   // det Sigma is a product of m factors, each with the noise of an entry.
   const auto m = static_cast<double>(result.order);
   const double entry = sigma_noise(E[middle], borders);
-  const double noise = std::max(
-      function_noise * scale, m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
+  double noise = std::max(function_noise * scale,
+                          m * entry * std::pow(std::max(entry, std::pow(scale, 1 / m)), m - 1));
+  // Beside a touch the determinant is small on a long way, where points are no better than elsewhere.
+  if (result.order == 1)
+    noise = std::max(noise, change_of_rounding(arc, *samples[middle]).value_or(0));
   const double blur = result.order > 1 ? m * std::pow(scale, 1 - 2 / m) *
                                              blur_of_entries(arc, E[middle], borders, reach.size)
                                        : 0.0;

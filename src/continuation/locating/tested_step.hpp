@@ -111,6 +111,7 @@ class TestedStep {
   /// Of the step's ends and what is known between them; they outlive it. Most steps never ask for the model.
   std::array<const CurvePoint*, ArcModel::most_nodes> samples_{};
   std::size_t sample_count_ = 0;
+  mutable std::optional<Walker> finest_{};  ///< solves to rounding
   mutable ArcModel model_{};
   mutable ModelError error_{};
   mutable bool settled_ = false, exact_ = false;

@@ -30,6 +30,8 @@ std::string_view to_string(StopReason reason) {
       return "stopped on request";
     case StopReason::unbounded:
       return "lambda grows without bound";
+    case StopReason::pole:
+      return "unknowns go to infinity";
   }
   return "unknown";
 }
